@@ -1,4 +1,4 @@
-# The front door. Each target installs what is missing, builds, runs, and ends with one line that says where the result is.
+# The main entry. Each target installs missing packages, builds, runs, and ends with one line that names the result.
 SHELL  := /bin/bash
 PRESET ?= release
 BUILD  := $(if $(filter release,$(PRESET)),build,build-$(PRESET))
@@ -7,18 +7,18 @@ JOBS   ?= $(shell nproc)
 .PHONY: help history build program test test-long coverage reports benchmark deb run format clean
 
 help:
-	@echo "make run                 the program alone, and the tutorial's slope: a factor of safety and a page to look at"
+	@echo "make run                 the program alone, and the tutorial's slope: a factor of safety and an interactive page"
 	@echo "                         (SCENE=file for another scene, OUT=folder SET='key=value …')"
 	@echo "make test                verify: build and run every test (PRESET=dev|asan|tsan for other builds)"
 	@echo "make test-long           the long tests"
-	@echo "make history             test, and keep the values as those of this version: verification/history"
+	@echo "make history             test, and store the values as those of this version: verification/history"
 	@echo "make coverage            line coverage of the core's rooms by the unit tests (build-coverage)"
 	@echo "make reports             figures, studies and the verification manual: $(BUILD)/reports/manual-VERSION.html"
-	@echo "make benchmark           time the kernels and their peers, and twenty thousand falling blocks, an hour of two cores"
+	@echo "make benchmark           time the kernels and their peers, and twenty thousand falling blocks, an hour on two cores"
 	@echo "                         (VOUSSOIR_FALL_BLOCKS=2000: minutes; VOUSSOIR_BENCHMARK=quick: the contact kernel, a minute)"
 	@echo "make deb                 Debian packages, without Ipopt: build-packages/*.deb"
 
-# $(call configure,options): what is there of a build stays
+# $(call configure,options): keeps the options of an existing build
 configure = cmake --preset $(PRESET) $(1) > configure.log 2>&1 || { cat configure.log; rm -f configure.log; exit 1; }; \
   mv configure.log $(BUILD)/configure.log; echo "configured preset $(PRESET) in $(BUILD) (log: $(BUILD)/configure.log)"
 ALL_ON    := -DVOUSSOIR_BUILD_TESTS=ON -DVOUSSOIR_BUILD_BENCHMARKS=ON -DVOUSSOIR_WITH_PYTHON=ON

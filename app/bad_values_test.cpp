@@ -1,5 +1,5 @@
-// Every numeric key of the table times every bad value: refused with the key's nameor reported by a warning that names
-// it before the run, or on the short list of what is harmless, with the reason.
+// Every numeric key of the table times every bad value: refused with the key's name, or reported by a warning that
+// names it before the run, or on the short list of harmless values, with the reason.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// what a user reads: refusal or warnings
+// the messages that a user reads: refusal or warnings
 std::vector<std::string> messages_of(const fs::path& file, const std::vector<std::string>& overrides) {
   try {
     return assess(load_scene(file, overrides)).warnings;
@@ -127,7 +127,7 @@ struct Harmless {
 };
 
 constexpr std::string_view is_default = "the default: the documented meaning of zero";
-constexpr std::string_view zero_place = "a place like any other";
+constexpr std::string_view zero_place = "an ordinary place";
 constexpr std::string_view slow = "slow, as laboratory tests and creep are";
 constexpr std::string_view kept_whole = "no block is cut; a selector that then chooses none is refused";
 constexpr std::string_view other_places = "other places of the copies; those too far from the rest are refused";
@@ -140,9 +140,9 @@ const Harmless harmless[] = {
     {"copies", "about", "any", other_places},
     {"copies", "axis", "any", other_places},
     {"selector", "inside", "0", zero_place},
-    {"selector", "inside", "negative", "still in the same block; a point in none is refused"},
+    {"selector", "inside", "negative", "still in the same block; a point in no block is refused"},
     {"selector", "inside", "times 1e-3", "one entry, still in the same block"},
-    {"blocks", "vertices", "negative", "a mirrored corner; one that lies in the hull is refused"},
+    {"blocks", "vertices", "negative", "a mirrored corner; one inside the hull is refused"},
     {"box", "max", "times 1e3", beyond},
     {"box", "max", "times 1e6", beyond},
     {"box", "max", "times 1e9", beyond},
@@ -154,7 +154,7 @@ const Harmless harmless[] = {
     {"joint_sets", "dip_direction_deviation_deg", "0", is_default},
     {"joint_sets", "seed", "any", "another sample"},
     {"domain.planes", "point", "negative",
-     "another domain; one that takes a selector or an excavation its blocks is refused"},
+     "another domain; one that leaves a selector or an excavation without blocks is refused"},
     {"joints", "normal", "negative", "the same plane"},
     {"blocks", "centre", "0", "still inside; a centre outside is refused"},
     {"blocks", "centre", "negative", "still inside; a centre outside is refused"},
@@ -170,27 +170,27 @@ const Harmless harmless[] = {
     {"motion", "velocity", "times 1e-6", slow},
     {"motion", "angular_velocity", "times 1e-3", slow},
     {"motion", "angular_velocity", "times 1e-6", slow},
-    {"joints", "dip_direction", "times 1e-3", "a direction like any other"},
-    {"domain.planes", "dip_direction", "times 1e-3", "a direction like any other"},
+    {"joints", "dip_direction", "times 1e-3", "an ordinary direction"},
+    {"domain.planes", "dip_direction", "times 1e-3", "an ordinary direction"},
     {"output", "history_interval_s", "times 1e-3", "a row at every step"},
-    {"motion", "velocity", "negative", "a direction like any other"},
-    {"motion", "angular_velocity", "negative", "a direction like any other"},
-    {"blocks", "angular_velocity", "negative", "a direction like any other"},
+    {"motion", "velocity", "negative", "an ordinary direction"},
+    {"motion", "angular_velocity", "negative", "an ordinary direction"},
+    {"blocks", "angular_velocity", "negative", "an ordinary direction"},
     {"factor", "phase_deg", "0", is_default},
-    {"factor", "phase_deg", "negative", "a phase like any other"},
+    {"factor", "phase_deg", "negative", "an ordinary phase"},
     {"force", "point", "any", "another place in the block; one outside of it is refused"},
-    {"force", "force", "0", "the documented meaning of zero: it acts no more"},
-    {"force", "force", "negative", "a direction like any other"},
-    {"force", "force", "times 1e3", "a force like any other"},
-    {"force", "force", "times 1e6", "a force like any other"},
+    {"force", "force", "0", "the documented meaning of zero: it no longer acts"},
+    {"force", "force", "negative", "an ordinary direction"},
+    {"force", "force", "times 1e3", "an ordinary force"},
+    {"force", "force", "times 1e6", "an ordinary force"},
     {"in_situ", "surface", "any", "another surface; one far above or below all blocks is reported"},
     {"in_situ", "k0", "0", "no horizontal stress"},
     {"in_situ", "k0_y", "0", "none along y"},
-    {"let_off", "share", "0", "all is let off"},
+    {"excavation_forces", "remaining", "0", "none remains"},
     {"bolts", "pretension", "0", is_default},
     {"bolts", "dowel_stiffness", "0", is_default},
     {"bolts", "free_length", "0", is_default},
-    {"bolts", "rupture_extension", "0", "it breaks where it yields"},
+    {"bolts", "rupture_extension", "0", "it breaks when it yields"},
     {"bolts", "from", "any", "another bolt; one that crosses no joint or ends in the open is reported"},
     {"bolts", "to", "any", "another bolt; one that crosses no joint or ends in the open is reported"},
     {"fan", "centre", "any", "other bolts; those that cross no joint or end in the open are reported"},
@@ -199,18 +199,18 @@ const Harmless harmless[] = {
     {"fan", "start", "any", "other bolts; those that cross no joint or end in the open are reported"},
     {"repeat", "step", "any", "other bolts; those that cross no joint or end in the open are reported"},
     {"repeat", "count", "times 1e3", "a longer row; bolts that cross no joint or end in the open are reported"},
-    {"linings", "nodes", "times 1e3", "a finer lining; it costs memory and time, and nothing else"},
+    {"linings", "nodes", "times 1e3", "a finer lining; it only costs memory and time"},
     {"linings", "from_deg", "any",
      "another end of the arc, or another first node; ends in the wrong order are refused"},
     {"linings", "to_deg", "any", "another end of the arc; ends in the wrong order are refused"},
     {"water_surface", "level", "any", "another level; one that wets no block is reported"},
     {"water_surface", "pressure", "0", "no pressure"},
-    {"water_surface", "pressure", "times 1e3", "a pressure like any other"},
+    {"water_surface", "pressure", "times 1e3", "an ordinary pressure"},
     {"water_table", "point", "any", "another surface; one that wets no block is reported"},
     {"water_table", "dip", "0", "level"},
     {"water_table", "dip_direction", "0", "north"},
-    {"water_table", "dip_direction", "times 1e-3", "a direction like any other"},
-    {"water_change", "rate", "times 1e3", "a rate like any other: of a pressure it is in Pa/s"},
+    {"water_table", "dip_direction", "times 1e-3", "an ordinary direction"},
+    {"water_change", "rate", "times 1e3", "an ordinary rate: for a pressure it is in Pa/s"},
     {"joint_properties", "hardening_exponent", "0", is_default},
     {"joint_properties", "tension", "0", is_default},
     {"joint_properties", "cohesion", "0", is_default},
@@ -225,12 +225,12 @@ const Harmless harmless[] = {
     {"slicing", "largest_aspect_ratio", "times 1e-9", kept_whole},
     {"joints", "corners", "any",
      "another polygon; one that leaves the plane, is not convex or cuts nothing is reported"},
-    {"cylinder", "from", "any", "another tunnel; one that takes out no block is refused"},
-    {"cylinder", "to", "any", "another tunnel; one that takes out no block is refused"},
+    {"cylinder", "from", "any", "another tunnel; one that excavates no block is refused"},
+    {"cylinder", "to", "any", "another tunnel; one that excavates no block is refused"},
     {"stage", "failure_displacement", "0", is_default},
     {"stage", "failure_fraction", "0", is_default},
     {"joint_sets", "point", "any",
-     "a set of equal spacing has no end: it passes through the domain wherever its point lies"},
+     "a set of equal spacing has no end: it passes through the domain wherever its point is"},
     {"stage", "gravity_ramp_s", "0", is_default},
     {"stage", "gravity_to", "0", "no gravity"},
     {"contact", "newton_tolerance", "times 1e3", "1e-8 becomes the default, 1e-5"},
@@ -239,9 +239,9 @@ const Harmless harmless[] = {
     {"friction", "friction_deg", "0", "no friction"},
     {"stage", "friction_deg", "0", "no friction"},
     {"blocks", "sphericity", "0", "planes and corner radius alone"},
-    {"equilibrium", "unbalanced", "times 1e3", "1e-7 becomes 1e-4, as loose as long slides are judged by"},
+    {"equilibrium", "unbalanced", "times 1e3", "1e-7 becomes 1e-4, the tolerance used for long slides"},
     {"stage", "duration_s", "times 1e-3", "2 s become 2 ms, as long as an impact"},
-    {"stage", "tolerance_deg", "radians as degrees", "0.6 degrees is an honest bracket, which the results state"},
+    {"stage", "tolerance_deg", "radians as degrees", "0.6 degrees is a wide bracket, which the results state"},
 };
 
 bool is_harmless(const KeyRow& row, const std::string& value) {
@@ -250,23 +250,23 @@ bool is_harmless(const KeyRow& row, const std::string& value) {
   });
 }
 
-TEST(BadValues, AreToldForEveryKeyOfTheTable) {
+TEST(BadValues, AreReportedForEveryKeyOfTheTable) {
   std::map<std::string_view, SceneFile> files;
   int tried = 0;
   for (const KeyRow& row : key_rows()) {
     const SceneFile& file = files.try_emplace(every_key::scene_of(row), every_key::scene_of(row)).first->second;
     const auto tree = file.tree();
     if (!is_numeric(row)) continue;
-    if (row.table == "bolts" && row.key == "spacing") continue;  // of plane scenes; this one is none
+    if (row.table == "bolts" && row.key == "spacing") continue;  // for plane scenes; this scene is in space
     const std::string address = every_key::address(row);
 
-    // the good value: the scene's, or the table's example where the scene states none
+    // the good value: the scene's, or the table's example if the scene states none
     const Node* stated = find(tree.get(), address);
     std::vector<double> good;
     std::string set_good;
     if (stated)
       good = numbers_of(*stated);
-    else if (row.table == "copies")  // a scene that has been read holds the copies alone
+    else if (row.table == "copies")  // a scene that has been read contains the copies only
       good = numbers_of(parse_toml_value(row.example, {}));
     else
       good = numbers_of(*find(
@@ -312,7 +312,7 @@ void find_quantities(const Node& table, const Groups& groups, const std::string&
     if (row.type == KeyType::tables)
       for (std::size_t i = 0; i < member.value.items.size(); ++i)
         find_quantities(member.value.items[i], row.holds, item_path(here, member.value.items[i], i), found);
-    // a motion a thousand times as fast is a scene as well, and the output's intervals change no result
+    // a motion a thousand times as fast is a valid scene, and the output's intervals change no result
     const bool quantity = row.table != "output" && (row.unit == "m" || row.unit == "s" || row.unit == "kg/m³" ||
                                                     row.unit == "m/s²" || row.unit == "Pa/m");
     if (is_numeric(row) && quantity) found.emplace_back(here, &row);
@@ -320,7 +320,7 @@ void find_quantities(const Node& table, const Groups& groups, const std::string&
 }
 
 // an initial velocity before a stage that begins by stopping every block
-TEST(LostVelocity, IsToldWhereTheFirstStageRelaxes) {
+TEST(LostVelocity, IsReportedIfTheFirstStageRelaxes) {
   const std::string head = R"(
 dimension = 2
 gravity = [0, -9.81]
@@ -342,8 +342,7 @@ friction_deg = 30
       "[[blocks]]\nname = \"stone\"\nbox = { min = [-0.5, 0], max = [0.5, 1] }\nvelocity = [0.1, 0]\n";
   const std::string listed = "[[initial_velocity]]\nbodies = [\"stone\"]\nangular_velocity = 0.1\n";
   const std::string settle = "[[stage]]\nname = \"rest\"\nkind = \"settle\"\n",
-                    run = "[[stage]]\nname = \"go\"\nkind = \"run\"\nduration_s = 1\n",
-                    local = "damping = { statics = \"local\" }\n",
+                    run = "[[stage]]\nname = \"go\"\nkind = \"run\"\nduration_s = 1\n", local = "statics = \"local\"\n",
                     reduce = "[[stage]]\nname = \"rest\"\nkind = \"reduce\"\nfrom_deg = 40\nto_deg = 10\n";
   const auto lost = [&](const std::string& rest) {
     const SceneFile file(head + rest);
@@ -356,7 +355,7 @@ friction_deg = 30
   EXPECT_EQ(lost(listed + settle), 1);
   EXPECT_EQ(lost(listed + settle + run), 1);
   EXPECT_EQ(lost(listed + reduce + "tolerance_deg = 1\n"), 1);
-  EXPECT_EQ(lost(settle), 0) << "there is none to lose";
+  EXPECT_EQ(lost(settle), 0) << "there is no velocity to lose";
   EXPECT_EQ(lost(listed + run + settle), 0) << "it has moved by then";
   EXPECT_EQ(lost(listed + settle + local), 0) << "the motion is the true one";
   EXPECT_EQ(lost(listed + reduce + "method = \"rate\"\nrate_deg_per_s = 1\n"), 1)
@@ -372,8 +371,8 @@ friction_deg = 30
                           [](const std::string& w) { return w.find("block stone begins with a velocity") == 0; }));
 }
 
-// one quantity of a real scene in a wrong unit: not always visible in the quantity itself, but then in what follows
-TEST(WrongUnits, AreToldInRealScenes) {
+// one quantity of a real scene in a wrong unit: visible in the quantity itself or in what is derived from it
+TEST(WrongUnits, AreReportedInRealScenes) {
   for (const char* name :
        {"wedge/scene.toml", "wedge/rate.toml", "column/scene.toml", "column/mode.toml", "incline/scene.toml",
         "incline/plane.toml", "bounce/scene.toml", "free_rotation/scene.toml"}) {

@@ -1,4 +1,4 @@
-// Disks that fail or are full and memory that is refused, call by call: the right exit code and one line, no file
+// Disks that fail or are full and failing allocations, call by call: the right exit code and one line, no file
 // half-written, and a later run that ends in the same bits.
 #include <sys/mount.h>
 
@@ -108,8 +108,8 @@ TEST_F(FailingCalls, ShortWritesAndInterruptedCallsAreTriedAgain) {
   }
 }
 
-// with the newest checkpoint damaged, the one before it must outlive whatever fails
-TEST_F(FailingCalls, TheOnlyGoodCheckpointOutlivesFailures) {
+// if the newest checkpoint is damaged, the one before it must survive any failure
+TEST_F(FailingCalls, TheOnlyGoodCheckpointSurvivesFailures) {
   // as a kill between two checkpoints leaves it
   run_failing(run_arguments(scene_, at("out"), steps), "rename", std::to_string(EIO), 19, 19);
   ASSERT_TRUE(failed());
@@ -133,10 +133,10 @@ TEST_F(FailingCalls, TheOnlyGoodCheckpointOutlivesFailures) {
 
 // ---- memory -------------------------------------------------------------------------------------------------------
 
-// Refusals at every call would take minutes: all of the first, then at growing distances. An allocation that has a
-// second way to go (sorting in place) leaves the results as they are. Where the TOML reader's number parsing is refused
-// memory, its stream says that this is no number: bad input, exit code 2. A second thread that is refused leaves its
-// work to the first.
+// A failure at every call would take minutes: all of the first calls, then at growing distances. An allocation with an
+// alternative (sorting in place) leaves the results unchanged. If an allocation fails while the TOML reader parses a
+// number, its stream reports that this is no number: bad input, exit code 2. A second thread whose allocation fails
+// leaves its work to the first.
 TEST_F(FailingCalls, MemoryThatIsRefusedIsEight) {
   constexpr double growth = 1.4;
   const char* const message = "not enough memory";
@@ -198,7 +198,7 @@ TEST_F(FullDisk, AFullFileSystemIsSix) {
 TEST_F(FullDisk, ALimitOnTheSizeOfFilesIsSix) {
   const Contents complete = undisturbed(scene_, 10);
   const std::string out = at("out");
-  // no file at all, and so no message either
+  // no file can be written, hence no message either
   EXPECT_EQ(run({.arguments = run_arguments(scene_, out, 10), .largest_file = 0}).code, 6);
   expect_whole_files(out, complete, "limit 0: ");
   // the notes of a run, but no frame or checkpoint; then those, but not the later ones, which hold more contacts

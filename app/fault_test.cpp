@@ -1,5 +1,5 @@
-// Nothing is lost: a run that is killed, asked to stop, locked out, or finds its folder damaged ends, once it
-// continues, in the bits of the run that nothing disturbed.
+// Nothing is lost: a run that is killed, asked to stop, locked out, or finds its folder damaged gives, once it
+// continues, the bits of an undisturbed run.
 #include <sys/file.h>
 
 #include <boost/random/mersenne_twister.hpp>
@@ -26,7 +26,7 @@ constexpr int small_steps = 20;
 
 class Faults : public FaultTest {
  protected:
-  // the large run that nothing disturbs, made once for all tests
+  // the large undisturbed run, made once for all tests
   const Contents& undisturbed_large() const {
     static const Contents complete = undisturbed(write("large.toml", large), large_steps);
     return complete;
@@ -88,7 +88,7 @@ void Faults::survive_kills(int wanted) const {
       }
     }
     Contents found = contents_of(out);
-    // says how many threads the run began with, not what it found
+    // names the number of threads the run began with, not its results
     found["run.json"] = complete.at("run.json");
     expect_equal(found, complete, fmt::format("run {} after {} kills", runs, kills));
     ++runs;
@@ -130,7 +130,7 @@ TEST_F(Faults, ASignalStopsWithACheckpoint) {
   }
 }
 
-// all are there before the program moves on: it has no step to notice the first in
+// all arrive before the program continues: it has no step in which to notice the first
 void send_at_once(const Process& process, std::initializer_list<int> signals) {
   process.send(SIGSTOP);
   for (const int signal : signals)
@@ -138,7 +138,7 @@ void send_at_once(const Process& process, std::initializer_list<int> signals) {
   process.send(SIGCONT);
 }
 
-TEST_F(Faults, ASecondSignalOfTheKeyboardEndsAtOnce) {
+TEST_F(Faults, ASecondSignalOfTheKeyboardEndsTheRun) {
   const std::string scene = write("scene.toml", large), out = at("stopped");
   const Contents& complete = undisturbed_large();
   Process process = under_way(scene, out);
@@ -149,13 +149,13 @@ TEST_F(Faults, ASecondSignalOfTheKeyboardEndsAtOnce) {
   expect_equal(contents_of(out), complete, "two signals");
 }
 
-// as where a batch system ends a job, whose processes hear of it from the system and from one another
+// as when a batch system ends a job, whose processes receive signals from the system and from one another
 TEST_F(Faults, ASecondSignalOfAMachineLeavesTheCheckpoint) {
   const std::string scene = write("scene.toml", large), out = at("stopped");
   const Contents& complete = undisturbed_large();
   Process process = under_way(scene, out);
   ASSERT_TRUE(wait_until([&] { return fs::exists(out + "/checkpoint"); }));
-  // the one whose number is the least is heard first
+  // the signal with the smallest number is delivered first
   send_at_once(process, {SIGHUP, SIGUSR1, SIGTERM, SIGXCPU});
   expect_one_line(process.wait(), 128 + SIGHUP, "continue with 'voussoir resume " + out + "'");
   EXPECT_NO_THROW(checkpoint_record(read(out + "/checkpoint")));
@@ -178,7 +178,7 @@ TEST_F(Faults, ARepeatedLimitOfProcessorTimeStillLeavesACheckpoint) {
   expect_equal(contents_of(out), complete, "a limit of processor time");
 }
 
-TEST_F(Faults, WhoIsToldToIgnoreAHangupDoesSo) {
+TEST_F(Faults, AnIgnoredHangupStaysIgnored) {
   const std::string scene = write("scene.toml", large), out = at("deaf");
   Process process = under_way(scene, out, {.deaf_to_hangup = true});
   ASSERT_TRUE(wait_until([&] { return fs::exists(out + "/checkpoint"); }));
@@ -186,7 +186,7 @@ TEST_F(Faults, WhoIsToldToIgnoreAHangupDoesSo) {
   EXPECT_EQ(process.wait().code, 0);
 }
 
-TEST_F(Faults, ASearchStopsAndGoesOnToo) {
+TEST_F(Faults, ASearchStopsAndContinuesToo) {
   const std::string scene = write("scene.toml", R"(title = "A block on a plane"
 dimension = 3
 gravity = [0, 0, -10]
@@ -271,7 +271,7 @@ bool is_locked(const fs::path& lock) {
   return locked;
 }
 
-TEST_F(Faults, AStudyThatIsStoppedStopsItsRunsAndGoesOn) {
+TEST_F(Faults, AStoppedStudyStopsItsRunsAndContinues) {
   write("scene.toml", cubes_scene(2, 2, 3, 0.1, 3));
   const std::string plan = write("study.toml", R"(scene = "scene.toml"
 quantity = "top_displacement_z"
@@ -293,7 +293,7 @@ sweep = [{ name = "stiffness", key = "joint_properties.rock.normal_stiffness", v
     ASSERT_TRUE(wait_until([&] { return runs_going_on(out) > 0; }));
     process.send(signal);
     const Ended ended = process.wait();
-    // its runs are reported, by whoever is left to tell them
+    // if interrupted, the study stops its runs before it ends; if killed, its runs end by themselves
     if (signal == SIGINT) {
       expect_one_line(ended, 128 + SIGINT, "the same command continues");
       EXPECT_EQ(runs_going_on(out), 0);
@@ -338,10 +338,10 @@ TEST_F(Faults, AFileIsNoFolder) {
 
 // ---- resume -------------------------------------------------------------------------------------------------------
 
-TEST_F(Faults, ResumeSaysWhatIsMissing) {
+TEST_F(Faults, ResumeNamesWhatIsMissing) {
   expect_one_line(run({.arguments = resume_arguments(at("nowhere"))}), 2, "is not a folder");
   fs::create_directories(at("empty"));
-  expect_one_line(run({.arguments = resume_arguments(at("empty"))}), 2, "holds no run: 'voussoir run' makes one");
+  expect_one_line(run({.arguments = resume_arguments(at("empty"))}), 2, "contains no run: 'voussoir run' makes one");
   EXPECT_TRUE(fs::is_empty(at("empty")));
 }
 
@@ -406,8 +406,8 @@ TEST_F(Faults, ARunWithoutACheckpointStartsOver) {
   expect_equal(contents_of(out), complete, "no checkpoint");
 }
 
-// pictures are no part of what is computed
-TEST_F(Faults, FramesThatAreGoneStopNoRun) {
+// frames are no part of the results
+TEST_F(Faults, MissingFramesStopNoRun) {
   Contents wanted = undisturbed_large();
   const std::string out = interrupted("stopped");
   ASSERT_TRUE(fs::remove(out + "/frames/blocks_0000.vtp"));

@@ -1,5 +1,5 @@
-// Commands that would lose a file, text that steers a terminal or a spreadsheet, numbers that are none and files that
-// never end: refused at once in one line that names the option or the file, and nothing that stood there is changed.
+// Commands that would overwrite a file, text that controls a terminal or a spreadsheet, invalid numbers and endless
+// files: refused before any work, in one line that names the option or the file; no existing file is changed.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -21,16 +21,16 @@ const std::string plan =
     "scene = \"scene.toml\"\nquantity = \"top_displacement_z\"\n"
     "sweep = [{ name = \"a\", key = \"density\", values = [2000] }]\n";
 
-// one hostile input: what stands in the folder, and what is made of it
+// one hostile input: the files of the folder, the command, and the message it must give
 struct Trial {
   std::string name;
   std::string arguments;
   std::string part;  // of the message
   std::function<void(const fs::path&)> arrange = {};
-  std::string before = {};  // arguments of a command that has gone well before
+  std::string before = {};  // arguments of a command that has succeeded before
   int code = 2;
 
-  // what a command writes for its own use, where it made it before or goes well
+  // files that a command writes for its own use, if an earlier command made them or this one succeeds
   bool is_ours(const std::string& path) const {
     return (path == "out/.lock" && !before.empty()) || (path.starts_with("out/.") && code == 0);
   }
@@ -57,7 +57,7 @@ void make_sparse(const fs::path& path) {
   fs::resize_file(path, std::uintmax_t{20} << 30);
 }
 
-// every file by its name and what it is, contents only of those that can be read
+// every file by its name and kind, with the contents of those that can be read
 std::map<std::string, std::string> stand(const fs::path& folder) {
   std::map<std::string, std::string> all;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
@@ -211,26 +211,26 @@ std::vector<Trial> over_others() {
   trials.push_back({"a link to nowhere", "run scene.toml --out out", "history.csv" + foreign, dangling});
   trials.push_back({"a folder", "run scene.toml --out out --overwrite", "history.csv' is a folder where a file must be",
                     file("out/history.csv/mine")});
-  trials.push_back({"results", "run scene.toml --out out", "'out' holds results", file("out/results.json")});
+  trials.push_back({"results", "run scene.toml --out out", "'out' contains results", file("out/results.json")});
   trials.push_back({"an unfinished run", "run scene.toml --out out", "'voussoir resume out'", file("out/run.json")});
   const std::string quiet_run = "run scene.toml --quiet --out out";
-  trials.push_back({"run, then slice", "slice scene.toml --out out", "'out' holds results", {}, quiet_run});
-  trials.push_back({"run, then limit", "limit plane.toml --out out", "'out' holds results", {}, quiet_run});
-  trials.push_back({"run, then a study", "study study.toml --out out", "'out' holds results", {}, quiet_run});
+  trials.push_back({"run, then slice", "slice scene.toml --out out", "'out' contains results", {}, quiet_run});
+  trials.push_back({"run, then limit", "limit plane.toml --out out", "'out' contains results", {}, quiet_run});
+  trials.push_back({"run, then a study", "study study.toml --out out", "'out' contains results", {}, quiet_run});
   const std::string sliced = "slice scene.toml --obj --out out";
-  trials.push_back({"slice twice", "slice scene.toml --out out", "'out' holds results", {}, sliced});
-  trials.push_back({"slice, then run", "run scene.toml --out out", "'out' holds results", {}, sliced});
+  trials.push_back({"slice twice", "slice scene.toml --out out", "'out' contains results", {}, sliced});
+  trials.push_back({"slice, then run", "run scene.toml --out out", "'out' contains results", {}, sliced});
   for (const char* command : {"run", "slice"})
     trials.push_back({"a study's folder",
                       command + std::string(" scene.toml --out out --overwrite"),
-                      "'out' holds a study",
+                      "'out' contains a study",
                       {},
                       "study study.toml --quiet --out out"});
-  // a list that leads out of its folder is none
+  // a list with paths outside of its folder is ignored
   const std::string lies =
       R"({"schema": "voussoir.made", "schema_version": 1, "command": "run", "files": ["../victim"], "frames": false,
 "folders": ["../"]})";
-  trials.push_back({"a list that lies", "run scene.toml --quiet --overwrite --out out", "",
+  trials.push_back({"a forged list", "run scene.toml --quiet --overwrite --out out", "",
                     [=](const fs::path& folder) {
                       put(folder / "out/notes.txt", "mine");
                       put(folder / "out/.voussoir-made", lies);
@@ -280,7 +280,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 
 std::vector<Trial> texts() {
   struct Bad {
-    std::string bytes, toml, what;  // as TOML writes it, empty where it cannot
+    std::string bytes, toml, what;  // as TOML writes it, empty if it cannot
   };
   const Bad bads[] = {{"\xE4", "", "0xE4, which is not UTF-8"},
                       {"\x1b[31m", "\\u001b[31m", "control character (U+001B)"},
@@ -332,7 +332,7 @@ std::vector<Trial> texts() {
   return trials;
 }
 
-TEST_F(HostileFiles, TextIsCheckedAtEveryDoor) {
+TEST_F(HostileFiles, TextIsCheckedAtEveryInput) {
   expect_refused(texts());
   EXPECT_GE(count_, 60);
 }

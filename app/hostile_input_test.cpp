@@ -1,4 +1,4 @@
-// Scenes that claim too much, and files that are none: refused in one line, exit code 2, in little memory and time.
+// Scenes that ask for too much, and invalid files: refused in one line, exit code 2, with little memory and time.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -9,7 +9,7 @@ namespace {
 
 using namespace program;
 
-// kilobytes of memory and seconds of processor time; a program that needs more is killed, which its code shows.
+// kilobytes of memory and seconds of processor time; a program that needs more is killed, as its exit code shows.
 // Sanitizers reserve terabytes.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 const std::string limits = "ulimit -t 60 && ";
@@ -104,9 +104,9 @@ TEST_F(Hostile, ABaseIsARegularFileInTheScenesFolder) {
                                                      {"device.toml", "no such file"},
                                                      {"self.toml", "no such file"},
                                                      {"good.toml\\u0000", "no such file"},
-                                                     {"leaves.toml", "leaves the scene's own folder"},
-                                                     {"away/good.toml", "leaves the scene's own folder"},
-                                                     {"scene.toml", "leads back to itself"},
+                                                     {"leaves.toml", "leads out of the scene's own folder"},
+                                                     {"away/good.toml", "leads out of the scene's own folder"},
+                                                     {"scene.toml", "leads back to the scene itself"},
                                                      {"", "no such file"}};
   for (const auto& [base, part] : bad)
     refused_text("base = \"" + base + "\"\n", part);
@@ -122,7 +122,7 @@ TEST_F(Hostile, BasesChainSixteenDeepAndEndInNoCircle) {
   refused("17.toml", "more than 16 bases");
   write("a.toml", "base = \"b.toml\"\n");
   write("b.toml", "base = \"a.toml\"\n");
-  refused("a.toml", "leads back to itself");
+  refused("a.toml", "leads back to the scene itself");
 }
 
 // files of joints and blocks that a scene names
@@ -153,7 +153,7 @@ TEST_F(Hostile, TablesAndMeshesAreRefusedWithTheirPlace) {
   refused_file("blocks_file", "b.csv", planes + repeated("a,1,0,0,1\n", 300), "at most 200 planes");
   refused_file("blocks_file", "b.csv", planes + "a,1,0,0,1\n", "b.csv:2: blocks.a.planes");
   refused_file("blocks_file", "b.csv", planes + "a,0,0,0,1\n", "b.csv:2: blocks.a.planes.1.normal");
-  refused_file("blocks_file", "b.obj", repeated("v 0 0 0\n", 1'500'000), "b.obj:1: holds no face");
+  refused_file("blocks_file", "b.obj", repeated("v 0 0 0\n", 1'500'000), "b.obj:1: contains no face");
   refused_file("blocks_file", "b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + repeated("f 1 2 3\n", 1'500'000),
                "b.obj:5004: more than 5000 facets");
   refused_file("blocks_file", "b.obj", "f" + repeated(" 1", 7'000'000), "b.obj:1:2001: more than 1000 words");
@@ -179,7 +179,7 @@ TEST_F(Hostile, JointSetsOfTooManyJointsAreRefusedBeforeTheyAreDrawn) {
       "stage = [{ name = \"s\", kind = \"settle\" }]\n[[joint_sets]]\nname = \"A\"\ndip = 0\n";
   refused_text(scene + "spacing = 1e-12\n", "more than 1e+06");
   refused_text(scene + "intensity = 1e12\n", "more than 1e+06");
-  // a law whose large joints come from everywhere
+  // a distribution whose large joints may be centred anywhere
   refused_text(scene + "intensity = 1\nsize = \"lognormal\"\nsize_mean = 1e-6\nsize_deviation = 1e12\n",
                "more than 1e+06");
 }

@@ -5,7 +5,7 @@
 #include "core/base/floating_point_traps.hpp"
 
 int main(int argument_count, char** arguments) {
-  // as in the tests: stop where the first NaN or infinity is made
+  // as in the tests: stop at the first NaN or infinity
   const char* traps = std::getenv("VOUSSOIR_TRAPS");
   if (traps && std::string_view(traps) == "1") voussoir::trap_floating_point_errors();
   return voussoir::command_line(argument_count, arguments);

@@ -1,4 +1,4 @@
-// What the program says of a scene before and after a run: names, what linings and bolts cost, repairs that fit.
+// Messages about a scene before and after a run: names, the cost of linings and bolts, repairs that fit.
 #include <random>
 #include <regex>
 
@@ -36,8 +36,8 @@ TEST_F(Messages, BlocksAreCutWithoutAStage) {
     expect_one_line(run(command), 2, "stage is missing");
 }
 
-// an option that takes one value each time it is written must not look as if it took many
-TEST_F(Messages, HelpPromisesNoListWhereEachValueNeedsItsOption) {
+// the help text of an option that takes one value each time must not suggest that it takes several
+TEST_F(Messages, HelpShowsNoListIfEachValueNeedsItsOption) {
   for (const char* command : {"run", "check", "slice", "limit", "export", "joint-test", "study run", "resume"}) {
     const Ended help = run(std::string(command) + " --help");
     EXPECT_EQ(help.code, 0);
@@ -60,7 +60,7 @@ TEST_F(Messages, LimitAnalysisIsQuietWhenAsked) {
   EXPECT_EQ(quiet.out + quiet.err, "");
 }
 
-TEST_F(Messages, ListsThatAreTooLongAreToldWhatTheyAre) {
+TEST_F(Messages, ListsThatAreTooLongGetTheirOwnRepair) {
   std::string points;
   for (int k = 0; k < 1000; ++k)
     points += fmt::format("[{}, 30], ", k);
@@ -86,13 +86,13 @@ TEST_F(Messages, MissingGravityIsNoWrongDensity) {
 
 TEST_F(Messages, TimeStepsAreStatedOnce) {
   refused(halves + settle_stage + "[time]\nstep_s = 1e-4\nfraction = 0.1\n", "time.fraction");
-  refused(halves + settle_stage + "[time]\nstep_s = 1e-4\nfraction = 0.1\n", "stands beside step_s");
+  refused(halves + settle_stage + "[time]\nstep_s = 1e-4\nfraction = 0.1\n", "is stated together with step_s");
   check(halves + settle_stage + "[time]\nstep_s = 1e-4\n");
   check(halves + settle_stage + "[time]\nfraction = 0.1\n");
 }
 
-// what no double can hold is refused, whatever it is stated as; a search for it would not end
-TEST_F(Messages, TolerancesThatNoDoubleHoldsAreRefused) {
+// a tolerance below the resolution of a double is refused, in any unit; the search would not end
+TEST_F(Messages, TolerancesBelowTheResolutionOfADoubleAreRefused) {
   std::mt19937 random(20);
   std::uniform_real_distribution<double> below(10.1, 99), above(3, 9.9);
   const std::string angle = "[[stage]]\nname = \"c\"\nkind = \"reduce\"\nfrom_deg = 40\nto_deg = 10\n",
@@ -115,7 +115,7 @@ TEST_F(Messages, TolerancesThatNoDoubleHoldsAreRefused) {
   }
 }
 
-// blocks whose middle is the scene's zero, cut by joints at any angle
+// blocks centred at the origin, cut by joints at any angle
 TEST_F(Messages, CoordinatesThatAreZeroToRoundingAreZero) {
   std::mt19937 random(21);
   std::uniform_real_distribution<double> angle(1, 89), half(0.5, 50);
@@ -139,8 +139,8 @@ TEST_F(Messages, CoordinatesThatAreZeroToRoundingAreZero) {
 
 // ---- bolts and linings ----------------------------------------------------------------------------------------------
 
-// random bolts, some of which share a length with another or lie in the joint: as many as were made
-TEST_F(Messages, BoltsOnTopOfEachOtherAreCounted) {
+// random bolts, some of which overlap another or are in the plane of the joint
+TEST_F(Messages, BoltsThatOverlapAreCounted) {
   std::mt19937 random(19);
   std::uniform_real_distribution<double> at(1, 39), share(0.1, 0.9);
   for (int trial = 0; trial < 6; ++trial) {
@@ -169,8 +169,8 @@ TEST_F(Messages, BoltsOnTopOfEachOtherAreCounted) {
         found += holds(line, what);
       return found;
     };
-    EXPECT_EQ(count("1 of 1 lie on top of another bolt"), again) << out;
-    EXPECT_EQ(count("1 of 1 lie in a joint ('bed')"), in_joint) << out;
+    EXPECT_EQ(count("1 of 1 overlap another bolt"), again) << out;
+    EXPECT_EQ(count("1 of 1 are in the plane of a joint ('bed')"), in_joint) << out;
   }
 }
 
@@ -183,12 +183,12 @@ TEST_F(Messages, FansOfMoreThanAWholeTurnAreRefused) {
   };
   const std::string scene = halves + settle_stage + "install = [\"roof\"]\n";
   refused(scene + fan(-10, 360), "to_deg");
-  refused(scene + fan(-360, 360), "whole turn");
-  EXPECT_FALSE(holds(check(scene + fan(-180, 150)), "on top"));
-  EXPECT_TRUE(holds(check(scene + fan(0, 360)), "1 of 13 lie on top of another bolt"));
+  refused(scene + fan(-360, 360), "more than 360 degrees beyond from_deg");
+  EXPECT_FALSE(holds(check(scene + fan(-180, 150)), "overlap another"));
+  EXPECT_TRUE(holds(check(scene + fan(0, 360)), "1 of 13 overlap another bolt"));
 }
 
-// steps that `check` expects of a stage
+// the steps that `check` forecasts for a stage
 double steps_of(const std::string& out, const std::string& stage) {
   std::smatch found;
   const std::regex line(stage + R"(: steps of \S+ s, \w+ \w+ (\S+) of them|)" + stage +
@@ -197,7 +197,7 @@ double steps_of(const std::string& out, const std::string& stage) {
   return std::stod(found[1].matched ? found[1] : found[2]);
 }
 
-TEST_F(Messages, LiningsCostWhatTheirNodesDo) {
+TEST_F(Messages, LiningsCostTheSquareOfTheirNodes) {
   using namespace lined_opening;
   const std::string scene = rock + held + shell + lined_opening::stage("weight", "gravity_ramp_s = 0.01") +
                             lined_opening::stage("line", "excavate = [\"tunnel\"]\ninstall = [\"shell\"]");
@@ -206,8 +206,8 @@ TEST_F(Messages, LiningsCostWhatTheirNodesDo) {
     // printed with one digit: 1.5 as 1
     EXPECT_GE(1.5 * steps_of(out, "line"), nodes * nodes) << out;
   }
-  // Newton's method does not go by the stiffest mode
-  EXPECT_LT(steps_of(check(scene, "--set linings.shell.nodes=600 --set damping.statics='\"newton\"'"), "line"), 1e5);
+  // the stiffest mode does not limit Newton's method
+  EXPECT_LT(steps_of(check(scene, "--set linings.shell.nodes=600 --set statics='\"newton\"'"), "line"), 1e5);
   // 60 beams of 0.31 m
   const std::string shorter = "are much shorter than the lining is thick";
   EXPECT_TRUE(holds(check(scene, "--set linings.shell.nodes=60 --set linings.shell.thickness=1"), shorter));
@@ -215,7 +215,7 @@ TEST_F(Messages, LiningsCostWhatTheirNodesDo) {
 }
 
 // random bolts of every kind through random joints, as they are installed and after each block has moved by itself
-TEST(BoltLines, GoFromCollarToToe) {
+TEST(BoltLines, RunFromCollarToToe) {
   std::mt19937 random(22);
   std::uniform_real_distribution<double> at(2, 38), share(0, 1);
   const char* const kinds[] = {"stiffness = 1e8\n", "kind = \"end_anchored\"\naxial_stiffness = 1e8\n",
@@ -271,7 +271,7 @@ TEST(BoltLines, GoFromCollarToToe) {
 
 // ---- names ----------------------------------------------------------------------------------------------------------
 
-TEST(BodyTitle, NamesWhatTheSceneNames) {
+TEST(BodyTitle, UsesTheNamesOfTheScene) {
   const lined_opening::Cast cast;
   EXPECT_EQ(title_of(cast.model, cast.body(1)), "node 2 of lining 'shell'");
   for (std::size_t b = 0; b < cast.scene.model.bodies.size(); ++b) {
@@ -287,7 +287,7 @@ TEST(BodyTitle, NamesWhatTheSceneNames) {
   EXPECT_TRUE(title_of(model, 0).starts_with("at (")) << title_of(model, 0);
 }
 
-TEST_F(Messages, NumbersOfBlocksHaveNamesBeside) {
+TEST_F(Messages, NumbersOfBlocksHaveTitles) {
   const std::string out = check(halves + settle_stage);
   EXPECT_TRUE(holds(out, "block 0 (of joint bed)")) << out;
   const std::string falls = check(plane + "domain = { box = { min = [0, 0], max = [1, 1] } }\n" + settle_stage);

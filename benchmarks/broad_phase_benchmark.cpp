@@ -1,5 +1,5 @@
-// The broad phase on boxes at constant density: the time per box shall not depend on how many there are. And the whole
-// list of neighbours of parallel slabs: their number and its time shall depend little on the dip.
+// The broad phase on boxes at constant density: the time per box should not depend on their number. And the complete
+// list of neighbours of parallel slabs: its length and time should depend little on the dip.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -13,10 +13,10 @@
 namespace voussoir::benchmarks {
 namespace {
 
-// some six neighbours each, as in a dense pile
+// about six neighbours each, as in a dense pile
 constexpr double boxes_per_unit = 0.8;
 
-// boxes of 1 m, give or take the turning of a block; `mixed`: of 0.1 to 1 m, more of the small
+// boxes of 1 m, plus the effect of a block's rotation; `mixed`: of 0.1 to 1 m, more of the small
 std::vector<Box<3>> scattered(int count, bool mixed) {
   Random random(4711);
   const double side = std::cbrt(count / boxes_per_unit);
@@ -30,7 +30,7 @@ std::vector<Box<3>> scattered(int count, bool mixed) {
     }
     boxes.push_back(box);
   }
-  // a pile stands on a plate
+  // a pile on a plate
   boxes.push_back({Vector<3>(-1, -1, -1), Vector<3>(side + 1, side + 1, 0), count, true});
   return boxes;
 }
@@ -55,7 +55,7 @@ void mixed(benchmark::State& state) {
   broad_phase(state, true);
 }
 
-// slabs of 30 m by 30 m by 3 mm, one upon the other
+// slabs of 30 m by 30 m by 3 mm, one on top of the other
 void slabs(benchmark::State& state) {
   const int count = static_cast<int>(state.range(0));
   const double dip = static_cast<double>(state.range(1)) * degree;

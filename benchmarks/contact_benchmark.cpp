@@ -1,6 +1,6 @@
-// The contact kernel and its peers on the same pairs: shape/state/method/stage. An iteration answers all pairs of a
-// workload once; what a warm start needs is put back before it, outside the time. Time is the thread's processor time,
-// so that other work on the machine counts little; with two threads it is the clock's.
+// The contact kernel and its peers on the same pairs: shape/state/method/stage. An iteration resolves all pairs of a
+// workload once; the data of a warm start are restored before it, outside the timing. Time is the thread's processor
+// time, so that other work on the machine matters little; with two threads it is wall-clock time.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ double seconds(int threads) {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-// What two calls of the clock show with nothing between them: on a virtual machine up to a microsecond, a tenth of the
+// The time between two consecutive calls of the clock: on a virtual machine up to a microsecond, a tenth of the
 // shortest query. The median of many.
 double clock_cost(int threads) {
   std::array<double, 1001> shown;
@@ -34,7 +34,7 @@ double clock_cost(int threads) {
   return shown[shown.size() / 2];
 }
 
-// one line of the benchmark; repetitions share what it prepared
+// one line of the benchmark; repetitions share its prepared data
 struct Entry {
   Method method;
   Shape shape;
@@ -42,7 +42,7 @@ struct Entry {
   std::once_flag once;
   std::shared_ptr<Prepared> prepared;
   KernelCounters counters;  // of all pairs, once
-  int wrong = 0;            // decisions that differ from how the pairs were made
+  int wrong = 0;            // decisions that differ from the construction of the pairs
 
   Entry(Method m, Shape s, PairState p) : method(std::move(m)), shape(s), state(p) {}
 
@@ -61,7 +61,7 @@ void report(benchmark::State& state, const Entry& entry) {
   const double pairs = static_cast<double>(entry.method.pairs);
   const Workload& work = workload(entry.shape, entry.state);
   state.SetLabel(entry.method.delivers);
-  // a zero is left out: its coefficient of variation would be a NaN, which is no JSON
+  // a zero is left out: its coefficient of variation would be a NaN, which is not JSON
   const auto put = [&](const char* name, double value) {
     if (value != 0) state.counters[name] = benchmark::Counter(value, benchmark::Counter::kAvgThreads);
   };
@@ -137,6 +137,6 @@ int main(int argc, char** argv) {
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
   benchmark::AddCustomContext("commit", std::string(voussoir::commit()));
   benchmark::RunSpecifiedBenchmarks();
-  benchmark::ClearRegisteredBenchmarks();  // what GLPK made goes before its environment does
+  benchmark::ClearRegisteredBenchmarks();  // GLPK's objects are freed before its environment
   benchmark::Shutdown();
 }

@@ -67,7 +67,7 @@ std::string origin(const json& run, int repetitions) {
                      context.value("num_cpus", 0), context.value("mhz_per_cpu", 0), repetitions);
 }
 
-// A figure's table: shapes in order of their abscissa, times in µs. A method that was not timed makes no figure.
+// A figure's table: shapes in order of their abscissa, times in µs. A figure needs times of every method.
 struct Column {
   const char *name, *method, *stage;
 };
@@ -128,7 +128,7 @@ Report read_report(const std::string& json_text) try {
   }
   for (const auto& [index, row] : in_order)
     report.rows.push_back(row);
-  if (report.rows.empty()) throw std::runtime_error("the run holds no medians: repeat the benchmarks at least twice");
+  if (report.rows.empty()) throw std::runtime_error("the run has no medians: repeat the benchmarks at least twice");
   for (Row& row : report.rows) {
     const Row* ours = find_row(report, row.shape, row.state, reference_method(row.state), reference_stage(row.state));
     if (!ours)

@@ -96,7 +96,7 @@ std::vector<std::vector<std::string>> fields(const std::string& csv) {
   return table;
 }
 
-// the line of a markdown table that begins with some text, its blanks taken out
+// the line of a markdown table that begins with some text, without blanks
 std::string table_line(const std::string& text, const std::string& start) {
   const std::size_t at = text.find("| " + start);
   if (at == std::string::npos) return {};
@@ -131,7 +131,7 @@ std::string altered(const std::string& from, const std::string& to) {
   return text;
 }
 
-TEST(ContactReport, RefusesWhatIsNoResult) {
+TEST(ContactReport, RefusesOtherFiles) {
   EXPECT_THROW(read_report("{"), std::runtime_error);
   EXPECT_THROW(read_report("{}"), std::runtime_error);
   EXPECT_THROW(read_report(altered("\"median\"", "\"mean\"")), std::runtime_error);
@@ -160,7 +160,7 @@ TEST(ContactReport, WritesEveryMethodToTheFlatTable) {
         << method;
 }
 
-TEST(ContactReport, ComparesGeometricMeansWithWhatIsRequired) {
+TEST(ContactReport, ComparesGeometricMeansWithRequirements) {
   const std::string text = summary_tables(read_report(made_up_run(true)));
   // 2^0 … 2^4: their mean is 4
   EXPECT_EQ(table_line(text, "GLPK, its best warm form"),

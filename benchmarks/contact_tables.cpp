@@ -11,7 +11,7 @@
 namespace voussoir::benchmarks {
 namespace {
 
-// what a contact needs to know
+// the quantities that a contact needs
 constexpr const char* answers[] = {"decision", "certificate", "point", "normal", "overlap", "area"};
 
 // ---- markdown -------------------------------------------------------------------------------------------------------
@@ -62,7 +62,7 @@ struct Source {
   const char *method, *stage;
 };
 
-// Geometric mean over the five of the fastest of some methods; nothing when one of the five is missing.
+// Geometric mean over the five of the fastest of some methods; nothing if one of the five is missing.
 std::optional<double> regular_mean(const Report& report, const char* state, const std::vector<Source>& sources) {
   double sum = 0;
   for (const char* shape : regular_shapes) {
@@ -129,8 +129,8 @@ struct Comparison {
   const char* what;
   const char* state;
   std::vector<Source> peer;        // the fastest counts
-  double batched, single;          // required over our warm kernel; 0: none
-  std::vector<Source> same_start;  // ours from the same start, like with like
+  double batched, single;          // required ratio to our warm kernel; 0: none
+  std::vector<Source> same_start;  // ours from the same start, for a fair comparison
   double same_start_required;
 };
 
@@ -178,7 +178,7 @@ std::string ratio_table(const Report& report) {
 
 constexpr double plane_gain = 2.5;  // required of the 2-D kernel over the 3-D kernel on the same scene
 
-// nothing where the plane was not timed
+// nothing if the plane was not timed
 std::string plane_table(const Report& report) {
   std::vector<Cells> table = {{"touching, warm 1 %, batched", "prisms in 3-D, ns", "polygons in 2-D, ns", "ratio"}};
   for (const auto& [shape, name] : {std::pair("cube", "squares"), std::pair("joint-cut block", "joint-cut polygons")})
@@ -198,10 +198,10 @@ std::string heading(const std::string& state) {
   if (state == "separated") return "Separated: 0.02 to 0.30 beyond touching";
   if (state == "near") return "Near: a gap of about 1e-4";
   if (state == "touch") return "Touching: LP optimum -0.5e-4";
-  if (state == "face") return "Face on face: overlap 1e-4";
+  if (state == "face") return "Faces in contact: overlap 1e-4";
   if (state == "deep") return "Deep: LP optimum -0.5e-2";
   if (state == "plane") return "In the plane: prisms of thickness 1 side by side, and the same as polygons";
-  return "A polyhedron by itself: its analytic centre and its centroid";
+  return "A single polyhedron: its analytic centre and its centroid";
 }
 
 template <class Key>

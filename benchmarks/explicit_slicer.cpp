@@ -7,12 +7,12 @@
 namespace voussoir::benchmarks {
 namespace {
 
-// m: a vertex this close to a plane lies on it
+// m: a vertex this close to a plane is on it
 constexpr double on_plane = 1e-9;
 
 struct Task {
   ExplicitBlock block;
-  std::vector<int> planes;  // that may yet cut it
+  std::vector<int> planes;  // that may still cut it
 };
 
 bool crosses(const HalfSpace<3>& plane, const ExplicitBlock& block) {
@@ -36,7 +36,7 @@ std::vector<int> ring(const std::vector<Vector<3>>& points, std::vector<int> cor
   return corners;
 }
 
-// what lies below the plane
+// the part below the plane
 ExplicitBlock below(const ExplicitBlock& block, const HalfSpace<3>& plane) {
   std::vector<double> distance;
   for (const Vector<3>& v : block.vertices)

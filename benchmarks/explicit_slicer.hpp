@@ -1,6 +1,6 @@
-// Slicing with an explicit face-edge-vertex structure (Warburton 1985; Heliot 1988), the way that the linear program
-// replaces: a reference for speed, persistent joints only. Shares no code with the core's slicing; its blocks keep the
-// rounding of every cut, and near-degenerate joints are not its business.
+// Slicing with an explicit face-edge-vertex structure (Warburton 1985; Heliot 1988), the method that the linear program
+// replaces: a reference for speed, for persistent joints only. Shares no code with the core's slicing; its blocks
+// accumulate the rounding of every cut, and near-degenerate joints are not supported.
 #pragma once
 
 #include <vector>
@@ -16,7 +16,7 @@ struct ExplicitBlock {
 
 ExplicitBlock explicit_box(double half);
 
-// all blocks that the planes make
+// all blocks between the planes
 std::vector<ExplicitBlock> explicit_slice(const ExplicitBlock& domain, const HalfSpaces<3>& planes);
 
 double explicit_volume(const ExplicitBlock& block);

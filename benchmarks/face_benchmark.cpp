@@ -1,6 +1,6 @@
-// What a contact that is carried as a whole costs beside one point with area: two hundred blocks on a plate, on a face
-// or a corner, holding or sliding. One call finds all contacts and their joints' forces. With `--count <way> <calls>`
-// it only does the work, for price_of_faces.sh, which counts instructions.
+// The cost of an integrated face contact compared with one point with area: two hundred blocks on a plate, on a face or
+// a corner, sticking or sliding. One call finds all contacts and their joints' forces. With `--count <way> <calls>` it
+// only executes the calls, for price_of_faces.sh, which counts instructions.
 #include <benchmark/benchmark.h>
 
 #include <cstdlib>

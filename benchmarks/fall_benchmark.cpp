@@ -1,6 +1,6 @@
-// Twenty thousand polyhedra fall into a box (the case free_fall, a hundred times as many) and come to rest with closed
-// energy balance: what the case asserts of two hundred, the time it takes on all processors, and what a second thread
-// gains. Prints what it found and writes build/reports/benchmarks/fall.csv. Fails when a promise is broken.
+// Twenty thousand polyhedra fall into a box (the case free_fall, a hundred times as many) and come to rest with a
+// closed energy balance: the assertions of the case with two hundred, the time on all processors, and the gain by a
+// second thread. Prints the results and writes build/reports/benchmarks/fall.csv. Fails if a promise is broken.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@
 namespace voussoir::benchmarks {
 namespace {
 
-constexpr int layers = 5;  // of blocks, as the case has them, or a little more
+constexpr int layers = 5;  // of blocks, as in the case, or a little more
 
 struct Promise {
   const char* quantity;
@@ -30,7 +30,7 @@ struct Promise {
   bool kept() const { return value <= limit; }
 };
 
-// how much faster than one thread two take a step, in turn from the same state; the median of some rounds
+// speed-up of a step by a second thread, alternately from the same state; the median of some rounds
 double gain_of_two_threads(Prepared<3>& scene, const State<3>& begin) {
   constexpr int rounds = 5, steps = 20;
   std::vector<double> gains;
@@ -39,7 +39,7 @@ double gain_of_two_threads(Prepared<3>& scene, const State<3>& begin) {
     for (const int threads : {1, 2}) {
       State<3> state = begin;
       scene.settings.threads = threads;
-      step(scene.model, scene.settings, state);  // lists take their memory
+      step(scene.model, scene.settings, state);  // lists allocate their memory
       const auto start = std::chrono::steady_clock::now();
       for (int i = 0; i < steps; ++i)
         step(scene.model, scene.settings, state);
@@ -79,11 +79,11 @@ int main(int argc, char** argv) {
   line.clear();
   const Promise promises[] = {
       {"kinetic energy at rest, of the drop's", found.kinetic, shapes::at_rest},
-      {"energy the contacts leave open before damping", found.before.contacts, shapes::energy_balanced},
-      {"energy the contacts leave open at rest", found.end.contacts, shapes::energy_balanced},
-      {"energy the motion leaves open before damping", found.before.motion, shapes::motion_closed},
-      {"energy the motion leaves open at rest", found.end.motion, shapes::motion_closed},
-      {"contacts without an answer", static_cast<double>(found.counters.unconverged), 0},
+      {"unexplained energy of the contacts before damping", found.before.contacts, shapes::energy_balanced},
+      {"unexplained energy of the contacts at rest", found.end.contacts, shapes::energy_balanced},
+      {"unexplained energy of the motion before damping", found.before.motion, shapes::motion_closed},
+      {"unexplained energy of the motion at rest", found.end.motion, shapes::motion_closed},
+      {"contacts without a solution", static_cast<double>(found.counters.unconverged), 0},
       {"overlaps beyond the potential radius", static_cast<double>(found.counters.deep_overlaps), 0},
       {"deepest corner in plate or walls, m", found.deepest,
        shapes::largest_potential_radius(scene.model, scene.settings.contact.potential_radius)},

@@ -1,6 +1,5 @@
-// What the joint laws cost: plain Coulomb as the core applies it, every other law, and a loop written by hand that
-// knows nothing but plain Coulomb. With `--count <way> <calls>` it only does the work, for price_of_laws.sh, which
-// counts instructions.
+// The cost of the joint laws: plain Coulomb in the core, every other law, and a hand-written loop for plain Coulomb
+// only. With `--count <way> <calls>` it only executes the calls, for price_of_laws.sh, which counts instructions.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -74,8 +73,8 @@ std::map<std::string, JointProperties> ways() {
   return all;
 }
 
-// Plain Coulomb and nothing else, one point a contact: the same sums as core/step/joint_forces.cpp for this case, with
-// the same ledger.
+// Plain Coulomb only, one point per contact: the same sums as core/step/joint_forces.cpp for this case, with the same
+// energy balance.
 void by_hand(const Model<3>& model, State<3>& state) {
   state.ledger.energy.elastic = 0;
   const double dt = state.time_step.length;

@@ -1,5 +1,5 @@
-// kernel_answers: what the contact kernel answers to the overlapping pairs of the contact benchmark, warm 1 %, all with
-// area: shape/state/way/number status x y z overlap area, lengths in m with all their digits, a line for each pair.
+// kernel_answers: the contact kernel's results for the overlapping pairs of the contact benchmark, warm 1 %, all with
+// area: shape/state/way/number status x y z overlap area, lengths in m with all their digits, one line per pair.
 // price_of_reproducible_kernel.sh compares two builds by it.
 #include <cstdio>
 #include <string>

@@ -1,4 +1,4 @@
-// One way to answer the pairs of a workload: ours or a peer's.
+// One method for the pairs of a workload: ours or a peer's.
 #pragma once
 
 #include <functional>
@@ -15,7 +15,7 @@ namespace voussoir::benchmarks {
 struct Prepared {
   std::function<void(std::size_t first, std::size_t count)> restore;  // the state before the query; not timed
   std::function<void(std::size_t first, std::size_t count)> resolve;  // timed
-  std::function<bool(std::size_t pair)> touching;                     // what it decided
+  std::function<bool(std::size_t pair)> touching;                     // its decision
   std::shared_ptr<KernelCounters> counters = nullptr;                 // ours only
 };
 
@@ -23,9 +23,9 @@ struct Method {
   std::string name;
   std::string stage;                       // decision, lp, centre, point, overlap, area
   std::string delivers;                    // words of `answers` in contact_tables.cpp
-  std::function<bool(PairState)> applies;  // which pairs it is asked
+  std::function<bool(PairState)> applies;  // the pairs that it supports
   std::function<std::shared_ptr<Prepared>(const Workload&)> prepare;
-  std::size_t pairs = pairs_per_workload;  // only the first so many: it is slow
+  std::size_t pairs = pairs_per_workload;  // only this many of the first, if it is slow
   int threads = 1;
 };
 
@@ -45,7 +45,7 @@ inline bool prisms(PairState state) {
   return state == PairState::plane;
 }
 
-// what most methods are: a function that answers one pair, its answers kept
+// most methods: a function of one pair, with stored results
 template <class Query>
 std::shared_ptr<Prepared> prepared_query(std::size_t pairs, Query query) {
   auto answers = std::make_shared<std::vector<char>>(pairs, 0);

@@ -1,4 +1,4 @@
-// Names that the benchmark gives to our own methods and the report looks for.
+// Names of our own methods in the benchmark and its report.
 #pragma once
 
 namespace voussoir::benchmarks {

@@ -11,7 +11,7 @@ using Contacts = std::vector<Contact<Dim>>;
 
 // ---- the kernel -----------------------------------------------------------------------------------------------------
 
-// What a query works on. All methods share it, because only one is run at a time: what differs is copied in before.
+// The data of a query. All methods share them, because only one runs at a time: differing data are copied in before.
 template <int Dim>
 struct Fixture {
   std::vector<Pair<Dim>> pairs;
@@ -30,7 +30,7 @@ Fixture<Dim>& fixture() {
   return only;
 }
 
-// leaves 1e-4 of the overlap in the point, 1e-6 in overlap and area (core/contact/centre_test.cpp)
+// errors: 1e-4 of the overlap in the point, 1e-6 in overlap and area (core/contact/centre_test.cpp)
 constexpr ContactSettings published{.newton_tolerance = 1e-3};
 constexpr ContactSettings on_central_path{
     .point = ContactPoint::central_path, .normal = ContactNormal::multipliers, .newton_tolerance = 1e-3};
@@ -61,7 +61,7 @@ void lay_out(const std::vector<Pair<Dim>>& pairs, const Contacts<Dim>& contacts,
 
 constexpr int cold = -1, near_move = 0, far_move = 1;
 
-// the contacts as the step before left them: resolved from cold at the previous poses, to the same level
+// the contacts after the previous step: resolved from cold at the previous poses, to the same stage
 template <int Dim, class Work>
 Contacts<Dim> contacts_before(const Work& work, const ContactSettings& settings, QueryLevel level, int move) {
   Contacts<Dim> start(pairs_per_workload);
@@ -72,7 +72,7 @@ Contacts<Dim> contacts_before(const Work& work, const ContactSettings& settings,
   return fixture<Dim>().contacts;
 }
 
-// `work` lives as long as what is made here
+// `work` lives as long as the result
 template <int Dim, class Work>
 std::shared_ptr<Prepared> prepare_kernel(std::shared_ptr<const Work> work, const ContactSettings& settings,
                                          QueryLevel level, int move, bool batched) {
@@ -101,7 +101,7 @@ Method kernel(const char* name, QueryLevel level, int move, bool batched, int th
   method.name = name;
   method.stage = stages[static_cast<int>(level)];
   method.delivers = delivers[static_cast<int>(level)];
-  // where nothing touches, every query ends with the decision
+  // if nothing touches, every query ends with the decision
   method.applies = level == QueryLevel::decision ? any_pair : overlapping;
   method.threads = threads;
   method.prepare = [=](const Workload& work) {
@@ -112,7 +112,7 @@ Method kernel(const char* name, QueryLevel level, int move, bool batched, int th
   return method;
 }
 
-// prisms, and the polygons they are
+// prisms, and their polygons
 void add_plane_methods(std::vector<Method>& list) {
   for (const QueryLevel level : {QueryLevel::overlap, QueryLevel::area}) {
     Method in_space = kernel(batched_warm, level, near_move, true), in_plane = in_space;
@@ -127,11 +127,12 @@ void add_plane_methods(std::vector<Method>& list) {
   }
 }
 
-// ---- its two programs alone -----------------------------------------------------------------------------------------
+// ---- its two programs separately
+// -----------------------------------------------------------------------------------------
 
 using Basis = std::array<int, 4>;
 
-// the planes are assembled within the time: every solver needs them
+// the planes are assembled within the timing: every solver needs them
 FeasibilityResult<3> run_lp(const Pair<3>& pair, const Basis& start, HalfSpaces<3>& planes) {
   assemble<3>(pair, 0.5 * pair.offset, planes);
   FeasibilityRequest<3> request;
@@ -139,7 +140,7 @@ FeasibilityResult<3> run_lp(const Pair<3>& pair, const Basis& start, HalfSpaces<
   return solve_feasibility<3>(planes, request);
 }
 
-// the kernel's: it assembles, pivots until the proof stands, and writes it down
+// the kernel's: it assembles, pivots until the proof is complete, and stores it
 std::shared_ptr<Prepared> prepare_lp(const Workload& work) {
   std::vector<Pair<3>> pairs = work.pairs;
   for (Pair<3>& pair : pairs)
@@ -153,7 +154,7 @@ std::shared_ptr<Prepared> prepare_lp(const Workload& work) {
   });
 }
 
-// the general one, from the basis at the pose before
+// the general one, from the basis at the previous pose
 std::shared_ptr<Prepared> prepare_warm_lp(const Workload& work) {
   std::vector<Basis> starts;
   HalfSpaces<3> planes;
@@ -177,9 +178,9 @@ std::shared_ptr<Prepared> prepare_centre(const Workload& work) {
   });
 }
 
-// ---- the polyhedron by itself (Boon 2013, section 4.7) --------------------------------------------------------------
+// ---- a single polyhedron (Boon 2013, section 4.7) --------------------------------------------------------------
 
-constexpr double share_of_vertex = 0.95;  // of the way from the centroid to a vertex: where the thesis starts
+constexpr double share_of_vertex = 0.95;  // start on the line from the centroid to a vertex, as in the thesis
 constexpr double clip_error = 1e-12;      // of volume and centroid, whose size is 1
 
 HalfSpaces<3> turned_planes(const Pair<3>& pair) {
@@ -207,7 +208,7 @@ std::shared_ptr<Prepared> prepare_solid_centroid(const Workload& work) {
     regions.push_back(turned_planes(pair));
   const Polytope<3> around = box(Vector<3>::Constant(1));
   return prepared_query(pairs_per_workload, [&work, regions, around, clipper = Clipper()](std::size_t i) mutable {
-    // the polyhedron itself must come out, and its centroid lies at 0
+    // the result must be the polyhedron itself, with its centroid at 0
     const Overlap found = clipper.clip(around, regions[i]);
     return std::abs(found.volume - work.pairs[i].b->mass.volume) < clip_error && found.centroid.norm() < clip_error;
   });

@@ -1,10 +1,10 @@
-// Whole steps of piles of regular polyhedra that fall into a box (the case free_fall): time for each stage of a step,
+// Complete steps of piles of regular polyhedra that fall into a box (the case free_fall): time for each part of a step,
 // per step and per contact, by shape, number of blocks and threads; allocations. Prints a table and writes
 // build/reports/benchmarks/step.csv.
 //
-// Two hundred blocks fall and settle; the larger numbers are such piles side by side, each in its box, so that all have
-// the same contacts per block from the first step. Each stage is timed within whole steps, in turn with one and two
-// threads so that both see the same machine.
+// Two hundred blocks fall and settle; larger numbers are such piles side by side, each in its box, so that all have the
+// same contacts per block from the first step. Each part is timed within complete steps, alternately with one and two
+// threads so that both run under the same conditions.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -31,11 +31,11 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int pile_blocks = 200;
-constexpr double settling_time = 1.6;  // s: most blocks lie, some still roll
+constexpr double settling_time = 1.6;  // s: most blocks are at rest, some still roll
 constexpr int warm_up_steps = 20;
 constexpr int rounds = 5;  // of which the median counts
 
-// steps in a round: enough to time, few enough to end
+// steps in a round: enough for the timing, few enough for the duration
 int steps_of(int blocks) {
   return std::clamp(20'000 / blocks, 3, 50);
 }
@@ -86,7 +86,7 @@ Pile side_by_side(const Pile& one, int copies) {
   return many;
 }
 
-// the stages of `step`, timed
+// the parts of `step`, timed
 void timed_step(const Pile& pile, State<3>& state, Times& times) {
   const std::array<std::function<void()>, 5> stages{
       [&] { find_neighbours(pile.model, pile.settings, state.bodies, state.contacts, state.counters); },
@@ -121,7 +121,7 @@ int touching(const State<3>& state) {
                                         [](const Contact<3>& c) { return c.touching(); }));
 }
 
-// times of each stage per step, for one and for two threads, each from the same state
+// times of each part per step, for one and for two threads, each from the same state
 std::array<Times, 2> time_pile(Pile& pile, int steps) {
   std::array<std::array<std::vector<double>, 5>, 2> seen;
   const State<3> begin = pile.state;

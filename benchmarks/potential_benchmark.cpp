@@ -1,9 +1,9 @@
-// Contacts of potential particles: our solver cold and warm, Ipopt on the same program, and on the polyhedra of the
+// Contacts of potential particles: our solver cold and warm, Ipopt on the same program, and for the polyhedra of the
 // same planes the half-space kernel, cold and pair by pair, and libccd's GJK+EPA; µs of processor time per pair, by
-// polyhedron type and radius, all on the same pairs in one run. The particles' planes lie r inside the polyhedra's, so
-// that their faces coincide. Corners recede as r grows: the pairs of the contact benchmark are moved along their line
-// of centres until the rounded bodies overlap by 1e-4 of the size, as the polyhedra did; the polyhedra then overlap by
-// that and by what the corners receded.
+// polyhedron type and radius, all on the same pairs in one run. The particles' planes are at a distance r inside the
+// polyhedra's, so that their faces coincide. Corners recede with r: the pairs of the contact benchmark are moved along
+// their line of centres until the rounded bodies overlap by 1e-4 of the size, as the polyhedra did; the polyhedra then
+// overlap by that plus the recession of the corners.
 #include <fmt/format.h>
 #include <time.h>
 
@@ -57,7 +57,7 @@ PotentialShape<3> rounded(const Polytope<3>& part, double corner_radius) {
   return shape;
 }
 
-// along the line of centres to where the two just touch, and from there against the normal by the overlap
+// along the line of centres until the two just touch, and then against the normal by the overlap
 void push_together(PotentialPair<3>& pair, double depth) {
   PotentialWorkspace<3> workspace;
   const Vector<3> along = pair.offset.normalized();
@@ -68,7 +68,7 @@ void push_together(PotentialPair<3>& pair, double depth) {
     const bool touch = resolve<3>(pair, PotentialQuery::decision, workspace).status == PotentialStatus::touching;
     (touch ? near : far) = middle;
   }
-  pair.offset = (near - first_part * depth) * along;  // where rounding does not hide the normal
+  pair.offset = (near - first_part * depth) * along;  // where the normal is not affected by rounding
   pair.offset -= (1 - first_part) * depth * resolve<3>(pair, PotentialQuery::overlap, workspace).normal;
 }
 
@@ -98,7 +98,7 @@ Pairs rounded_pairs(Shape type, double radius) {
   return pairs;
 }
 
-// of the polyhedra, by the method that finds the overlap
+// of the polyhedra, by the method for the overlap
 void print_sharp(const std::vector<Method>& methods, const char* name, const Workload& work) {
   for (const Method& method : methods) {
     if (method.name != name || method.stage != "overlap") continue;

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What equal bits cost: seconds of the probe (core/testing/probe) built with the project's flags and with flags that give
-# equal bits up. Prints medians of the processor seconds of 9 runs that take turns, so that a busy moment hits all alike.
+# The cost of identical bits: seconds of the probe (core/testing/probe) built with the project's flags and with flags that give up identical
+# bits. Prints medians of the processor seconds of 9 alternating runs, so that other load affects all alike.
 #   price_of_determinism.sh <source> <folder for the builds> [<compiler>]
 set -euo pipefail
 source=$1 folder=$2 compiler=${3:-g++}
@@ -14,7 +14,7 @@ build() { # <name> <flags> [<cmake's options> …]
     -DVOUSSOIR_WITH_GLPK=OFF -DVOUSSOIR_WITH_IPOPT=OFF "$@" >/dev/null
   cmake --build "$folder/$name" --target voussoir_probe >/dev/null
 }
-# -U takes back what keeps Eigen from its own vector code
+# -U removes the macro that disables Eigen's own vector code
 build ours "-O2"
 build contracted "-O3 -march=native -UEIGEN_DONT_VECTORIZE" -DVOUSSOIR_ARITHMETIC="-ffp-contract=fast;-ftree-vectorize"
 build fast_math "-O3 -march=native -UEIGEN_DONT_VECTORIZE" -DVOUSSOIR_ARITHMETIC="-ffast-math;-ftree-vectorize"

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# price_of_faces.sh [build]: instructions that a contact costs whose joint is carried as a whole, beside one point with
-# area in the kernel's batches: blocks on faces and on corners, that hold and that slide. Counted, so that any machine
-# gives the same; needs valgrind. The set-up is counted out by two numbers of calls.
+# price_of_faces.sh [build]: instructions of an integrated face contact, compared with one point with area in the kernel's batches: blocks
+# on faces and on corners, sticking and sliding. Counted, so that all machines give the same; needs valgrind. The set-up cancels in the
+# difference of two numbers of calls.
 set -euo pipefail
 build=${1:-build}
 program=$build/benchmarks/bench_faces

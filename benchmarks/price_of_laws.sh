@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# price_of_laws.sh [build]: instructions per contact that the existence of the other joint laws costs a scene of plain
-# Coulomb joints, against a loop written by hand, those of each law, and those of a whole step of the plain scene. Counted, so that any machine gives the same;
-# needs valgrind. The set-up is counted out by two numbers of calls.
+# price_of_laws.sh [build]: instructions per contact that the existence of the other joint laws costs a scene of plain Coulomb joints,
+# compared with a hand-written loop, those of each law, and those of a complete step of the plain scene. Counted, so that all machines give
+# the same; needs valgrind. The set-up cancels in the difference of two numbers of calls.
 set -euo pipefail
 build=${1:-build}
 program=$build/benchmarks/bench_joint_law

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# What equal bits cost the contact kernel: it is built with the project's flags and with VOUSSOIR_FAST_ARITHMETIC, timed on
-# touching pairs, warm 1 %, and its answers are compared. Prints geometric means over the five regular shapes of the
-# medians of 25 runs that take turns, and the largest differences over all overlapping pairs of the benchmark.
+# The cost of identical bits in the contact kernel: it is built with the project's flags and with VOUSSOIR_FAST_ARITHMETIC, timed on
+# touching pairs, warm 1 %, and its results are compared. Prints geometric means over the five regular shapes of the medians of 25
+# alternating runs, and the largest differences over all overlapping pairs of the benchmark.
 #   price_of_reproducible_kernel.sh <source> <folder for the builds> [<compiler>]
 set -euo pipefail
 source=$1 folder=$2 compiler=${3:-g++}
@@ -41,7 +41,7 @@ done
 paste -d ' ' "$folder/reproducible/answers.txt" "$folder/fast/answers.txt" | awk '
   function size(x) {return x < 0 ? -x : x}
   function note(what, value) {if (value > most[what]) {most[what] = value; where[what] = $1}}
-  $1 != $8 {print "FAILED: the two builds answered different pairs"; failed = 1; exit 1}
+  $1 != $8 {print "FAILED: the two builds have different pairs"; failed = 1; exit 1}
   {++pairs; differ += $3 != $10 || $4 != $11 || $5 != $12 || $6 != $13 || $7 != $14}
   $2 != $9 {++decisions}
   $2 == 3 && $9 == 3 {
@@ -51,6 +51,6 @@ paste -d ' ' "$folder/reproducible/answers.txt" "$folder/fast/answers.txt" | awk
   }
   END {
     if (failed) exit 1
-    printf "%d of %d answers differ in bits, %d in the decision\n", differ, pairs, decisions
+    printf "%d of %d results differ in bits, %d in the decision\n", differ, pairs, decisions
     for (what in most) printf "%s: at most %.1e (%s)\n", what, most[what], where[what]
   }'

@@ -1,5 +1,5 @@
 // voussoir_contact_report <bench_contact's JSON> <folder>: writes contact.csv, the figures' data and the tables, which
-// it also prints. Ends with status 1 when our kernel decided wrongly.
+// it also prints. Ends with status 1 if our kernel made a wrong decision.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -42,7 +42,7 @@ int main(int argc, char** argv) {
     write(out / "contact_times.md", times);
     fmt::print("{}{}", summary, times);
     if (own_wrong_decisions(report) == 0) return 0;
-    throw std::runtime_error(fmt::format("our kernel decided wrongly {} times", own_wrong_decisions(report)));
+    throw std::runtime_error(fmt::format("our kernel made {} wrong decisions", own_wrong_decisions(report)));
   } catch (const std::exception& problem) {
     fmt::print(stderr, "voussoir_contact_report: {}\n", problem.what());
     return 1;

@@ -1,5 +1,5 @@
-// Cutting a cube by joints: regular sets, the scene of Boon (2013), Table 4.1 with and without culling, and what the
-// same blocks cost an explicit face-edge-vertex structure and voro++; the section's program by our simplex and GLPK's.
+// Cutting a cube by joints: regular sets, the scene of Boon (2013), Table 4.1 with and without culling, and the same
+// blocks by an explicit face-edge-vertex structure and voro++; the section's program by our simplex method and GLPK's.
 #include <benchmark/benchmark.h>
 #ifdef VOUSSOIR_PEER_VORO
 #include <voro++/voro++.hh>
@@ -22,7 +22,7 @@ Polytope<3> cube(double half) {
   return shapes::block<3>(shapes::cube<3>(half));
 }
 
-// three nearly orthogonal sets of n joints: some (n+1)³ blocks of a cube of 1 m
+// three nearly orthogonal sets of n joints: about (n+1)³ blocks of a cube of 1 m
 std::vector<Cut<3>> three_sets(int n) {
   Random random(7);
   std::vector<Cut<3>> cuts;
@@ -108,7 +108,7 @@ BENCHMARK(non_persistent_table_4_1)
     ->ArgsProduct({{300, 1000}, {0}})
     ->Unit(benchmark::kMillisecond);
 
-// ten thousand joints that are parallel, and that share a line: exact counts
+// ten thousand parallel joints, and joints through one line: exact counts
 void parallel_joints(benchmark::State& state) {
   Random random(1);
   HalfSpaces<3> planes;
@@ -158,7 +158,7 @@ void explicit_structure(benchmark::State& state) {
 BENCHMARK(explicit_structure)->Arg(4)->Arg(8)->Arg(20)->Arg(46)->Unit(benchmark::kMillisecond);
 
 #ifdef VOUSSOIR_PEER_VORO
-// Each block's cell cut from a box by the block's own faces, as if they were known: what no slicing can undercut.
+// Each block's cell cut from a box by the block's own faces, as if they were known: a lower bound for any slicing.
 void voro_cells(benchmark::State& state) {
   SlicingCounters counters;
   const std::vector<Polytope<3>> blocks =
@@ -168,7 +168,8 @@ void voro_cells(benchmark::State& state) {
     volume = 0;
     voro::voronoicell cell;
     for (const Polytope<3>& block : blocks) {
-      const Vector<3>& o = block.centre;  // its planes are given by twice their foot as seen from inside the cell
+      const Vector<3>& o =
+          block.centre;  // its planes are given by twice their foot point, relative to a point inside the cell
       cell.init(-0.5 - o[0], 0.5 - o[0], -0.5 - o[1], 0.5 - o[1], -0.5 - o[2], 0.5 - o[2]);
       for (const HalfSpace<3>& face : block.faces) {
         const double distance = -signed_distance<3>(face, o);

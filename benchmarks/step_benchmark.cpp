@@ -1,4 +1,4 @@
-// A whole step: of a settled pile, n cubes stacked on a fixed one; and of contacts with next to no force.
+// A complete step: of a settled pile, n cubes stacked on a fixed one; and of contacts with almost no force.
 #include <benchmark/benchmark.h>
 
 #include <limits>
@@ -50,9 +50,9 @@ void stack(benchmark::State& state) {
 
 BENCHMARK(stack)->Arg(1)->Arg(10)->Arg(100)->Unit(benchmark::kMicrosecond);
 
-// Ten contacts whose forces are tiny: of 1e-4 N, or of 1e-311 N, which only denormal numbers hold. The two must take
-// the same time, or a rock mass that is almost at rest would slow down. (An overlap cannot be denormal: below 1e-13 of
-// the size it is no contact.)
+// Ten contacts whose forces are tiny: of 1e-4 N, or of 1e-311 N, a denormal number. The two must take the same time, or
+// a rock mass that is almost at rest would be slow. (An overlap cannot be denormal: below 1e-13 of the size there is no
+// contact.)
 void tiny_forces(benchmark::State& state) {
   const bool denormal = state.range(0) == 1;
   const Model<3> model = cubes(10, 1e-6, denormal ? 1e-304 : 1e3);

@@ -1,7 +1,7 @@
-// What a step costs beside its kernel: of a rock mass that has come to rest and of two hundred polyhedra that fall,
-// each part of a step in ns per touching pair, beside the kernel's time for 64 of the same pairs again and again, which
-// then lie in the nearest cache. Parts and kernel take turns, in processor time of one thread, so that the quotients
-// hold on a machine that others use, too.
+// The cost of a step compared with its kernel: for a rock mass in equilibrium and for two hundred falling polyhedra,
+// each part of a step in ns per touching pair, and the kernel's time for 64 of the same pairs repeatedly, which are
+// then in the nearest cache. Parts and kernel alternate, in processor time of one thread, so that the quotients are
+// valid on a shared machine, too.
 #include <fmt/format.h>
 #include <time.h>
 
@@ -45,9 +45,9 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-// the scene as its settling ends, and a few steps of relaxation to go on from there
+// the scene at the end of settling, and a few steps of relaxation from there
 Subject rock_mass(const char* file) {
-  const Prepared<3> scene = prepare<3>(read_scene(file, {"damping.statics=newton"}));
+  const Prepared<3> scene = prepare<3>(read_scene(file, {"statics=newton"}));
   Progress<3> progress = initial_progress(scene);
   simulate(scene, progress, {});
   Subject s{apply(scene.model, scene.stages[0].change), progress.state, scene.settings, true};
@@ -63,7 +63,7 @@ Subject falling_polyhedra(double time) {
   return s;
 }
 
-// 64 touching pairs from all over the scene, resolved again and again
+// 64 touching pairs from the entire scene, resolved repeatedly
 struct KernelAlone {
   std::vector<Pair<3>> pairs;
   std::vector<Contact<3>> contacts;
@@ -154,16 +154,16 @@ void time_parts(const char* name, Subject s) {
   const auto per_step = [&](long long Counters::*counter) {
     return static_cast<double>(s.state.counters.*counter - before.*counter) / rounds;
   };
-  fmt::print("{}: {} bodies, {} candidates, {} touch; a step looks at {:.0f}, {:.1f} of them from nothing\n", name,
-             s.model.bodies.size(), s.state.contacts.list.size(), touching, per_step(&Counters::contact_evaluations),
-             per_step(&Counters::cold_starts));
-  fmt::print("  {:26} {:8.1f} ns a pair, {:.2f} iterations\n", "kernel, 64 pairs in cache", median(alone),
+  fmt::print("{}: {} bodies, {} candidates, {} touch; a step examines {:.0f}, {:.1f} of them without a warm start\n",
+             name, s.model.bodies.size(), s.state.contacts.list.size(), touching,
+             per_step(&Counters::contact_evaluations), per_step(&Counters::cold_starts));
+  fmt::print("  {:26} {:8.1f} ns per pair, {:.2f} iterations\n", "kernel, 64 pairs in cache", median(alone),
              per_step(&Counters::newton_iterations) / per_step(&Counters::contact_evaluations));
   for (std::size_t k = 0; k < parts.size(); ++k)
-    fmt::print("  {:26} {:8.1f} ns a touching pair\n", parts[k].first, median(times[k]) / touching);
-  fmt::print("  {:26} {:8.1f} ns a touching pair: {:.2f} times the kernel\n", "step", median(whole) / touching,
+    fmt::print("  {:26} {:8.1f} ns per touching pair\n", parts[k].first, median(times[k]) / touching);
+  fmt::print("  {:26} {:8.1f} ns per touching pair: {:.2f} times the kernel\n", "step", median(whole) / touching,
              median(quotients));
-  fmt::print("  {:26} {:8.1f} ns a touching pair, of every body, where one is due\n", "estimate of stiffness",
+  fmt::print("  {:26} {:8.1f} ns per touching pair, of every body, if one is due\n", "estimate of stiffness",
              median(estimates) / touching);
   std::fflush(stdout);
 }
@@ -171,14 +171,14 @@ void time_parts(const char* name, Subject s) {
 }  // namespace
 }  // namespace voussoir::benchmarks
 
-// a scene in space that settles
+// a 3-D scene that settles
 int main(int argc, char** argv) {
   using namespace voussoir::benchmarks;
   if (argc != 2) {
-    fmt::print(stderr, "usage: {} <scene.toml>, one in space that settles\n", argv[0]);
+    fmt::print(stderr, "usage: {} <scene.toml>, a 3-D scene that settles\n", argv[0]);
     return 2;
   }
   time_parts("two hundred polyhedra fall", falling_polyhedra(1.0));
-  time_parts("two hundred polyhedra lie", falling_polyhedra(1.6));
-  time_parts("rock mass at rest", rock_mass(argv[1]));
+  time_parts("two hundred polyhedra at rest", falling_polyhedra(1.6));
+  time_parts("rock mass in equilibrium", rock_mass(argv[1]));
 }

@@ -72,7 +72,7 @@ Parts make_parts(Shape shape, PairState state) {
   }
 }
 
-// optimum of the feasibility program: negative when the parts overlap
+// optimum of the feasibility program: negative if the parts overlap
 double optimum(const Pair<3>& pair) {
   static HalfSpaces<3> planes;
   assemble<3>(pair, 0.5 * pair.offset, planes);
@@ -81,7 +81,7 @@ double optimum(const Pair<3>& pair) {
   return result.value;
 }
 
-// moves the second part along a direction until the optimum has a value; gives the distance
+// moves the second part along a direction until the optimum has a given value; returns the distance
 double push_together(Pair<3>& pair, const Vector<3>& along, double value) {
   double near = 0, far = pair.a->radius + pair.b->radius + std::abs(value);
   for (int k = 0; k < bisections; ++k) {
@@ -104,7 +104,7 @@ bool boxes_meet(const Pair<3>& pair) {
   return (low_a.array() <= high_b.array()).all() && (low_b.array() <= high_a.array()).all();
 }
 
-// of the whole space, or of the plane only
+// in 3-D, or in the plane only
 Vector<3> random_direction(PairState state, Random& random) {
   if (state != PairState::plane) return shapes::direction<3>(random);
   const Vector<2> d = shapes::direction<2>(random);
@@ -193,7 +193,7 @@ Workload make_workload(Shape shape, PairState state) {
     pair.b = &(*work.parts)[shapes::integer(random, 0, last)];
     pair.axes.setIdentity();
     place(pair, work, unit, random);
-    // boxes that do not meet are never asked; the optimum must have its sign beyond any method's tolerance
+    // pairs whose boxes do not meet are never examined; the sign of the optimum must exceed any method's tolerance
     if (!boxes_meet(pair)) continue;
     const double value = optimum(pair);
     if (work.touching() ? value > -0.2 * small_optimum * unit : value < 0.2 * small_optimum * unit) continue;

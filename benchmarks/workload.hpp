@@ -1,4 +1,4 @@
-// The seeded pairs that every method of the contact benchmark answers.
+// The seeded pairs of the contact benchmark, for every method.
 #pragma once
 
 #include <array>
@@ -22,16 +22,16 @@ enum class PairState {
   touch,      // LP optimum -0.5e-4: mostly a vertex in a face, or edge on edge
   face,       // face on face, tilted by 1e-5, overlap 1e-4
   deep,       // LP optimum -0.5e-2
-  solid,      // no pair: the polyhedron by itself is the region whose centre is sought (Boon 2013, Fig. 4.10)
+  solid,      // no pair: a single polyhedron is the region whose centre is computed (Boon 2013, Fig. 4.10)
   plane       // as touch, but prisms of thickness 1 side by side that move in the plane only: squares for the cube,
               // joint-cut polygons for the block
 };
 inline constexpr int pair_state_count = 7;
 
-// shapes that a state has: a slab by itself is a cube, and the plane has two
+// shapes of a state: a single slab is a cube, and the plane has two
 bool occurs(Shape shape, PairState state);
 
-// m: what lengths are measured in
+// m: unit of lengths
 double unit_of(Shape shape);
 
 const char* name_of(Shape shape);
@@ -42,8 +42,9 @@ struct Workload {
   PairState state;
   std::shared_ptr<const std::vector<Polytope<3>>> parts;  // the pairs point to them; each with its centroid at 0
   std::vector<Pair<3>> pairs;                             // the poses that are timed
-  // poses of the step before: the second body lies up to 1e-6 (1e-5) units away and is turned so that its rim moves
-  // as far: 1 % (10 %) of an overlap of 1e-4
+  // poses of the step before: the second body is displaced by up to 1e-6 (1e-5) units and rotated so that its rim moves
+  // by as much: 1 % (10
+  // %) of an overlap of 1e-4
   std::array<std::vector<Pair<3>>, 2> previous;
 
   bool touching() const { return state != PairState::separated && state != PairState::near; }

@@ -30,18 +30,18 @@ struct BudgetScene {
 struct BudgetFound {
   bool found = false;                      // false: the search ended without a value, or undecided
   double value = 0, bar = 0, bracket = 0;  // deg
-  double cost = 0;                         // evaluations of the budget over the answer's
+  double cost = 0;                         // evaluations of the budget over those of the result
   long long evaluations = 0;               // of both
   int silent = 0;                          // variations that ended without a value
-  std::string message, lines;              // what the search says, and the budget's shifts
+  std::string message, lines;              // the result of the search, and the budget's shifts
 };
 
-// what was asked of budgets
+// requirements on budgets
 struct BudgetPromise {
   double enclosed = 0.95, widest = 4, dearest = 3;
   int few = 20;  // of fewer scenes all but one
-  // Of fewer the median is told only. A bar of 1.4 half brackets and an error that is uniform within one have a median
-  // of 2.8, of six scenes one above 4 one time in four.
+  // For fewer the median is only reported. A bar of 1.4 half brackets and an error that is uniform within one have a
+  // median of 2.8, and six scenes have one above 4 one time in four.
   int very_few = 10;
 };
 
@@ -95,7 +95,7 @@ inline BudgetFound with_budget(const BudgetScene& scene, const std::string& case
   return read_budget(results_with(scene, "--budget", case_name));
 }
 
-// what came out, a line; with what it takes to see it again where that is not as asked
+// one line for the result; with the command that repeats it if it misses the requirement
 inline void tell_budget(const BudgetScene& scene, const BudgetFound& found) {
   const double off = found.value - scene.truth;
   if (!found.found)
@@ -120,7 +120,7 @@ inline void judge_budget(verification::CaseReport& report, const std::string& ca
                  source,
                  scene.truth,
                  {found.bar, 0},
-                 fmt::format("the bar of its own budget, {:.2g} times the answer's cost", found.cost)},
+                 fmt::format("the bar of its own budget, {:.2g} times the cost of the result", found.cost)},
                 found.value);
 }
 
@@ -131,7 +131,7 @@ inline double median(std::vector<double> numbers) {
   return numbers.size() % 2 ? numbers[half] : 0.5 * (numbers[half - 1] + numbers[half]);
 }
 
-// what came out of a set, a number a search that ended with a value
+// results of a set, one number for each search that ended with a value
 struct BudgetSet {
   int inside = 0, inside_bracket = 0, undecided = 0, silent = 0;
   std::vector<double> ratios, costs, truths, errors, bars;
@@ -164,7 +164,7 @@ inline void judge_budgets(verification::CaseReport& report, const std::string& c
   }
   const int count = static_cast<int>(scenes.size());
   const auto share = [&](int n) { return static_cast<double>(n) / count; };
-  const std::string of = fmt::format(" of {} {}", count, set), asked = "what was asked of budgets";
+  const std::string of = fmt::format(" of {} {}", count, set), asked = "requirement on budgets";
   const auto judge = [&](const std::string& what, double most, Bound bound, const std::string& because, double found) {
     report.record({what, "1", verification::Kind::limit, source, 0, {most, 0, bound}, because}, found);
   };
@@ -172,14 +172,14 @@ inline void judge_budgets(verification::CaseReport& report, const std::string& c
         Bound::at_least, asked + "; of few, all but one", share(all.inside));
   const std::string width = "bar over error, median" + of;
   if (count < promise.very_few)
-    report.report(width, "1", median(all.ratios), fmt::format("of many, {:g} was asked", promise.widest));
+    report.report(width, "1", median(all.ratios), fmt::format("of many, required: {:g}", promise.widest));
   else
     judge(width, promise.widest, Bound::at_most, asked, median(all.ratios));
   judge("searches" + of + " that end without a value", 0, Bound::at_most, asked + ": none", all.undecided);
   report.report("cost of the budget, median" + of, "1", median(all.costs),
-                fmt::format("over the answer's; {:g} was asked", promise.dearest));
+                fmt::format("over that of the result; required: {:g}", promise.dearest));
   report.report("share" + of + " that the bracket alone encloses", "1", share(all.inside_bracket),
-                "what a bar without a budget covers");
+                "coverage of a bar without a budget");
   report.report("variations without a value" + of, "1", all.silent, "of all runs of the budgets");
   write_csv(case_name, "budget.csv", {"truth_deg", "error_deg", "bar_deg", "cost"},
             {all.truths, all.errors, all.bars, all.costs});

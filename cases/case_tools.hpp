@@ -1,5 +1,4 @@
-// What the cases' narrated tests share: run a scene of the case's folder, look into its results, write data for
-// figures.
+// Shared by the cases' tests: run a scene of the case's folder, read its results, write data for figures.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +14,7 @@
 
 namespace voussoir::cases {
 
-// carries every joint of a scene as a whole that can be: constant stiffness per area, no bond
+// integrated contact for every joint that allows it: constant stiffness per area, no bond
 inline const std::string whole_faces = "contact.face=integrated";
 
 // a number as --set takes it

@@ -13,7 +13,7 @@
 
 namespace voussoir::cases {
 
-// corners of a body's parts where they are now, model coordinates, m
+// current corners of a body's parts, model coordinates, m
 inline std::vector<Vector<3>> corners(const Body<3>& body, const Motion<3>& motion) {
   std::vector<Vector<3>> points;
   for (const Polytope<3>& part : body.parts)
@@ -24,10 +24,10 @@ inline std::vector<Vector<3>> corners(const Body<3>& body, const Motion<3>& moti
 
 // parallel projection
 struct Camera {
-  double azimuth_deg = -60, height_deg = 20;                   // where the eye stands, from x and from the horizontal
+  double azimuth_deg = -60, height_deg = 20;                   // direction of the eye, from x and from the horizontal
   std::vector<std::string> hidden = {};                        // bodies that are not drawn
-  std::function<std::uint32_t(std::size_t body)> colour = {};  // rgb; without it as write_picture says
-  // the faces to draw, from their corners (world) and outward normals; without it all that look at the eye
+  std::function<std::uint32_t(std::size_t body)> colour = {};  // rgb; default: see write_picture
+  // selects the faces to draw by corners (world) and outward normals; default: all that face the eye
   std::function<bool(std::size_t body, const std::vector<Vector<3>>& corners, const Vector<3>& normal)> drawn = {};
 };
 
@@ -59,7 +59,7 @@ inline std::vector<PictureFace> picture(const Model<3>& model, const State<3>& s
                                                  : 0xe69f00;
         faces.push_back(shaded_face(view, corners, normal, base));
         faces.back().depth = centroid.dot(view.eye);
-        if (body.fixed) faces.back().depth -= 1e6;  // plates lie behind the blocks that stand on them
+        if (body.fixed) faces.back().depth -= 1e6;  // plates are behind the blocks on them
       }
   }
   return faces;

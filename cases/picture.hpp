@@ -18,7 +18,7 @@
 
 namespace voussoir::cases {
 
-// where the eye stands, and what it sees to its right and upwards
+// direction of the eye, and its right and up directions
 struct View {
   Vector<3> eye, right, up, light;
 
@@ -38,7 +38,7 @@ struct PictureFace {
   std::vector<std::array<double, 2>> outline;  // to the right and up, m
 };
 
-// a face with these corners, whose colour is darker where it looks away from the light
+// a face with these corners, whose colour is darker if it faces away from the light
 inline PictureFace shaded_face(const View& view, const std::vector<Vector<3>>& corners, const Vector<3>& normal,
                                std::uint32_t base) {
   PictureFace face;
@@ -57,8 +57,8 @@ inline void put_in_order(std::vector<PictureFace>& faces) {
                    [](const PictureFace& a, const PictureFace& b) { return a.depth < b.depth; });
 }
 
-// As CSV: right_m, up_m, colour (rgb as a number); a face is a closed line, faces are parted by a blank line. gnuplot
-// fills them all before it draws an edge, so such a picture has none.
+// As CSV: right_m, up_m, colour (rgb as a number); a face is a closed line, faces are separated by a blank line.
+// gnuplot fills all of them before it draws an edge, so such a picture has no edges.
 inline void write_faces(const std::string& case_name, const std::string& file, std::vector<PictureFace> faces) {
   put_in_order(faces);
   std::ofstream out(verification::case_output(case_name) / file);

@@ -16,8 +16,8 @@ template <int Dim>
 struct RecordedRun {
   SceneRun run;
   bool ended = true;               // false: `stop` stopped it
-  std::vector<State<Dim>> frames;  // as the scene's output asks, the end of each stage among them
-  std::vector<State<Dim>> trials;  // the ends of a search's trials that were taken back
+  std::vector<State<Dim>> frames;  // as the scene's output states, the end of each stage included
+  std::vector<State<Dim>> trials;  // the ends of a search's failed trials
   State<Dim> end;                  // after the last step: its positions, and the forces at those before
 
   const Prepared<Dim>& scene() const { return std::get<Prepared<Dim>>(run.scene.prepared); }
@@ -25,10 +25,10 @@ struct RecordedRun {
   const State<Dim>& last() const { return frames.back(); }
 };
 
-// what must not be: a number that is none, or also a stage that missed its goal
+// the failures to refuse: a number that is not finite, or also a stage that missed its goal
 enum class Demand { no_failure, goals };
 
-// Runs <case>/<scene> until its end, or until `stop` says so. Throws std::runtime_error where `demand` is not met.
+// Runs <case>/<scene> until its end, or until `stop` returns true. Throws std::runtime_error if `demand` is not met.
 template <int Dim>
 RecordedRun<Dim> record(const std::filesystem::path& scene, const std::vector<std::string>& overrides = {},
                         Demand demand = Demand::goals,

@@ -1,4 +1,4 @@
-// What a cheap search for the critical friction saves against the thesis' way: 0.025 deg/s from 5 degrees above,
+// Savings of a cheap search for the critical friction against the thesis' method: 0.025 deg/s from 5 degrees above,
 // failure at 0.1 m (Boon 2013, 4.8).
 #pragma once
 
@@ -17,7 +17,7 @@ struct SoughtAngle {
   std::string source, because;
 };
 
-// the cheap way finds the angle within 0.05 degrees by at least 20 times fewer contact evaluations
+// the cheap search finds the angle within 0.05 degrees with at least 20 times fewer contact evaluations
 inline void expect_speed_up(verification::CaseReport& report, const SoughtAngle& sought, const std::string& name,
                             const SceneRun& cheap, const SceneRun& thesis) {
   using verification::Bound;
@@ -37,11 +37,11 @@ inline void expect_speed_up(verification::CaseReport& report, const SoughtAngle&
                  "demanded: at least 20 times fewer",
                  wanted_saving,
                  {0, 0, Bound::at_least},
-                 "no room: evaluations are counted"},
+                 "no margin: evaluations are counted"},
                 evaluations(thesis) / evaluations(cheap), cost(cheap));
 }
 
-// the thesis' way finds it too late, by no more than its error bar says
+// the thesis' method finds it too late, by no more than its error bar
 inline void expect_honest_bar(verification::CaseReport& report, const SoughtAngle& sought, const std::string& name,
                               const SceneRun& run) {
   using verification::Bound;
@@ -50,10 +50,10 @@ inline void expect_honest_bar(verification::CaseReport& report, const SoughtAngl
   report.record({"error of " + name + " as a fraction of its error bar",
                  "1",
                  Kind::limit,
-                 "promise: what an error bar is",
+                 "promise: definition of an error bar",
                  1,
                  {0, 0, Bound::at_most},
-                 "no room: the bar is the claim"},
+                 "no margin: the bar is the claim"},
                 std::abs(found.value - sought.expected) / *found.error_bar);
 }
 

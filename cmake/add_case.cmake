@@ -1,18 +1,18 @@
 # voussoir_case(<name> [LONG] SOURCES <files…> [LIBS <targets…>])
 #   program case_<name>, CTest entry case.<name> (label case), and per <name>/<x>.gp report.<x> (label report), which draws
 #   <build>/reports/figures/<x>.svg from the files that the case's test left in <build>/cases/<name>.
-#   Sources are looked for in the folder <name>; they stay a list, for its order is that of the checks on the case's page.
+#   Sources are in the folder <name>; their order is that of the checks on the case's page.
 #   With LONG, its test suites whose names end in Long are case.<name>.long (label long), which only `ctest -C Long` runs.
-#   Suites whose names end in Figure check nothing: report.<name>.data (label report) has them write data of figures.
+#   Suites whose names end in Figure check nothing: report.<name>.data (label report) runs them to write data of figures.
 # voussoir_case_not_modelled(<name> …)
 #   a case that is listed in the verdict table as not yet modelled.
-# The lists end in the global properties VOUSSOIR_CASES and VOUSSOIR_CASES_NOT_MODELLED, so that the summary asks for
-# what should have run, not for what happens to be there.
+# The global properties VOUSSOIR_CASES and VOUSSOIR_CASES_NOT_MODELLED contain the lists, so that the summary expects all
+# cases, not only those with results.
 
 function(voussoir_case name)
   cmake_parse_arguments(arg "LONG" "" "SOURCES;LIBS" ${ARGN})
   if(arg_UNPARSED_ARGUMENTS OR NOT arg_SOURCES)
-    message(FATAL_ERROR "voussoir_case(${name}): give SOURCES, LIBS and nothing else: ${arg_UNPARSED_ARGUMENTS}")
+    message(FATAL_ERROR "voussoir_case(${name}): state SOURCES and LIBS only, not: ${arg_UNPARSED_ARGUMENTS}")
   endif()
   if(NOT VOUSSOIR_BUILD_TESTS)
     return()
@@ -27,7 +27,7 @@ function(voussoir_case name)
   target_compile_definitions(case_${name} PRIVATE
     VOUSSOIR_SOURCE_DIR="${PROJECT_SOURCE_DIR}" VOUSSOIR_CASE_DIR="${PROJECT_SOURCE_DIR}/cases/${name}")
 
-  # the whole program is one entry: its rows replace those of earlier runs
+  # the program is one entry: its rows replace those of earlier runs
   set(output ${PROJECT_BINARY_DIR}/cases/${name})
   file(MAKE_DIRECTORY ${output})
   voussoir_test_entries(case.${name} case_${name} ${output} ${arg_LONG} ${sources})

@@ -1,4 +1,4 @@
-# The file VOUSSOIR_BUILT_SOURCES lists the sources of all targets, for unit.architecture, which finds those of none.
+# The file VOUSSOIR_BUILT_SOURCES lists the sources of all targets; unit.architecture finds sources that are in none.
 set(VOUSSOIR_BUILT_SOURCES ${PROJECT_BINARY_DIR}/built_sources.txt)
 
 # voussoir_built_elsewhere(<patterns…>): sources that an option or a missing library leaves out of this build, or that a
@@ -26,7 +26,7 @@ function(_voussoir_sources_below folder)
   endforeach()
 endfunction()
 
-# to be called when all targets are there
+# to be called after all targets are defined
 function(voussoir_write_built_sources)
   _voussoir_sources_below(${PROJECT_SOURCE_DIR})
   get_property(built GLOBAL PROPERTY VOUSSOIR_BUILT)

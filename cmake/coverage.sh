@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# coverage.sh SOURCE BUILD JOBS: line coverage of the core's rooms by their unit tests; fails where one of the rooms that
-# read input or decide contacts lies below the least share.
+# coverage.sh SOURCE BUILD JOBS: line coverage of the core's rooms by their unit tests; fails if one of the rooms that
+# read input or decide contacts is below the least share.
 set -euo pipefail
 source=$1 build=$2 jobs=$3
 rooms=(scene geometry contact joint_laws)
@@ -14,13 +14,13 @@ cmake --build "$build" --parallel "$jobs" --target "${tests[@]}"
 find "$build" -name '*.gcda' -delete
 (cd "$build" && ctest --output-on-failure --parallel "$jobs" -R "^unit\\.(blocks|law_and_motion|contact|scene)$")
 
-# tests are not judged by themselves
+# tests do not count as covered code
 common=(--exclude-directories '.*CompilerId.*' --root "$source" --object-directory "$build" --exclude '.*_test\.[ch]pp' --exclude 'core/testing/')
 gcovr "${common[@]}" --filter 'core/' --print-summary | tee "$build/coverage.txt"
 failed=0
 for room in "${rooms[@]}"; do
   share=$(gcovr "${common[@]}" --filter "core/$room/" | awk '$1 == "TOTAL" {print $4}')
   echo "core/$room: ${share:-nothing measured} of the lines"
-  [ "${share%\%}" -ge "$least" ] 2>/dev/null || { echo "core/$room lies below $least %"; failed=1; }
+  [ "${share%\%}" -ge "$least" ] 2>/dev/null || { echo "core/$room is below $least %"; failed=1; }
 done
 exit $failed

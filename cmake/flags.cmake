@@ -1,11 +1,11 @@
-# voussoir_flags: what every target of this project is compiled with.
-# No contraction and no loop vectorisation: g++ 12 fuses multiply-adds otherwise, and the same scene must give the same bits
+# voussoir_flags: the compiler flags of every target of this project.
+# No contraction and no loop vectorisation: otherwise g++ 12 fuses multiply-adds, and the same scene must give the same bits
 # with any compiler and optimisation level.
 add_library(voussoir_flags INTERFACE)
 target_compile_features(voussoir_flags INTERFACE cxx_std_20)
 set(VOUSSOIR_ARITHMETIC -ffp-contract=off $<$<CXX_COMPILER_ID:GNU>:-fno-tree-vectorize>
   $<$<CXX_COMPILER_ID:Clang>:-fno-vectorize -fno-slp-vectorize>
-  CACHE STRING "how sums may be rounded; any other flags give up equal bits and serve only to measure their price")
+  CACHE STRING "flags for the rounding of arithmetic; with any others bits differ; for measurements of their cost only")
 mark_as_advanced(VOUSSOIR_ARITHMETIC)
 target_compile_options(voussoir_flags INTERFACE -Wall -Wextra -Wshadow -Wno-psabi ${VOUSSOIR_ARITHMETIC})
 

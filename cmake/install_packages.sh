@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# install_packages.sh PURPOSE…: installs the packages of packages.txt for these purposes that this machine lacks, and says
-# before which and how large; silent if nothing is missing.
+# install_packages.sh PURPOSE…: installs the packages of packages.txt for these purposes that this machine lacks, and prints
+# them and their size before; silent if nothing is missing.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 missing=()
@@ -8,7 +8,7 @@ for purpose in "$@"; do
   mapfile -t wanted < <(awk -v head="[$purpose]" '/^\[/ {in_it = $0 == head; next} in_it && NF && !/^#/' "$here/packages.txt")
   [ ${#wanted[@]} -gt 0 ] || { echo "install_packages.sh: packages.txt has no [$purpose]" >&2; exit 2; }
   for package in "${wanted[@]}"; do
-    # Debian's npm cannot be installed beside a node that came from elsewhere
+    # Debian's npm cannot be installed together with a node from another source
     [ "$package" = npm ] && command -v npm >/dev/null && continue
     [ "$(dpkg-query -W -f='${Status}' "$package" 2>/dev/null)" = "install ok installed" ] || missing+=("$package")
   done

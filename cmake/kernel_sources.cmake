@@ -1,4 +1,4 @@
-# The sources of the contact kernel and of the blocks it works on, for builds that hold nothing else: fuzz_contact and the
+# The sources of the contact kernel and of its blocks, for builds that contain nothing else: fuzz_contact and the
 # kernel's probe by another compiler. Paths are absolute.
 set(VOUSSOIR_KERNEL_SOURCES
   geometry/facet_weights.cpp geometry/half_space.cpp geometry/half_space_inl.cpp geometry/polytope.cpp geometry/surface.cpp geometry/types.cpp

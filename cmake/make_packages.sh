@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # make_packages.sh BUILD JOBS: Debian packages of the program, the library and the Python module in BUILD, without Ipopt,
-# and lintian's word on them; fails where lintian finds an error.
+# with lintian's report on them; fails if lintian finds an error.
 set -euo pipefail
 build=$1 jobs=$2
 source=$(cd "$(dirname "$0")/.." && pwd)
@@ -8,7 +8,7 @@ for tool in dpkg-shlibdeps file lintian; do
   command -v $tool >/dev/null || { echo "make_packages.sh: $tool is missing (Debian: dpkg-dev, file, lintian)" >&2; exit 2; }
 done
 
-# packages are dated by what they are made of
+# packages have the date of their commit
 export SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git -C "$source" log -1 --format=%ct 2>/dev/null || date +%s)}
 umask 022
 mkdir -p "$build"

@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # make_reports.sh BUILD JOBS: runs the cases, draws the figures, runs the studies that have changed, builds the manual.
-# Everything is done even after a failure, so that the manual shows it; the status is then not zero.
+# All steps run even after a failure, so that the manual shows it; the status is then not zero.
 set -uo pipefail
 build=$(cd "$1" && pwd) jobs=$2 shown=$1
 source=$(cd "$(dirname "$0")/.." && pwd)
 program=$build/app/voussoir
 reports=$build/reports
 failures=()
-# settle STATUS STEP: 77 is a step that lacks a tool and has said so
+# settle STATUS STEP: 77 is a step that lacks a tool and has reported it
 settle() {
   [ "$1" -eq 0 ] || [ "$1" -eq 77 ] || failures+=("$2")
 }
@@ -20,8 +20,8 @@ if ! (cd "$build" && ctest -L "case|report" --parallel "$jobs" --output-on-failu
   failures+=("cases or figures (log: $shown/reports.log)")
 fi
 
-# a study keeps the runs whose scene and program did not change; one that hangs is given up, which its report lists
-longest_run=600  # s; the longest takes some 15 on an idle core
+# a study keeps the runs whose scene and program did not change; a run that hangs is stopped, which its report lists
+longest_run=600  # s; the longest takes about 15 on an idle core
 shopt -s nullglob
 for plan in "$source"/cases/*/study.toml; do
   name=$(basename "$(dirname "$plan")")
@@ -40,7 +40,7 @@ for plan in "$source"/cases/*/study.toml; do
   (cd "$source" && "$program" study "cases/$name/study.toml" --out "$out" --jobs "$jobs" --time-limit $longest_run) \
       >"$build/$log" 2>&1
   status=$?
-  # status 1 says that some settings failed: that is a finding of the study, which its report lists
+  # status 1 means that some settings failed: a finding of the study, which its report lists
   if [ $status -gt 1 ] || [ ! -s "$out/study.csv" ]; then
     tail -n 5 "$build/$log"
     failures+=("study of $name (log: $shown/$log)")
@@ -50,7 +50,7 @@ for plan in "$source"/cases/*/study.toml; do
   "$build/reports/voussoir_study_report" case --study "$out/study.csv" --reference "$build/cases/$name/reference.json" \
       --out "$out" --style "$source/reports" || failures+=("report on the study of $name")
 done
-# what scenes say of their own error
+# error budgets of scenes
 for name in incline roofwedge wedge; do
   [ -x "$program" ] || continue
   (cd "$source" && "$program" run "cases/$name/scene.toml" --budget --quiet --overwrite --set output.frames=false \
@@ -65,18 +65,18 @@ if [ -d "$reports/studies" ]; then
       failures+=("comparison of the studies")
 fi
 
-# the blocks of the cases, to be turned
+# interactive views of the cases' blocks
 "$source/reports/make_views.py" --source "$source" --build "$build" --jobs "$jobs"
 settle $? "views of the cases"
 
-# all checks at one look
+# all checks at a glance
 rm -rf "$reports/checks"
 if [ -s "$reports/verdicts.json" ]; then
   "$build/reports/voussoir_study_report" checks --verdicts "$reports/verdicts.json" --out "$reports/checks" \
-      --style "$source/reports" || failures+=("checks at one look")
+      --style "$source/reports" || failures+=("checks at a glance")
 fi
 
-# the contact kernel is timed again when it or a peer's harness has changed; `make benchmark` times it at length
+# the contact kernel is timed again if it or a peer's harness has changed; `make benchmark` times it at length
 benchmarks=$reports/benchmarks
 bench=$build/benchmarks/bench_contact
 if [ ! -x "$bench" ]; then
@@ -111,9 +111,9 @@ if [ -x "$program" ] && ! "$program" docs >"$reports/scene_keys.md"; then
   rm -f "$reports/scene_keys.md"
   failures+=("scene keys (voussoir docs)")
 fi
-rm -f "$reports"/manual-*.html "$reports"/manual-*.pdf "$reports/index.html"  # of another version, and of those that did not say theirs
+rm -f "$reports"/manual-*.html "$reports"/manual-*.pdf "$reports/index.html"  # of another version, or without one
 "$build/reports/voussoir_manual" --source "$source" --build "$build" || failures+=("manual")
-largest_manual=12000000  # bytes: what can still be mailed
+largest_manual=12000000  # bytes: the size limit of e-mail
 for page in "$reports"/manual-*.html; do
   [ "$(stat -c %s "$page")" -le $largest_manual ] || failures+=("size of the manual: $(stat -c %s "$page") bytes, at most $largest_manual")
   "$source/reports/print_manual.sh" "$page" "${page%.html}.pdf" &&

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# private_symbols.sh ARCHIVE LINKER OBJCOPY AR: makes what the objects of an installed library instantiate of Eigen their own.
-# Inline functions have the same names in a user's program, where other flags may have vectorised or fused them, and the
-# linker keeps one copy for all: it would change what the library computes, or what the program does.
+# private_symbols.sh ARCHIVE LINKER OBJCOPY AR: makes the Eigen instantiations in the objects of an installed library local.
+# Inline functions have the same names in a user's program, in which other flags may have vectorised or fused them, and the
+# linker keeps one copy for all: it would change the results of the library, or of the program.
 set -euo pipefail
 archive=$(realpath "$1") linker=$2 objcopy=$3 ar=$4
 folder=$(mktemp -d)
@@ -13,7 +13,7 @@ while read -r copies name; do
   for ((copy = 1; copy <= copies; copy++)); do
     $ar xN "$copy" "$archive" "$name"
     number=$((number + 1))
-    # groups of which the linker keeps one become sections like any other
+    # groups of which the linker keeps one become ordinary sections
     $linker -r --force-group-allocation "$name" -o whole.o
     nm whole.o | sed -n 's/.* u //p' >shared  # variables of inline functions, one for all
     if [ -s shared ]; then $objcopy --weaken-symbols=shared whole.o; fi

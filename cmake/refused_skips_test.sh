@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# refused_skips_test.sh PROGRAM FOLDER: a test run of three tests, of which one is skipped by its exit code and one, of
-# the GoogleTest program PROGRAM, from within, since no other program is found.
+# refused_skips_test.sh PROGRAM FOLDER: a test run of three tests: one passes, one is skipped by its exit code, and one, of
+# the GoogleTest program PROGRAM, skips itself, since it finds no other program.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 program=$1 folder=$2

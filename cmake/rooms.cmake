@@ -1,7 +1,7 @@
 # voussoir_compile_by_room(<target>): the sources of a folder are compiled as one, which reads headers and instantiates
-# templates once for all of them: core and program then take some three fifths of the time. So names at file scope differ
-# within a folder. Sources with options of their own, as the contact kernel, stay by themselves, and so do all in the
-# presets for development, where one changed file is to compile by itself and shows what it forgot to include.
+# templates once for all of them: core and program then take about three fifths of the time. So names at file scope must
+# differ within a folder. Sources with their own options, as the contact kernel, are compiled separately, and so are all in
+# the presets for development, in which a changed file compiles alone and shows missing includes.
 if(CMAKE_BUILD_TYPE STREQUAL "Debug")
   set(by_room OFF)
 else()
@@ -14,7 +14,7 @@ function(voussoir_compile_by_room target)
     return()
   endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
-  # said of a type in one of the sources as if it were in a header
+  # a false warning about types in one of the sources, as if they were in a header
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   get_target_property(sources ${target} SOURCES)
   foreach(source ${sources})

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # run_benchmarks.sh BUILD: times the kernels; medians on the terminal, Google Benchmark's JSON in the build folder. The
-# contact kernel's peers take turns with it at random, so that a busy moment of the machine hits all alike.
-# Then the parts of a step beside its kernel, whole steps of piles by stages, as a table and step.csv, and twenty thousand
-# blocks from their fall to rest with what they promise (fall.csv), which takes most of the time; broken promises fail.
+# contact kernel and its peers alternate at random, so that other load on the machine affects all equally.
+# Then the parts of a step other than its kernel, complete steps of piles by their parts, as a table and step.csv, and twenty
+# thousand blocks from their fall to equilibrium with their required limits (fall.csv), which takes most of the time.
 # VOUSSOIR_BENCHMARK=quick: only the contact kernel, in less than a minute, for the manual.
 set -euo pipefail
 build=$1

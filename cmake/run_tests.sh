@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Runs every short test, then the verdict table; the last lines are CTest's summary and ours. With VOUSSOIR_NO_SKIP=1 a
-# test that is skipped fails as well, but for those of allowed_skips.txt.
+# skipped test counts as a failure, except those of allowed_skips.txt.
 set -uo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 build=$(cd "$1" && pwd) jobs=$2

@@ -1,5 +1,5 @@
 # Half of a test's compile time is reading the same headers: they are compiled once for the unit tests of core and app and
-# once for the cases, whose macros and optimisation differ. Every source still includes what it uses.
+# once for the cases, whose macros and optimisation differ. Every source still includes the headers it uses.
 set(VOUSSOIR_COMMON_HEADERS <Eigen/Dense> <algorithm> <filesystem> <functional> <map> <optional> <ranges> <span> <string> <vector>)
 function(voussoir_precompiled_tests name)
   add_library(${name} OBJECT ${PROJECT_SOURCE_DIR}/cmake/precompiled.cpp)
@@ -26,7 +26,7 @@ function(voussoir_test name)
   _voussoir_untaken(sources ${name} ${arg_SOURCES})
   add_executable(${target} ${sources})
   target_link_libraries(${target} PRIVATE voussoir_flags voussoir_traps ${arg_LIBS} GTest::gtest_main)
-  # a test's own code need not be fast, and compiling it is what `make test` waits for
+  # a test's own code need not be fast, and its compile time dominates `make test`
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   target_compile_definitions(${target} PRIVATE VOUSSOIR_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   if("voussoir_core" IN_LIST arg_LIBS OR "voussoir_app" IN_LIST arg_LIBS)
@@ -52,9 +52,9 @@ function(_voussoir_untaken result name)
 endfunction()
 
 # The CTest entries of a GoogleTest program that runs in a folder: <name>, and with `long` <name>.long. Suites whose names
-# end in Figure only write data of figures: they are left to the report (voussoir_case). Long suites
-# and `long` without one another are a mistake: one would run in every `make test`, the other would run nothing; so is a
-# test named DISABLED_…, which nothing runs.
+# end in Figure only write data of figures: the report runs them (voussoir_case). Long suites without `long` are a mistake,
+# as they would run in every `make test`, and so are `long` without Long suites, which would run nothing, and a test named
+# DISABLED_…, which nothing runs.
 function(voussoir_test_entries name target folder long)
   set(suites)
   foreach(source ${ARGN})
@@ -62,7 +62,7 @@ function(voussoir_test_entries name target folder long)
     list(APPEND suites ${found})
     file(STRINGS ${source} disabled REGEX "^TEST.*DISABLED_")
     if(disabled)
-      message(FATAL_ERROR "${name}: ${disabled} would never run; a long test stands in a suite whose name ends in Long")
+      message(FATAL_ERROR "${name}: ${disabled} would never run; a long test is in a suite whose name ends in Long")
     endif()
   endforeach()
   if(suites AND NOT long)

@@ -9,25 +9,26 @@
 
 namespace voussoir {
 
-// Parts of the state that a line only reads are named `now.part`; the parts that it changes are named alone.
+// Parts of the state that a line only reads are written `now.part`; the parts that it changes are written without
+// `now`.
 template <int Dim>
 void find_forces(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
   const State<Dim>& now = state;
   auto& [bodies, contacts, supports, loads, schedule, ledger, counters, time_step, relaxation, increment] = state;
 
-  // who may touch whom: bounding boxes with a skin, renewed only when a body has left it
+  // pairs that may touch: bounding boxes with a skin, renewed only when a body has left it
   find_neighbours(model, settings, bodies, contacts, counters);
 
-  // which of them do: point, normal, overlap and area of each candidate pair, each in its own slot; and the force of its
-  // joint from overlap and slip, its history renewed, while all of it is in the cache
+  // pairs that do: point, normal, overlap and area of each candidate pair, each in its own slot; and the force of its
+  // joint from overlap and slip, with its new history, while all of it is in the cache
   const JointStep last = joint_step(settings, now.time_step, now.relaxation);
   find_joint_forces(model, settings, now.schedule, last, bodies, contacts, ledger, counters);
 
-  // forces of bolts where their anchors have gone, and of linings where their rock has
+  // forces of bolts at the displaced anchors, and of linings at the displaced rock
   for (const StepSupport<Dim>& row : step_supports<Dim>)
     row.find_forces(model, now.schedule, last, now.bodies, supports, ledger, counters);
 
-  // what acts on each body: joint forces in the order of the contacts, then gravity
+  // loads on each body: joint forces in the order of the contacts, then gravity
   sum_loads(model, settings, now.schedule, now.bodies, now.contacts, now.supports, loads);
 }
 
@@ -37,8 +38,8 @@ void step(const Model<Dim>& model, const Settings& settings, State<Dim>& state,
   find_forces(model, settings, state);
   if (with_forces) with_forces(state);
 
-  // where that takes it: velocities, then positions and rotations; or the next trial of a static increment, which
-  // changes nearly everything
+  // motion: velocities, then positions and rotations; or the next trial of a static increment, which changes nearly
+  // everything
   const State<Dim>& now = state;
   auto& [bodies, contacts, supports, loads, schedule, ledger, counters, time_step, relaxation, increment] = state;
   if (increment.under_way)

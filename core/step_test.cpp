@@ -25,16 +25,16 @@ using shapes::jointed_box;
 using shapes::model_of;
 using shapes::Random;
 
-// momentum lives in sums of forces that cancel to rounding, over some thousand steps
+// momentum is a sum of forces that cancel to rounding, over some thousand steps
 constexpr double conserved = 1e-10;
 
-// equilibrium within 1e-6 of the contact forces (EquilibriumSettings), with room for sums over contacts
+// equilibrium within 1e-6 of the contact forces (EquilibriumSettings), with a margin for sums over contacts
 constexpr double rest_tolerance = 1e-5;
 
-// the moment of yield falls between two steps, of which there are some hundred in a swing of the shear spring
+// the instant of yield is between two steps, of which there are about a hundred in an oscillation of the shear spring
 constexpr double slide_tolerance = 1e-3;
 
-// the force acts a whole step at both ends of the contact: up to 0.04² of the energy at 0.02 of the limit
+// the force acts for a full step at both ends of the contact: up to 0.04² of the energy at 0.02 of the limit
 constexpr double rebound_tolerance = 2e-3;
 
 template <int Dim>
@@ -72,7 +72,7 @@ TEST(Determinism, EveryThreadCountGivesTheSameBits) {
   }
 }
 
-// enough bodies and contacts for every loop to be shared out
+// enough bodies and contacts for every loop to be divided
 TEST(Determinism, EveryThreadCountGivesTheSameBitsForManyBlocks) {
   std::vector<Body<3>> bodies;
   for (int copy = 0; copy < 25; ++copy)
@@ -101,7 +101,7 @@ TEST(Determinism, EveryThreadCountGivesTheSameBitsForManyBlocks) {
   }
 }
 
-TEST(Determinism, TheSkinChangesTheCostOnly) {
+TEST(Determinism, TheSkinChangesOnlyTheCost) {
   const Model<3> model = model_of<3>(jointed_box());
   std::string expected;
   long long evaluations = 0, builds = 0;
@@ -233,15 +233,15 @@ void expect_collision(std::uint64_t seed) {
   }
 }
 
-TEST(Conservation, ACollisionKeepsMomentumAndSpin3D) {
+TEST(Conservation, ACollisionKeepsLinearAndAngularMomentum3D) {
   expect_collision<3>(82);
 }
-TEST(Conservation, ACollisionKeepsMomentumAndSpin2D) {
+TEST(Conservation, ACollisionKeepsLinearAndAngularMomentum2D) {
   expect_collision<2>(83);
 }
 
-// Face on face with a constant stiffness the force has a potential. (An oblique impact's has none: the normal turns and
-// the area grows with the overlap.)
+// Between faces with a constant stiffness the force has a potential. (An oblique impact's has none: the normal rotates
+// and the area grows with the overlap.)
 template <int Dim>
 void expect_rebound() {
   for (const double speed : {1e-3, 1.0}) {
@@ -301,8 +301,8 @@ void expect_slide() {
   for (const double friction : {0.0, 20 * degree, 40 * degree}) {
     Model<Dim> model = block_on_plate<Dim>(slope, friction);
     const int block = index_of(model, "block");
-    model.bodies[block].free_rotation.fill(false);  // translation only: no toppling wobble
-    // starts pressed in as it will rest, so that it slides from the first step
+    model.bodies[block].free_rotation.fill(false);  // translation only: no rocking
+    // starts with its static overlap, so that it slides from the first step
     State<Dim> state = initial_state(model);
     Vector<Dim> up = Vector<Dim>::Zero();
     up[0] = -std::sin(slope);
@@ -316,10 +316,10 @@ void expect_slide() {
     EXPECT_EQ(report.reason, StopReason::end_time);
     const double slid = state.bodies.motions[block].displacement.norm();
     if (friction > slope) {
-      EXPECT_LT(slid, 1e-4);  // shear settlement, swinging without damping
+      EXPECT_LT(slid, 1e-4);  // shear settlement, oscillating without damping
       continue;
     }
-    // the shear spring swings up to the friction, then the block slides under what friction leaves
+    // the shear spring oscillates up to the frictional strength, then the block slides under the excess force
     const double mass = density * 0.5, drive = mass * gravity * std::sin(slope);
     const double resistance = std::tan(friction) * mass * gravity * std::cos(slope), spring = 5e8;
     const double slip = resistance / spring, start = std::acos(1 - resistance / drive) / std::sqrt(spring / mass);
@@ -336,7 +336,7 @@ TEST(ClosedForm, ABlockSlidesDownASlope) {
 
 // ---- endings --------------------------------------------------------------------------------------------------------
 
-TEST(Run, SaysWhyItStopped) {
+TEST(Run, ReportsWhyItStopped) {
   const Model<3> model = block_on_plate<3>(30 * degree, 10 * degree);
   const auto ending = [&](const RunGoal& goal) {
     State<3> state = initial_state(model);
@@ -356,7 +356,7 @@ CentreResult<3> no_centre(const HalfSpaces<3>&, const CentreRequest<3>&) {
   return {};
 }
 
-TEST(Run, StopsAtAContactWithoutAnAnswer) {
+TEST(Run, StopsAtAContactWithoutASolution) {
   Model<3> model = block_on_plate<3>(0, 35 * degree);
   model.solvers.centre = &no_centre;
   State<3> state = initial_state(model);
@@ -376,7 +376,7 @@ TEST(Run, StopsAtAForceThatIsNotFinite) {
   EXPECT_EQ(run<3>(model, {}, {.rest = true}, {}, state).reason, StopReason::not_finite);
 }
 
-TEST(Run, DoesNotRestWhileGravityGrows) {
+TEST(Run, HasNoEquilibriumWhileGravityGrows) {
   const Model<2> model = block_on_plate<2>(0, 35 * degree);
   State<2> state = initial_state(model);
   RunSchedule schedule;
@@ -413,7 +413,7 @@ TEST(Run, EndsARampWithItsLastStep) {
                                   {.gravity = {.ramp = 4 * time_step}, .properties = {}}, state);
   EXPECT_EQ(report.steps, 4);
   EXPECT_EQ(state.schedule.gravity_factor, 1);
-  // the same when friction falls
+  // the same when friction is reduced
   state.schedule.started = state.schedule.time;
   run<2>(model, settings, {.end_time = state.schedule.time + 4 * time_step},
          {.strength_rate = 0.1 / time_step, .strength_from = 0.6, .strength_to = 0.2, .properties = {0}}, state);

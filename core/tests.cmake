@@ -1,5 +1,5 @@
-# The unit tests of the core. Few programs: linking and Eigen's headers are what costs. A test belongs to its room's
-# program; first come the programs that take certain tests out of their rooms.
+# The unit tests of the core. Few programs, because linking and Eigen's headers are expensive. A test belongs to its room's program; first
+# come the programs with certain tests from several rooms.
 find_package(Boost 1.74 REQUIRED)
 
 add_library(voussoir_oracle_algebra STATIC testing/dense.cpp)
@@ -16,7 +16,7 @@ if(TARGET voussoir_glpk)
   list(APPEND outside_solvers voussoir_glpk)
 endif()
 
-# the exact referee: GPL, so a library of its own that only tests link; and the contact kernel's judge, which asks it
+# the exact reference solver: GPL, therefore a library of its own that only tests link; and the contact kernel's checker, which uses it
 add_library(voussoir_exact_referee STATIC testing/exact_referee.cpp testing/exact_centre.cpp testing/exact_programs.cpp testing/exact_contacts.cpp
   testing/pair_families.cpp testing/pair_judge.cpp)
 target_link_libraries(voussoir_exact_referee PUBLIC voussoir_core voussoir_oracle_algebra gmpxx gmp

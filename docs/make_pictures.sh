@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # make_pictures.sh PROGRAM: makes the pictures of README.md, of these pages and of examples again, docs/pictures/*, from the scenes
-# named here. SVG files are what the program draws; PNG files are posters of its viewer (node, chromium).
+# named here. SVG files are drawn by the program; PNG files are posters of its viewer (node, chromium).
 set -euo pipefail
 program=$(realpath "$1")
 cd "$(dirname "$0")/.."
@@ -8,7 +8,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 pictures=docs/pictures
 
-# drawn NAME FILE COMMAND …: what the program draws into FILE of its results
+# drawn NAME FILE COMMAND …: FILE of the command's results, an SVG file
 drawn() {
   local name=$1 file=$2
   shift 2

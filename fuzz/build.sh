@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# build.sh SOURCE BUILD: builds the fuzz targets with clang; status 77 where clang++ is not installed.
+# build.sh SOURCE BUILD: builds the fuzz targets with clang; status 77 if clang++ is not installed.
 set -euo pipefail
 source=$1 build=$2
 if ! command -v clang++ >/dev/null; then

@@ -1,5 +1,5 @@
 // Bytes to the planes of two parts, these to blocks, these to a contact: every status known, every number finite, and
-// what the geometry promises kept.
+// all geometric invariants fulfilled.
 #include <fuzzer/FuzzedDataProvider.h>
 
 #include <algorithm>
@@ -17,8 +17,8 @@ using contacts::touch;
 
 constexpr int most_planes = 16;  // of one part
 
-// Normals and offsets on a coarse grid make coinciding, parallel and concurrent planes; on a fine one general
-// position and near misses.
+// Normals and offsets on a coarse grid give coinciding, parallel and concurrent planes; on a fine one general position
+// and near misses.
 double number(FuzzedDataProvider& bytes, bool fine) {
   if (!fine) return bytes.ConsumeIntegralInRange<int>(-8, 8) / 4.0;
   return bytes.ConsumeIntegral<std::int16_t>() / 8192.0;
@@ -48,7 +48,7 @@ HalfSpaces<Dim> planes(FuzzedDataProvider& bytes) {
   return all;
 }
 
-// any doubles at all: the block must be refused, or made of finite numbers
+// arbitrary doubles: the block must be refused, or have finite numbers
 template <int Dim>
 HalfSpaces<Dim> wild_planes(FuzzedDataProvider& bytes) {
   HalfSpaces<Dim> all(bytes.ConsumeIntegralInRange<int>(0, most_planes));
@@ -104,7 +104,7 @@ void require_sound(const Polytope<Dim>& part) {
   }
 }
 
-// the same planes at twice the size: powers of two change no digit
+// the same planes at twice the size: powers of two cause no rounding
 template <int Dim>
 void require_scaling(const HalfSpaces<Dim>& planes, const BlockResult<Dim>& block) {
   const BlockResult<Dim> twice = made<Dim>(shapes::scaled<Dim>(planes, 2));
@@ -130,7 +130,7 @@ void require_sound(const Polytope<Dim>& a, const Polytope<Dim>& b, const Matrix<
   require(g.area >= 0, "the area is not negative");
   require(g.face_a >= 0 && g.face_a < static_cast<int>(a.faces.size()), "face a exists");
   require(g.face_b >= 0 && g.face_b < static_cast<int>(b.faces.size()), "face b exists");
-  // the point is given in another frame than it was found in: a few roundings of the coordinates
+  // the point is given in another frame than that of its computation: a few rounding errors of the coordinates
   const double rounding = 1e-14 * (a.radius + b.radius + offset.norm());
   for (const HalfSpace<Dim>& f : a.faces)
     require(signed_distance(f, g.point) < rounding, "the point is inside a");
@@ -139,7 +139,7 @@ void require_sound(const Polytope<Dim>& a, const Polytope<Dim>& b, const Matrix<
     require(signed_distance(f, seen_by_b) < rounding, "the point is inside b");
 }
 
-// gap or overlap that rounding alone decides, as a fraction of the smaller inscribed radius
+// gap or overlap that only rounding decides, as a fraction of the smaller inscribed radius
 constexpr double undecided = 1e-9;
 
 template <int Dim>
@@ -153,7 +153,7 @@ void require_symmetry(const Polytope<Dim>& a, const Polytope<Dim>& b, const Matr
   const bool no_direction =
       outcome.contact.status == ContactStatus::no_normal || other.contact.status == ContactStatus::no_normal;
   if (no_direction) return;  // one part deep inside the other: a tie that rounding breaks
-  // the other pose is rounded again: what rounding cannot tell either way may come out the other way
+  // the other pose is rounded again: a case that only rounding decides may have the other result
   if (other.contact.status == ContactStatus::undecided || outcome.contact.status == ContactStatus::undecided) return;
   require(other.contact.status == outcome.contact.status, "swapping the parts keeps the status");
   if (!outcome.contact.touching()) return;
@@ -183,7 +183,7 @@ Matrix<3> orientation(FuzzedDataProvider& bytes, Vector<3>) {
   return matrix(Rotation<3>{q.normalized()});
 }
 
-// as in a body: the origin in the centroid
+// as in a body: the origin is the centroid
 template <int Dim>
 Polytope<Dim> centred(const Polytope<Dim>& part) {
   return moved_origin<Dim>(part, part.mass.centroid);

@@ -14,17 +14,17 @@ void read(char format, std::string_view text) {
   static constexpr ImportedJoints (*readers[])(std::string_view, const Vector<3>&) = {read_facets, read_fab, read_dxf,
                                                                                       read_traces};
   const ImportedJoints found = readers[static_cast<unsigned char>(format) % 4](text, Vector<3>::Zero());
-  require(!found.joints.empty(), "what is taken holds a joint");
+  require(!found.joints.empty(), "an accepted file has a joint");
   require(found.out_of_plane.size() == found.joints.size(), "every joint has its distance from its plane, or none");
   for (const JointRow& joint : found.joints) {
     double square = 0;
     for (const double x : joint.normal)
       square += x * x;
     require(std::abs(square - 1) < 1e-12 && !(joint.normal.back() < 0), "normals are unit and upward");
-    require(*joint.dip_deg >= 0 && *joint.dip_deg <= 90, "a dip is one");
-    require(*joint.dip_direction_deg >= 0 && *joint.dip_direction_deg < 360, "a dip direction is one");
+    require(*joint.dip_deg >= 0 && *joint.dip_deg <= 90, "a dip is in its range");
+    require(*joint.dip_direction_deg >= 0 && *joint.dip_direction_deg < 360, "a dip direction is in its range");
     for (const double extent : joint.extents)
-      require(extent > 0, "an extent is one");
+      require(extent > 0, "an extent is positive");
   }
   for (const std::string& remark : found.remarks)
     require(!text_fault(remark), "a remark is one line of plain text");

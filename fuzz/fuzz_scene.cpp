@@ -1,4 +1,4 @@
-// Bytes to a scene: accepted or refused in one line, never a crash; what is accepted reads back to the same scene.
+// Bytes to a scene: accepted or refused in one line, never a crash; an accepted one reads back to the same scene.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -21,7 +21,7 @@ void require_one_line(const std::string& message) {
   require(!text_fault(message), "an error is one line of plain text");
 }
 
-// Slicing is not what is fuzzed here: n joints make up to n³/6 blocks, hulls and planes cost their fourth power.
+// Slicing is not fuzzed here: n joints make up to n³/6 blocks, hulls and planes cost their fourth power.
 bool is_small(const Scene& scene) {
   constexpr std::size_t many = 12;
   const bool domain = !scene.domain || scene.domain->planes.size() <= many;
@@ -43,7 +43,7 @@ void prepare_and_judge(const Scene& scene) {
     require_one_line(warning);
 }
 
-// What is repeated ten thousand times takes its time; nothing but its number differs from what is repeated twice.
+// Ten thousand copies take a long time, and differ from two only in number.
 bool repeats_much(std::string_view text) {
   constexpr double often = 8;
   try {

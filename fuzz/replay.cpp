@@ -1,5 +1,5 @@
-// replay FILE …: a fuzz target's checks on these inputs alone, without a fuzzer and by any compiler. A broken invariant
-// ends the program; the last line it printed names the input.
+// replay FILE …: a fuzz target's checks on these inputs only, without a fuzzer and with any compiler. A broken
+// invariant ends the program; the last line printed names the input.
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>

@@ -1,4 +1,4 @@
-// What both fuzz targets share: an invariant that ends the program when it is broken, and the time one input may take.
+// Shared by the fuzz targets: an invariant that ends the program if it is broken, and the time limit of one input.
 #pragma once
 
 #include <cstdio>
@@ -14,8 +14,8 @@ inline void require(bool holds, const char* invariant) {
   std::abort();
 }
 
-// A hang is more than one second of processor time for one input; the clock on the wall would also count the
-// machine's other work.
+// A hang is more than one second of processor time for one input; wall-clock time would include the machine's other
+// work.
 class Stopwatch {
  public:
   ~Stopwatch() { require(std::clock() - begin_ <= CLOCKS_PER_SEC, "an input takes at most one second"); }

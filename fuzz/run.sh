@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# run.sh PROGRAM TARGET replay|long [WORK DICTIONARY]: the committed corpus and, for scenes, the cases' own. `replay` runs each input once, by
-# a program made of replay.cpp; `long` fuzzes from them for VOUSSOIR_FUZZ_SECONDS (3600) in the folder WORK, where it
-# leaves what it found: corpus/, and findings/ for inputs that break something.
+# run.sh PROGRAM TARGET replay|long [WORK DICTIONARY]: the committed corpus and, for scenes, the cases' own. `replay` runs each input once,
+# by a program made from replay.cpp; `long` fuzzes from them for VOUSSOIR_FUZZ_SECONDS (3600) in the folder WORK, where it leaves its
+# results: corpus/, and findings/ for inputs that break something.
 set -euo pipefail
 program=$1 target=$2 length=$3 work=${4:-} dictionary=${5:-}
 here=$(cd "$(dirname "$0")" && pwd)
@@ -19,7 +19,7 @@ if [ "$length" = replay ]; then
   exec "$program" "${corpus[@]}" "${seeds[@]}"
 fi
 
-# a finding must not pass for a skip, whose code is libFuzzer's own for a crash
+# a finding must not be taken for a skip, whose code is libFuzzer's own for a crash
 options=(-error_exitcode=1 -timeout=20 -rss_limit_mb=2048 -verbosity=0 -print_final_stats=1)  # a hang of one second ends the target itself
 case $target in
   scene) options+=(-dict="$dictionary" -seed_inputs="$(IFS=,; echo "${seeds[*]}")" -max_len=6000) ;;

@@ -1,14 +1,15 @@
-// Prints libFuzzer's dictionary of scenes: what TOML is made of, and every key, table and choice of the key table.
+// Prints libFuzzer's dictionary of scenes: the tokens of TOML, and every key, table and choice of the key table.
 #include <cstdio>
 #include <iterator>
 #include <set>
 #include <string>
 
 #include "core/scene/keys.hpp"
+#include "core/scene/renamed_keys.hpp"
 
 namespace {
 
-// as libFuzzer reads them back
+// in the notation of libFuzzer
 constexpr const char* toml[] = {R"(\x0a)",    "=",        "[",           "]",          "[[",         "]]",
                                 "{",          "}",        ", ",          ".",          R"(\")",      R"(\\)",
                                 R"(\"\"\")",  "'''",      "#",           "true",       "false",      "nan",
@@ -30,6 +31,8 @@ int main() {
     for (const std::string_view choice : row.choices)
       words.insert(R"(\")" + std::string(choice) + R"(\")");
   }
+  for (const voussoir::RenamedKey& row : voussoir::renamed_keys)
+    words.insert(std::string(row.earlier.substr(row.earlier.rfind('.') + 1)) + " = ");
   for (const std::string& word : words)
     std::printf("\"%s\"\n", word.c_str());
 }

@@ -1,5 +1,5 @@
-# bare_root.sh VERSION, inside a bare Debian 12 root: installs the packages that lie beside it one after the other, each with what it
-# depends on alone, and uses them.
+# bare_root.sh VERSION, inside a bare Debian 12 root: installs the packages in its folder one after the other, each only with its
+# dependencies, and uses them.
 set -euo pipefail
 version=$1
 cd "$(dirname "$0")"

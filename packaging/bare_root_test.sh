@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # bare_root_test.sh SOURCE FOLDER VERSION: makes the packages in FOLDER and installs them in a bare Debian 12 root, by bare_root.sh, which
-# uses them there. Skipped by name where the root cannot be made.
+# uses them there. Skipped by name if the root cannot be made.
 set -euo pipefail
 source=$1 folder=$2 version=$3
 for tool in mmdebstrap lintian dpkg-shlibdeps file; do
   command -v $tool >/dev/null || { echo "skipped: $tool is not installed (Debian: mmdebstrap, lintian, dpkg-dev, file)"; exit 77; }
 done
-[ "$(id -u)" = 0 ] || { echo "skipped: a root is made by root alone"; exit 77; }
+[ "$(id -u)" = 0 ] || { echo "skipped: only the user root can make a root"; exit 77; }
 
 "$source/cmake/make_packages.sh" "$folder" "$(nproc)"
 rm -rf "$folder/packages"

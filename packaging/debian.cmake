@@ -1,7 +1,7 @@
-# Debian packages by CPack: voussoir (program), libvoussoir-dev, and python3-voussoir where the Python module is built.
-# Each holds what its install component does, its copyright, and Debian's changelog.
+# Debian packages by CPack: voussoir (program), libvoussoir-dev, and python3-voussoir if the Python module is built.
+# Each contains its install component, its copyright, and Debian's changelog.
 if(VOUSSOIR_WITH_IPOPT)
-  message(FATAL_ERROR "VOUSSOIR_PACKAGES: a binary that holds both GLPK and Ipopt must not be distributed; "
+  message(FATAL_ERROR "VOUSSOIR_PACKAGES: a binary with both GLPK and Ipopt must not be distributed; "
     "configure with -DVOUSSOIR_WITH_IPOPT=OFF")
 endif()
 
@@ -15,11 +15,11 @@ set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(VOUSSOIR_MAINTAINER "The Voussoir authors <voussoir@localhost>" CACHE STRING "who makes the packages: name <address>")
+set(VOUSSOIR_MAINTAINER "The Voussoir authors <voussoir@localhost>" CACHE STRING "maintainer of the packages: name <address>")
 set(CPACK_PACKAGE_CONTACT ${VOUSSOIR_MAINTAINER})
 
 # first line, text, a blank line between paragraphs
-set(about "Blocks of rock between joints, and masonry, whose motion and collapse are
+set(about "Motion and collapse of rock blocks between joints, and of masonry,
 computed contact by contact: slopes, tunnels, arches, dams.
 ")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME voussoir)
@@ -27,7 +27,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "distinct element models of jointed rock
 ${about}
 The program runs scenes stated in TOML, searches factors of safety,
-studies settings, imports joints, and writes files for ParaView.")
+makes parameter studies, imports joints, and writes files for ParaView.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libvoussoir-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev (>= 3.4), libfmt-dev, libhwy-dev")
@@ -41,7 +41,7 @@ set(CPACK_DEBIAN_PYTHON_DESCRIPTION "distinct element models of jointed rock (Py
 ${about}
 Scenes as Python objects, their state as read-only arrays of numpy.")
 
-# what every package must hold, in its own folder of documents
+# the files that every package must have in its documentation folder
 string(TIMESTAMP VOUSSOIR_PACKAGE_DATE "%a, %d %b %Y %H:%M:%S +0000" UTC)  # of SOURCE_DATE_EPOCH
 configure_file(changelog.Debian.in changelog.Debian @ONLY)
 execute_process(COMMAND ${GZIP} -9nc changelog.Debian WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}
@@ -49,7 +49,7 @@ execute_process(COMMAND ${GZIP} -9nc changelog.Debian WORKING_DIRECTORY ${CMAKE_
 execute_process(COMMAND ${GZIP} -9nc ${PROJECT_SOURCE_DIR}/CHANGELOG.md WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}
   OUTPUT_FILE changelog.gz COMMAND_ERROR_IS_FATAL ANY)
 
-# ours among those that the project installs: Python's is there where its module is built
+# our components among those that the project installs: Python's exists if its module is built
 get_cmake_property(installed COMPONENTS)
 foreach(component program development python)
   if(NOT component IN_LIST installed)

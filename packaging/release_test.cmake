@@ -1,5 +1,5 @@
-# cmake -DVERSION=… -DSOURCE=… -DPAGES=… -DPROGRAM=… -P release_test.cmake: one version and one licence in all that states one,
-# and a copyright file that names whatever the libraries and the program are built with.
+# cmake -DVERSION=… -DSOURCE=… -DPAGES=… -DPROGRAM=… -P release_test.cmake: one version and one licence in all files that state one,
+# and a copyright file that names all libraries built into the libraries and the program.
 cmake_minimum_required(VERSION 3.25)
 set(faults 0)
 
@@ -11,7 +11,7 @@ function(expect what found expected)
   endif()
 endfunction()
 
-# what the first group of the first match holds
+# the text of the first group of the first match
 function(take result file expression)
   file(READ ${file} text)
   set(CMAKE_MATCH_1 "nothing that matches ${expression}")
@@ -42,7 +42,7 @@ expect("voussoir --version" "${CMAKE_MATCH_1}" ${VERSION})
 take(found ${SOURCE}/LICENSE "^(BSD 3-Clause) License")
 expect("LICENSE" "${found}" "BSD 3-Clause")
 
-# what is built into the packages
+# libraries built into the packages
 file(GLOB lists ${SOURCE}/text/CMakeLists.txt ${SOURCE}/core/CMakeLists.txt ${SOURCE}/app/CMakeLists.txt ${SOURCE}/python/CMakeLists.txt)
 set(used "")
 foreach(list IN LISTS lists)
@@ -53,7 +53,7 @@ foreach(list IN LISTS lists)
 endforeach()
 list(TRANSFORM used REPLACE "^[a-z_]+\\(" "")
 list(REMOVE_DUPLICATES used)
-list(REMOVE_ITEM used PkgConfig Threads IPOPT Python3 Python)  # tools, the C library, what no package holds, its interpreter
+list(REMOVE_ITEM used PkgConfig Threads IPOPT Python3 Python)  # tools, the C library, a library of no package, the interpreter
 file(READ ${SOURCE}/packaging/copyright copyright)
 string(TOLOWER "${copyright}" copyright)
 foreach(name IN LISTS used)
@@ -65,7 +65,7 @@ foreach(name IN LISTS used)
 endforeach()
 list(LENGTH used count)
 if(count LESS 8)
-  expect("libraries found in CMakeLists.txt" "${used}" "eight at least")
+  expect("libraries found in CMakeLists.txt" "${used}" "at least eight")
 endif()
 
 if(faults)

@@ -1,4 +1,4 @@
-// The Python module `voussoir`: README.md beside this file shows its use.
+// The Python module `voussoir`: README.md in this folder shows its use.
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
@@ -22,7 +22,8 @@ namespace {
 constexpr int deepest = 16;  // tables in tables, as in a file
 
 Node node_of(const py::handle& value, const Place& place, int depth = 0) {
-  if (depth > deepest) throw py::value_error("a scene's tables and lists must not nest so deeply; four levels will do");
+  if (depth > deepest)
+    throw py::value_error("a scene's tables and lists must not nest so deeply; four levels are enough");
   // numbers and arrays of numpy
   if (py::hasattr(value, "tolist")) return node_of(value.attr("tolist")(), place, depth + 1);
   Node node;
@@ -46,13 +47,13 @@ Node node_of(const py::handle& value, const Place& place, int depth = 0) {
     for (const py::handle& item : value)
       node.items.push_back(node_of(item, place, depth + 1));
   } else {
-    throw py::type_error("a scene holds numbers, bool, str, list and dict, not " +
+    throw py::type_error("a scene contains numbers, bool, str, list and dict, not " +
                          py::str(py::type::of(value).attr("__name__")).cast<std::string>());
   }
   return node;
 }
 
-// str, bytes or anything with a path, whatever bytes it holds
+// str, bytes or anything with a path, with any bytes
 std::string path_of(const py::object& path) {
   return py::module_::import("os").attr("fsencode")(path).cast<std::string>();
 }
@@ -91,7 +92,7 @@ struct State {
   std::shared_ptr<Run> run;
 };
 
-// Ctrl-C, and whatever else signals are to do in Python: asked for a few times a second
+// Ctrl-C, and other signal handlers of Python: checked a few times a second
 class Signals {
  public:
   bool raised() {
@@ -132,7 +133,7 @@ bool advance(Run& run, long long steps) {
 
 // ---- arrays ------------------------------------------------------------------------------------------------------
 
-// a view that keeps alive what it looks into
+// a view that keeps its data alive
 py::array view_of(const Run& run, const std::vector<double> MotionArrays::*numbers, bool flat) {
   const std::shared_ptr<const MotionArrays> motions = at_rest(run).motions();
   const py::capsule owner(new std::shared_ptr<const MotionArrays>(motions),
@@ -166,7 +167,7 @@ py::dict dict_of(const std::vector<DataArray>& arrays) {
   return dict;
 }
 
-// a record for each point: where it is, and what is known there
+// a record for each point: its position and data
 py::array table_of(const PolyData& data) {
   py::list fields;
   fields.append(py::make_tuple("point", "f8", py::make_tuple(3)));
@@ -183,7 +184,7 @@ py::array table_of(const PolyData& data) {
   return table;
 }
 
-// as VTK and pyvista want them: each face is the number of its points, then their places
+// as for VTK and pyvista: each face is the number of its points, then their indices
 py::array faces_of(const PolyData& data) {
   std::vector<std::int64_t> faces;
   for (const std::vector<int>& cell : data.cells) {
@@ -243,23 +244,23 @@ void translate(std::exception_ptr thrown) {
 void bind_scene(py::module_& module) {
   py::class_<OpenedScene, std::shared_ptr<OpenedScene>>(
       module, "Scene",
-      "A scene, read, checked and cut into blocks: from a file, or from a dict as the file would state it.")
+      "A scene, read, checked and cut into blocks: from a file, or from a dict with the content of a file.")
       .def(py::init([](const py::object& source, const py::dict& set) {
              return std::const_pointer_cast<OpenedScene>(scene_of(source, set));
            }),
            py::arg("source"), py::arg("set") = py::dict(),
-           "`set` holds what --set takes: {\"joints.A.dip\": 65}. Raises SceneError.")
+           "`set` overrides keys, as --set: {\"joints.A.dip\": 65}. Raises SceneError.")
       .def(
           "start",
           [](const std::shared_ptr<OpenedScene>& scene, int threads) {
             if (threads < 1 || threads > 1024) throw py::value_error("threads must be from 1 to 1024");
             return std::make_shared<Run>(Run{start(scene, threads)});
           },
-          py::arg("threads") = 1, "A run of the scene from its start. Threads change no bit.")
+          py::arg("threads") = 1, "A run of the scene from its start. The number of threads changes no bit.")
       .def_property_readonly("title", [](const OpenedScene& s) { return s.stated.title; })
       .def_property_readonly("dimension", [](const OpenedScene& s) { return s.stated.dimension; })
       .def_property_readonly(
-          "toml", [](const OpenedScene& s) { return s.text; }, "What is run, as a scene file.")
+          "toml", [](const OpenedScene& s) { return s.text; }, "The effective scene, as a file.")
       .def_property_readonly(
           "hash", [](const OpenedScene& s) { return s.hash; }, "The input_hash of results.json.")
       .def_property_readonly(
@@ -274,19 +275,20 @@ void bind_run(py::module_& module) {
   module.attr("Surface") = surface;
   py::class_<Run, std::shared_ptr<Run>>(module, "Run", "A run of a scene; Scene.start makes it.")
       .def("advance", &advance, py::arg("steps") = 1000,
-           "Goes on by so many steps; False when the scene is done. Ctrl-C raises KeyboardInterrupt between two steps: "
+           "Continues by this number of steps; False when the scene is done. Ctrl-C raises KeyboardInterrupt between "
+           "two steps: "
            "the "
-           "run can be looked at, and go on.")
+           "run can be read, and continue.")
       .def_property_readonly("done", [](const Run& r) { return at_rest(r).done(); })
       .def_property_readonly(
-          "stage", [](const Run& r) { return at_rest(r).stage(); }, "Under way, or the last one.")
+          "stage", [](const Run& r) { return at_rest(r).stage(); }, "The present stage, or the last one.")
       .def_property_readonly("state", [](const std::shared_ptr<Run>& r) { return State{r}; })
       .def_property_readonly(
           "names", [](const Run& r) { return at_rest(r).body_names(); },
-          "Of the bodies, in the order of the arrays; \"\" where the scene gives none.")
+          "Of the bodies, in the order of the arrays; \"\" if the scene gives none.")
       .def(
           "contacts", [](const Run& r) { return table_of(at_rest(r).contacts()); },
-          "What touches now, as a structured array of its own: the points of the program's contacts_….vtp. Forces in "
+          "The present contacts, as a structured array: the points of the program's contacts_….vtp. Forces in "
           "N, on "
           "body_b.")
       .def(
@@ -297,7 +299,7 @@ void bind_run(py::module_& module) {
           },
           "The blocks as they are now: Surface(points, faces, cell_data, point_data), as the program's blocks_….vtp.")
       .def_property_readonly("results", &results_of,
-                             "What results.json holds; its status is \"under way\" until the end.")
+                             "The content of results.json; its status is \"under way\" until the end.")
       .def_property_readonly("history", &history_of, "The columns of history.csv so far.")
       .def_property_readonly(
           "state_hash", [](const Run& r) { return at_rest(r).state_hash(); },
@@ -306,7 +308,8 @@ void bind_run(py::module_& module) {
           "save",
           [](const Run& r, const py::object& folder, bool overwrite) { at_rest(r).save(path_of(folder), overwrite); },
           py::arg("folder"), py::arg("overwrite") = false,
-          "Writes what `voussoir run` writes, with a frame of now; results.json once the scene is done. Again into the "
+          "Writes the files of `voussoir run`, with a frame of the present; results.json once the scene is done. Again "
+          "into the "
           "same "
           "folder: one more frame.");
 }
@@ -314,9 +317,9 @@ void bind_run(py::module_& module) {
 void bind_state(py::module_& module) {
   py::class_<State>(
       module, "State",
-      "How the bodies have moved. Arrays are views, read only, that follow the run from one advance to the "
-      "next; .copy() keeps what they show. Where a stage adds bodies (linings, blocks that an excavation parts), "
-      "ask for them again.")
+      "The motion of the bodies. Arrays are views, read only, that follow the run from one advance to the "
+      "next; .copy() keeps their values. If a stage adds bodies (linings, blocks that an excavation divides), "
+      "get them again.")
       .def_property_readonly(
           "time", [](const State& s) { return at_rest(*s.run).time(); }, "s")
       .def_property_readonly("steps", [](const State& s) { return at_rest(*s.run).steps(); })
@@ -340,8 +343,7 @@ PYBIND11_MODULE(voussoir, module) {
   module.doc() = "Distinct element modelling of jointed rock: scenes, run in portions of steps.";
   module.attr("__version__") = voussoir::version();
   scene_error = py::exception<voussoir::SceneError>(module, "SceneError", PyExc_ValueError).release();
-  scene_error.attr("__doc__") =
-      "What is wrong with a scene, in one line. `file`, `line` (0: none) and `key` say where.";
+  scene_error.attr("__doc__") = "An error in a scene, in one line, at `file`, `line` (0: none) and `key`.";
   py::register_exception_translator(&translate);
   bind_scene(module);
   bind_run(module);

@@ -1,4 +1,4 @@
 #!/bin/sh
-# skip.sh REASON: in place of the module's test where there is no module.
+# skip.sh REASON: replaces the module's test if there is no module.
 echo "skipped: $1"
 exit 77

@@ -25,20 +25,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What the program does and this cannot is refused: another answer in silence would be worse.
+// Features of the program that are missing here are refused: a silently different result would be worse.
 void refuse_what_needs_the_program(const Scene& scene) {
   const Subject top{scene.tree.get(), ""};
   if (const auto contact = child(top, "contact")) {
     if (scene.settings.contact.lp == LpSolver::glpk)
-      refuse(*contact, "lp", "Python has no GLPK; write lp = \"own\", or run the scene by 'voussoir run'");
+      refuse(*contact, "lp", "Python has no GLPK; write lp = \"own\", or run the scene with 'voussoir run'");
     if (scene.settings.contact.centre != CentreSolver::own)
-      refuse(*contact, "centre", "Python has no Ipopt; write centre = \"own\", or run the scene by 'voussoir run'");
+      refuse(*contact, "centre", "Python has no Ipopt; write centre = \"own\", or run the scene with 'voussoir run'");
   }
   const auto accuracy = child(top, "accuracy");
   if (!accuracy) return;
   const Node* budget = accuracy->node->find("budget");
   const char* key = budget && budget->boolean ? "budget" : accuracy_target(*scene.tree) ? "error" : nullptr;
-  if (key) refuse(*accuracy, key, "takes several runs, which 'voussoir run' makes; leave it out here");
+  if (key) refuse(*accuracy, key, "needs several runs, as 'voussoir run' makes them; leave it out here");
 }
 
 std::vector<std::pair<std::string, bool>> features() {
@@ -49,7 +49,7 @@ std::vector<std::pair<std::string, bool>> features() {
 void claim(const fs::path& folder, bool overwrite, const std::vector<fs::path>& inputs) {
   std::error_code error;
   if (fs::exists(folder / "run.json", error))
-    throw FileInTheWay("'" + folder.string() + "' holds a run of the program: save into another folder");
+    throw FileInTheWay("'" + folder.string() + "' contains a run of the program: save into another folder");
   std::vector<fs::path> files = series_files(folder);
   std::vector<std::string> names = support_table_files();
   names.insert(names.end(), {"scene.toml", "history.csv", "results.json"});
@@ -60,7 +60,7 @@ void claim(const fs::path& folder, bool overwrite, const std::vector<fs::path>& 
     const auto is_it = [&](const fs::path& input) { return fs::equivalent(input, folder / name, error); };
     if (std::ranges::any_of(inputs, is_it))
       throw FileInTheWay(shown + " is read by this scene: save into another folder");
-    if (!overwrite) throw FileInTheWay(shown + " is there already: save into another folder, or with overwrite=True");
+    if (!overwrite) throw FileInTheWay(shown + " exists: save into another folder, or with overwrite=True");
   }
   prepare_folder(folder);
   for (const fs::path& name : files)
@@ -103,7 +103,7 @@ class SteppedRunOf : public SteppedRun {
     std::vector<std::string> names;
     for (const Body<Dim>& body : model().bodies)
       names.push_back(body.name);
-    names.resize(progress_.state.bodies.motions.size());  // before the first step a stage's bodies are not there yet
+    names.resize(progress_.state.bodies.motions.size());  // before the first step the stage's bodies do not exist yet
     return names;
   }
 

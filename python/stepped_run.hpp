@@ -1,4 +1,4 @@
-// A scene that is run in portions of steps, without Python in it: what module.cpp shows to Python.
+// A scene that is run in portions of steps, without Python: module.cpp binds it.
 #pragma once
 
 #include <filesystem>
@@ -25,10 +25,10 @@ struct OpenedScene {
   std::variant<Prepared<2>, Prepared<3>> prepared;
 };
 
-// Throws SceneError, also for what the core alone cannot do: outside solvers, and runs beside the answer.
+// Throws SceneError, also for features that the core lacks: external solvers, and additional runs for a result.
 std::shared_ptr<const OpenedScene> open_scene(Scene stated);
 
-// How the bodies have moved, by body: what arrays of Python look into.
+// The motion of the bodies, by body: the data of Python's arrays.
 struct MotionArrays {
   int bodies = 0;
   std::vector<double> displacement;  // m, of the centroid; as many numbers for each body as the scene has dimensions
@@ -45,32 +45,32 @@ class SteppedRun {
  public:
   virtual ~SteppedRun() = default;
 
-  // Advances by at most so many steps, fewer where `stop`, which is asked before each, says so. False: the scene is
-  // done. After an exception nothing can be told of the run any more, and it refuses to go on.
+  // Advances by at most this number of steps, fewer if `stop`, which is called before each, returns true. False: the
+  // scene is done. After an exception the state of the run is undefined, and it refuses to continue.
   virtual bool advance(long long steps, const std::function<bool()>& stop) = 0;
   virtual bool done() const = 0;
 
   virtual int dimension() const = 0;
   virtual double time() const = 0;  // s
   virtual long long steps() const = 0;
-  virtual std::string stage() const = 0;  // under way, or the last one
+  virtual std::string stage() const = 0;  // the present one, or the last
   virtual std::vector<std::string> body_names() const = 0;
   virtual std::string state_hash() const = 0;  // core/model/state_hash.hpp
 
-  // The arrays of now. They stay where they are, and get the numbers of the present with `show_motions`, until a stage
-  // adds bodies; those of before then keep the last numbers that they had.
+  // The present arrays. Their addresses stay valid, and `show_motions` updates their values, until a stage adds bodies;
+  // earlier arrays then keep their last values.
   virtual std::shared_ptr<const MotionArrays> motions() const = 0;
   virtual void show_motions() = 0;
 
-  // as the program's frames of this moment hold them (core/output/paraview.hpp)
+  // as in the program's frames of this moment (core/output/paraview.hpp)
   virtual PolyData contacts() const = 0;
   virtual PolyData surface() const = 0;
 
   virtual std::string results() const = 0;  // the text of results.json
   virtual History history() const = 0;
 
-  // Writes what the program writes for a run: scene.toml, history.csv, bolts.csv, lining.csv, a frame of now and, once
-  // the scene is done, results.json. The next time into the same folder it adds a frame. Throws FileInTheWay where it
+  // Writes the files of the program's run: scene.toml, history.csv, bolts.csv, lining.csv, a frame of the present and,
+  // once the scene is done, results.json. Another call for the same folder adds a frame. Throws FileInTheWay if it
   // would replace a file that the scene reads, a run of the program, or without `overwrite` any file of another run,
   // and OutputError.
   virtual void save(const std::filesystem::path& folder, bool overwrite) = 0;

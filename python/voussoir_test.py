@@ -1,4 +1,4 @@
-"""The Python module against the program: the same bits, and views, copies, errors and signals as its README says."""
+"""The Python module against the program: the same bits, and views, copies, errors and signals as its README states."""
 import ast
 import gc
 import json
@@ -24,15 +24,15 @@ except ImportError:
 import voussoir
 
 SOURCE, PROGRAM = Path(os.environ["VOUSSOIR_SOURCE_DIR"]), os.environ["VOUSSOIR_PROGRAM"]
-WEDGE = SOURCE / "cases/wedge/scene.toml"  # 3-D, a search by trials that are taken back
-TUNNEL = SOURCE / "app/testing/tunnel.toml"  # 2-D, bolts, an excavation that parts blocks
+WEDGE = SOURCE / "cases/wedge/scene.toml"  # 3-D, a search with rejected trials
+TUNNEL = SOURCE / "app/testing/tunnel.toml"  # 2-D, bolts, an excavation that divides blocks
 LINED = Path("lined_tunnel.toml")  # the same with a stage that adds bodies: setUpModule writes it
 CUBES = SOURCE / "app/testing/two_cubes.toml"
 FALL = SOURCE / "cases/free_fall/scene.toml"  # long
 
 
 def results_of(folder):
-    """results.json without what tells of machine and program."""
+    """results.json without machine and program."""
     results = json.loads((Path(folder) / "results.json").read_text())
     return {key: value for key, value in results.items() if key not in ("program", "timing", "warnings")}
 
@@ -69,7 +69,7 @@ class Frame:
 
 
 def setUpModule():
-    """A folder for runs of the program, one for each scene, and for what tests write."""
+    """A folder for runs of the program, one for each scene, and for the files of tests."""
     global scratch, made
     folder = tempfile.TemporaryDirectory()
     unittest.addModuleCleanup(folder.cleanup)
@@ -82,7 +82,7 @@ def setUpModule():
 
 
 def scene_of(path):
-    return voussoir.Scene(scratch / path)  # a path that is absolute stays so
+    return voussoir.Scene(scratch / path)  # an absolute path stays absolute
 
 
 def program(path, *sets):
@@ -106,7 +106,7 @@ class SameBits(unittest.TestCase):
                     self.assertEqual(told(run), expected)
                     self.assertTrue(run.done)
                     self.assertFalse(run.advance(10))
-                    self.assertEqual(told(run), expected, "what is done stays as it is")
+                    self.assertEqual(told(run), expected, "a finished run does not change")
 
     def test_advance_counts_steps_exactly(self):
         run = voussoir.Scene(WEDGE).start()
@@ -183,7 +183,7 @@ class Views(unittest.TestCase):
         self.assertTrue(np.shares_memory(views[0], run.state.displacement), "no copy is made")
         del scene, run
         gc.collect()
-        others = [end_of(voussoir.Scene(WEDGE).start()) for _ in range(5)]  # memory that was free is used again
+        others = [end_of(voussoir.Scene(WEDGE).start()) for _ in range(5)]  # free memory is used again
         for view, before in zip(views, kept):
             np.testing.assert_array_equal(view, before)
         self.assertEqual(len(others), 5)
@@ -250,7 +250,7 @@ class ContactsAndSurface(unittest.TestCase):
         end_of(run)
         np.testing.assert_array_equal(contacts, before)
         weight = run.contacts()["force"][0]
-        np.testing.assert_allclose(weight, [0, 0, 20000], atol=0.2)  # 2 t at 10 m/s², rest to 1e-6, less the damping's
+        np.testing.assert_allclose(weight, [0, 0, 20000], atol=0.2)  # 2 t at 10 m/s², equilibrium to 1e-6, less the damping's
 
     def test_the_surface_is_closed_and_outwards(self):
         points, faces, cell_data, _ = voussoir.Scene(CUBES).start().surface()
@@ -347,7 +347,7 @@ class Errors(unittest.TestCase):
         self.assertEqual((error.file, error.line, error.key), ("dict", 0, "density"))
         tree["density"] = 2000
         tree["joints"][0]["dpi"] = 3
-        self.assertIn("dip", str(self.refused(tree)), "the key that is meant")
+        self.assertIn("dip", str(self.refused(tree)), "the suggested key")
         tree["joints"] = {1, 2}
         with self.assertRaisesRegex(TypeError, "set"):
             voussoir.Scene(tree)
@@ -357,7 +357,7 @@ class Errors(unittest.TestCase):
         with self.assertRaises(TypeError):
             voussoir.Scene(3)
 
-    def test_what_only_the_program_does_is_refused(self):
+    def test_features_of_the_program_alone_are_refused(self):
         self.assertEqual(self.refused(WEDGE, set={"contact.lp": "glpk"}).key, "contact.lp")
         self.assertEqual(self.refused(WEDGE, set={"contact.centre": "ipopt"}).key, "contact.centre")
         self.assertEqual(self.refused(WEDGE, set={"accuracy.budget": True}).key, "accuracy.budget")
@@ -385,21 +385,21 @@ class Life(unittest.TestCase):
             run.advance(50)
             kept += [run, run.state.displacement, run.state.rotation, run.contacts(), run.surface(), run.results, run.history]
 
-        for _ in range(30):  # until the allocator has what it wants
+        for _ in range(30):  # until the allocator's memory is constant
             use([])
         before, kept = resident(), []
         for _ in range(30):
             use(kept)
         each = (resident() - before) / 30
-        self.assertGreater(each, 10_000, "what a run holds is seen")
+        self.assertGreater(each, 10_000, "the memory of a run is measurable")
         kept.clear()
         before = resident()
         for _ in range(100):
             use([])
-        # a tenth of the runs, if they had not been given back, would show
+        # a leak of a tenth of the runs would show
         self.assertLess(resident() - before, 10 * each)
 
-    def test_ctrl_c_ends_between_steps_and_the_run_goes_on(self):
+    def test_ctrl_c_ends_between_steps_and_the_run_continues(self):
         script = textwrap.dedent(f"""
             import voussoir
             scene = voussoir.Scene({str(FALL)!r})

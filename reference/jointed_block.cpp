@@ -10,7 +10,7 @@ namespace {
 // Out-of-balance force over weight at which a step has converged: the angle's error is of the same order, far below the
 // step error, and rounding leaves 1e-15.
 constexpr double balance_tolerance = 1e-12;
-// Newton needs 2-6 rounds where an equilibrium exists; the rest is room for kinks between stick and slip.
+// Newton needs 2-6 iterations if an equilibrium exists; the rest is room for kinks between stick and slip.
 constexpr int most_rounds = 60;
 constexpr int most_halvings = 20;
 // A step may not move the block further than this many times its settlement: such a solution is sliding, not
@@ -57,7 +57,7 @@ Balance evaluate(const std::vector<BlockJoint>& joints, const std::array<double,
       for (int k = 0; k < 3; ++k)
         t[k] = shear[k] / size;
 
-    // Tangent: -kn n n, then -ks times the part of the plane that still sticks, then the limit's change with N.
+    // Tangent: -kn n n, then -ks times the part of the plane that still sticks, then the change of the strength with N.
     for (int k = 0; k < 3; ++k) {
       for (int l = 0; l < 3; ++l)
         balance.tangent[k][l] += -kn_now * n[k] * n[l] - ks * part * ((k == l) - n[k] * n[l] - t[k] * t[l]) -

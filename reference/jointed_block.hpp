@@ -25,9 +25,9 @@ struct BlockState {
 };
 
 // The equilibrium next to `state` under a load on the block and the joints' friction, found by Newton with the
-// consistent (unsymmetric) tangent; false, and `state` as it was, when there is none near. `size` is the force that
-// out-of-balance is measured by, `settlement` a displacement of the order of the elastic one. At most
-// `most_block_joints` joints, as many tangents of friction angles.
+// consistent (unsymmetric) tangent; false, and `state` unchanged, if there is none near. `size` is the reference force
+// for the out-of-balance force, `settlement` a displacement of the order of the elastic one. At most
+// `most_block_joints` joints, with as many tangents of friction angles.
 bool equilibrate(const std::vector<BlockJoint>& joints, const std::array<double, most_block_joints>& tan_friction,
                  const Vector3& load, double size, double settlement, BlockState& state);
 

@@ -6,8 +6,8 @@ struct PlanePoint {
   double x = 0, y = 0;
 };
 
-// The greatest value of the parabola through three points with ascending or descending x: how far beside the middle
-// one it lies, and its y. The middle point itself where the parabola has no top.
+// The greatest value of the parabola through three points with ascending or descending x: its distance from the middle
+// one, and its y. The middle point itself if the parabola has no maximum.
 struct ParabolaTop {
   double aside = 0, y = 0;
 };

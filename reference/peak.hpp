@@ -4,8 +4,8 @@
 
 namespace voussoir::reference {
 
-// The greatest value of a function with one peak, and where: by golden section of the interval, so many times. The
-// place is found to the root of rounding at best, for a peak is flat; the value to rounding.
+// The greatest value of a function with one peak, and its place: by golden section of the interval, so many times. The
+// place is accurate to the square root of rounding at best, since a peak is flat; the value to rounding.
 struct Peak {
   double at = 0, value = 0;
 };

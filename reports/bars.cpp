@@ -15,7 +15,7 @@ std::string link(const std::string& name) {
   return fmt::format("[{0}](../{0}/README.md)", name);
 }
 
-// a value that hits the reference to rounding has no ratio
+// a value that equals the reference to rounding has no ratio
 std::string ratio_text(std::vector<double> ratios) {
   return ratios.empty() ? "–" : fmt::format("{:.2g}", median(ratios));
 }
@@ -37,11 +37,10 @@ std::string row(const std::string& name, const std::vector<double>& bar, const s
 std::string budgets(const std::vector<BudgetSet>& sets) {
   if (sets.empty()) return "";
   std::string text =
-      "Budgets (`voussoir run --budget`) of scenes drawn at random, whose truth is known. Every build runs few of "
-      "each, "
-      "the long tests many.\n\n"
+      "Budgets (`voussoir run --budget`) of scenes drawn at random, whose truth is known. Every build runs a few "
+      "of each, the long tests many.\n\n"
       "![Error bar against true error, a point a scene: above the line the bar covers the truth.](bars.svg)\n\n"
-      "| case | scenes | truth within the bar | bar over error, median | cost over the answer's, median |\n"
+      "| case | scenes | truth within the bar | bar over error, median | cost over the result's, median |\n"
       "|---|--:|--:|--:|--:|\n";
   for (const BudgetSet& set : sets)
     text += row(set.name, set.bar, set.error) + fmt::format(" | {:.2g} |\n", median(set.cost));
@@ -68,10 +67,9 @@ std::string scene_budgets(const std::vector<SceneBudget>& scenes) {
                                                                : fmt::format("{:+.2g}", line.at("left").get<double>()));
     }
   if (rows.empty()) return "";
-  return "The budgets of scenes as they stand. A bar is the root of the squares of the brackets, the answer's and "
-         "those "
-         "of the runs that vary something, and of 1.25 times what each leaves open.\n\n"
-         "| case | value | varied | shift | left open |\n|---|---|---|--:|--:|\n" +
+  return "The budgets of the cases' scenes. A bar is the root of the sum of squares of the brackets (of the result and "
+         "of the runs that vary a setting) and of 1.25 times the remaining error of each setting.\n\n"
+         "| case | value | varied | shift | remaining error |\n|---|---|---|--:|--:|\n" +
          rows + "\n";
 }
 
@@ -89,7 +87,7 @@ std::string brackets(const std::vector<CaseStudy>& studies) {
     if (!bar.empty()) rows += row(entry.name, bar, error) + " |\n";
   }
   if (rows.empty()) return "";
-  return "Without a budget a bar is the search's bracket alone. In the studies, coarse settings among them:\n\n"
+  return "Without a budget the bar is the search's bracket only. In the studies, including coarse settings:\n\n"
          "| case | settings | truth within the bracket | bracket over error, median |\n|---|--:|--:|--:|\n" +
          rows + "\n";
 }
@@ -120,7 +118,7 @@ std::string bars_csv(const std::vector<BudgetSet>& sets) {
 std::string bars_markdown(const std::vector<BudgetSet>& sets, const std::vector<SceneBudget>& scenes,
                           const std::vector<CaseStudy>& studies) {
   const std::string text = budgets(sets) + scene_budgets(scenes) + brackets(studies);
-  return text.empty() ? "" : "### Whether bars cover the truth\n\n" + text;
+  return text.empty() ? "" : "### Coverage of the error bars\n\n" + text;
 }
 
 }  // namespace voussoir::reports

@@ -1,6 +1,6 @@
 #pragma once
-// Whether error bars cover the truth: those of budgets, in the sets that cases draw for it, and those of brackets
-// alone, in the studies.
+// Coverage of the truth by error bars: those of budgets, in the sets that cases draw for it, and those of brackets
+// only, in the studies.
 #include <string>
 #include <vector>
 
@@ -8,13 +8,13 @@
 
 namespace voussoir::reports {
 
-// what a case's budget.csv holds: a scene a row, in degrees; cost over the answer's
+// a case's budget.csv: a scene a row, in degrees; cost over that of the result without budget
 struct BudgetSet {
   std::string name;
   std::vector<double> error, bar, cost;
 };
 
-// throws FileFault, or std::runtime_error where a column is missing
+// throws FileFault, or std::runtime_error if a column is missing
 BudgetSet read_budget_set(const std::string& name, const std::string& csv);
 
 // for bars.gp: case, error_deg, bar_deg
@@ -26,7 +26,7 @@ struct SceneBudget {
   nlohmann::json results;
 };
 
-// a section of the page "What accuracy costs"; the figure is bars.svg. Empty where there is neither.
+// a section of the page "Cost of accuracy"; the figure is bars.svg. Empty if there are no bars.
 std::string bars_markdown(const std::vector<BudgetSet>& sets, const std::vector<SceneBudget>& scenes,
                           const std::vector<CaseStudy>& studies);
 

@@ -1,4 +1,4 @@
-// unit.study_report: what the page says of error bars, of made-up sets and studies.
+// unit.study_report: the page's section on error bars, from made-up sets and studies.
 #include "reports/bars.hpp"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 namespace voussoir::reports {
 namespace {
 
-TEST(Bars, CountsWhatTheyCover) {
+TEST(Bars, CountTheErrorsThatTheyCover) {
   const BudgetSet set =
       read_budget_set("wedge", "truth_deg,error_deg,bar_deg,cost\n30,0.01,0.02,2\n40,0.01,0.04,3\n50,0.03,0.02,9\n");
   EXPECT_EQ(bars_csv({set}), "case,error_deg,bar_deg\nwedge,0.01,0.02\nwedge,0.01,0.04\nwedge,0.03,0.02\n");
@@ -22,7 +22,7 @@ TEST(Bars, CountsWhatTheyCover) {
   EXPECT_EQ(bars_markdown({}, {}, {}), "");
 }
 
-TEST(Bars, ListWhatABudgetFound) {
+TEST(Bars, ListTheLinesOfABudget) {
   const auto results = nlohmann::json::parse(R"({"values": {"height": {"value": 1, "unit": "m"}, "critical_friction": {
     "value": 33.358, "unit": "deg", "error_bar": 0.012, "bracket": 0.0026, "budget": [
       {"varied": "shear stiffness", "change": "a ninth", "shift": 0.0051, "left": 0.0077, "sensitivity": false},
@@ -37,7 +37,7 @@ TEST(Bars, ListWhatABudgetFound) {
 }
 
 // 30 deg; bars of 0.5, 0.1 and none
-TEST(Bars, OfBracketsAloneAreCountedInTheStudies) {
+TEST(Bars, OfBracketsOnlyAreCountedInTheStudies) {
   const Study study = judge_study(
       read_study("sweep,key,value,unit,quantity,result,error_bar,result_unit,status,contact_evaluations,steps,seconds\n"
                  "default,,,,angle,30.2,0.5,deg,ok,1000,100,1\n"

@@ -28,7 +28,7 @@ std::string note(const std::string& text) {
   return fmt::format("<p class=\"note\">{}</p>\n", escape(text));
 }
 
-// what one page is made of, and the figures it has already shown
+// the parts of one page, and the figures that it has already shown
 struct Page {
   const Folders& folders;
   std::string name;
@@ -43,7 +43,7 @@ struct Page {
     return note(text);
   }
 
-  // a figure is looked for among the case's and the study's; its caption is HTML already
+  // a figure is sought among the case's and the study's; its caption is HTML already
   std::string show_figure(const std::string& stem, const std::string& caption) {
     shown.insert(stem);
     try {
@@ -54,7 +54,7 @@ struct Page {
     }
   }
 
-  // inside the manual a file of the repository is an anchor, or just its name
+  // inside the manual a file of the repository is an anchor, or only its name
   std::optional<std::string> anchor_of(const std::string& target) const {
     if (target.starts_with("http") || target.starts_with("#")) return target;
     const fs::path path(target);
@@ -89,7 +89,7 @@ std::string scene_files(const Page& page) {
   return text.empty() ? "" : "<h3>Scene</h3>\n" + text;
 }
 
-// measurements, trials and abandoned rules: closed until a reader asks for them
+// measurements, trials and abandoned rules: folded until a reader opens them
 std::string notes(Page& page) {
   const fs::path file = page.case_folder() / "NOTES.md";
   if (!fs::exists(file)) return "";
@@ -98,7 +98,7 @@ std::string notes(Page& page) {
                      page.render(read_text(file), 2, true));
 }
 
-// the blocks that can be turned, as make_views.py has left them
+// the interactive view of the blocks, written by make_views.py
 std::string blocks(const Page& page) {
   const fs::path figures = page.folders.build / "reports" / "views" / (page.name + ".html");
   return fs::exists(figures) ? fmt::format("<h3 id=\"{}-blocks\">Blocks</h3>\n{}", slug(page.name), read_text(figures))
@@ -122,7 +122,7 @@ std::string case_page(const Folders& folders, const Verdicts& verdicts, const Ca
   text += fmt::format("<p class=\"quiet\">Case <code class=\"case-name\">{}</code></p>\n", escape(status.name));
   if (status.state != CaseState::run) text += fmt::format("<p>{}</p>\n", badge(name_of(status.state)));
 
-  // the words first: problem, reference, model, quantities, result, limits
+  // first the text: problem, reference, model, quantities, result, limits
   const fs::path readme = page.case_folder() / "README.md";
   if (fs::exists(readme))
     text += page.render(read_text(readme), 1, true);

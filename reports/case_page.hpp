@@ -10,10 +10,10 @@ namespace voussoir::reports {
 
 struct Folders {
   std::filesystem::path source;  // the repository
-  std::filesystem::path build;   // where verdicts, figures and studies were written
+  std::filesystem::path build;   // folder in which verdicts, figures and studies were written
 };
 
-// What could not be shown is named on the page, and in `missing`, one sentence each.
+// Parts that could not be shown are named on the page, and in `missing`, one sentence each.
 std::string case_page(const Folders& folders, const verification::Verdicts& verdicts,
                       const verification::CaseStatus& status, std::vector<std::string>& missing);
 

@@ -1,5 +1,5 @@
-// voussoir_matrix: whether equations, thesis cases, promises and the sources of the checks fit together; says what does
-// not.
+// voussoir_matrix: whether equations, thesis cases, promises and the sources of the checks fit together; lists those
+// that do not.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

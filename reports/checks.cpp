@@ -15,9 +15,9 @@ namespace {
 using namespace verification;
 
 constexpr int groups = 2;
-constexpr double drawn_within = 1.4;  // tolerances: what failed by more stands at the edge of the figure
+constexpr double drawn_within = 1.4;  // tolerances: checks that failed by more are drawn at the edge of the figure
 
-// which of the two groups a row belongs to
+// the group of a row
 std::optional<int> group_of(const Row& row) {
   for (int g = 0; g < groups; ++g)
     if (belongs_to(row, verdict_groups()[g])) return g;
@@ -28,7 +28,7 @@ bool is_finite(const Row& row) {
   return std::isfinite(row.computed) && std::isfinite(row.check.expected);
 }
 
-// (computed - expected) / tolerance, of a check that has one both ways
+// (computed - expected) / tolerance, of a check with a two-sided tolerance
 std::optional<double> over_tolerance(const Row& row) {
   const double half = width(row.check.expected, row.check.tolerance);
   if (!is_finite(row) || row.check.tolerance.bound != Bound::both || half == 0) return std::nullopt;
@@ -68,7 +68,7 @@ GroupSpread spread_of_group(const Verdicts& verdicts, int group) {
   return result;
 }
 
-// where beside the middle of its case a check is drawn: five lanes in turn
+// offset of a check from the middle of its case in the figure: five lanes in turn
 double lane(int number) {
   return 0.12 * (2 * number % 5 - 2);
 }
@@ -147,18 +147,16 @@ std::string checks_cases_csv(const CheckSpreads& spreads) {
 std::string checks_markdown(const CheckSpreads& spreads) {
   std::string text =
       "![Computed against expected, of all checks whose numbers are not zero, in the unit of each, without their "
-      "signs. "
-      "On the line they agree; an inequality may lie on its side of it.](checks_values.svg)\n\n"
+      "signs. On the line they agree; an inequality may be on its allowed side of it.](checks_values.svg)\n\n"
       "![Error over tolerance, a point a check, case by case: within ±1 a check passes. The black mark is the mean of "
       "the case's checks, its bar their scatter. One-sided checks, and those that must agree to the last digit, are "
       "left out.](checks_errors.svg)\n\n"
       "*Bias* is the mean of error over tolerance and *scatter* its standard deviation: 0 and 0.58 would be errors "
-      "spread evenly over the tolerance; much less says that tolerances are wide for what is reached, a bias near ±1 "
-      "that one side is always taken. The ratio of computed to expected tells the same without tolerances, as a "
-      "geometric mean with its scatter.\n\n"
+      "spread evenly over the tolerance; much less means that tolerances are wide compared with the errors, a bias "
+      "near ±1 that the errors are always on one side. The ratio of computed to expected shows the same without "
+      "tolerances, as a geometric mean with its scatter.\n\n"
       "| | checks | passed | both sides | one side | to the last digit | bias, of the tolerance | scatter | computed "
-      "over "
-      "expected | scatter |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n";
+      "over expected | scatter |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n";
   for (const GroupSpread& group : spreads.groups) {
     const Spread &error = group.over_tolerance, &ratio = group.log_ratio;
     text += fmt::format("| {} | {} | {} | {} | {} | {} | ", group.title, group.judged, group.passed, error.count,
@@ -169,7 +167,7 @@ std::string checks_markdown(const CheckSpreads& spreads) {
                 : fmt::format("{:.4f} | {} % |\n", std::exp(ratio.mean), number(100 * std::expm1(ratio.deviation)));
   }
   return text + fmt::format(
-                    "\nExpected values of zero, {} in verification and {} in validation, have no place on logarithmic "
+                    "\nExpected values of zero, {} in verification and {} in validation, cannot be on logarithmic "
                     "axes.\n",
                     spreads.groups[0].expected_zero, spreads.groups[1].expected_zero);
 }

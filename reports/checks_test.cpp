@@ -1,4 +1,4 @@
-// unit.study_report: all checks at one look, of made-up verdicts; names for gnuplot; files of subfolders.
+// unit.study_report: all checks at a glance, of made-up verdicts; names for gnuplot; files of subfolders.
 #include "reports/checks.hpp"
 
 #include <gtest/gtest.h>
@@ -44,7 +44,7 @@ TEST(Checks, SpreadIsMeanAndSampleDeviation) {
   EXPECT_EQ(in_words(two), "bias 2, scatter 1.4");
 }
 
-TEST(Checks, VerificationAndValidationStandApart) {
+TEST(Checks, VerificationAndValidationAreApart) {
   const CheckSpreads spreads = spreads_of(some());
   const GroupSpread &verification = spreads.groups[0], &validation = spreads.groups[1];
   EXPECT_EQ(verification.title, "Verification");

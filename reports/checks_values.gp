@@ -1,4 +1,4 @@
-# All checks, computed against expected. draw.sh passes: points (checks.csv), and what only checks_errors.gp needs.
+# All checks, computed against expected. draw.sh passes: points (checks.csv), and others that only checks_errors.gp needs.
 set terminal svg size 760,420
 set logscale xy
 set format xy '10^{%T}'

@@ -13,9 +13,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int not_installed = 77;  // what draw.sh ends with without gnuplot
+constexpr int not_installed = 77;  // exit code of draw.sh without gnuplot
 
-// one word of a shell command, whatever it holds
+// one word of a shell command, whatever characters it has
 std::string quoted(const std::string& text) {
   std::string word = "'";
   for (const char character : text)
@@ -29,7 +29,7 @@ std::string as_words(const std::vector<std::string>& names) {
   std::string words;
   for (const std::string& name : names) {
     if (name.find('"') != std::string::npos)
-      throw std::runtime_error(fmt::format("not drawn: the name {} has a double quote; take it out", name));
+      throw std::runtime_error(fmt::format("not drawn: the name {} has a double quote; remove it", name));
     words += fmt::format("{}\"{}\"", words.empty() ? "" : " ", name);
   }
   return words;

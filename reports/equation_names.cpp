@@ -30,7 +30,7 @@ struct Number {
   std::string text() const { return fmt::format("{}.{}", chapter, count); }
 };
 
-// takes a word from the front of a text, if it stands there
+// takes a word from the front of a text, if it begins with it
 bool take(std::string_view& text, std::string_view word) {
   if (!text.starts_with(word)) return false;
   text.remove_prefix(word.size());
@@ -126,7 +126,7 @@ class Reader {
     take_comment();
   }
 
-  // paragraph by paragraph, for a name may stand on two lines
+  // paragraph by paragraph, since a name may be spread over two lines
   void read_page(const std::string& text) {
     std::istringstream lines(text);
     int number = 0;
@@ -149,7 +149,8 @@ class Reader {
   void note(const std::string& text, int line) {
     if (text.find("Eq") == std::string::npos && text.find("eq") == std::string::npos) return;
     for (const std::string& form : wrongly_named(text))
-      found_.wrong.push_back(fmt::format("{}:{}: '{}' is no name of an equation; write Eq. or Eqs", file_, line, form));
+      found_.wrong.push_back(
+          fmt::format("{}:{}: '{}' is not a valid name of an equation; write Eq. or Eqs", file_, line, form));
     const bool in_a_case = file_.starts_with("cases/");
     for (const std::string& number : equations_named(text)) {
       Place place = place_;
@@ -175,7 +176,7 @@ Place place_of(const std::string& file) {
   return Place::helper;
 }
 
-// CTest entries; a name that CMake puts together from others is none of these
+// CTest entries; a name that CMake composes of others is none of these
 void read_programs(const std::string& text, std::set<std::string>& programs) {
   static const std::regex entry(
       R"re((voussoir_\w*test|voussoir_case|voussoir_same_bits|add_test)\((?:NAME )?([\w.]+)[\s)])re");
@@ -212,7 +213,7 @@ SourceNames read_source_names(const fs::path& repository) {
     Reader reader(file, is_page ? Place::page : place_of(file), of_file);
     is_page ? reader.read_page(verification::read_text(path)) : reader.read_source(verification::read_text(path));
     found.tests.merge(of_file.tests);
-    // what makes and tests the matrix names equations that there are not, and writes them wrongly
+    // the tests of the matrix name equations that do not exist, and write names wrongly on purpose
     if (is_source && file.starts_with("reports/")) continue;
     found.namings.insert(found.namings.end(), of_file.namings.begin(), of_file.namings.end());
     found.wrong.insert(found.wrong.end(), of_file.wrong.begin(), of_file.wrong.end());

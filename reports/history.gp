@@ -1,4 +1,4 @@
-# What the versions computed, case by case, against the present. draw.sh passes: data (history.csv), cases (names, '|'
+# Results of the versions, case by case, against the present. draw.sh passes: data (history.csv), cases (names, '|'
 # between them).
 count = 1
 do for [i=1:strlen(cases)] { if (cases[i:i] eq '|') { count = count + 1 } }
@@ -19,7 +19,7 @@ set datafile missing NaN
 unset key
 unset title
 set xrange [-0.3:place_max + 0.3]
-# what changed by more than its own size stands at the edge
+# values that changed by more than their own size are drawn at the edge
 tall(change) = asinh((change > 1 ? 1 : change < -1 ? -1 : change) / 1e-6)
 set yrange [1.05*tall(-1):1.05*tall(1)]
 set ytics ('−1 %%' tall(-0.01), '' tall(-1e-4), '0' 0, '' tall(1e-4), '+1 %%' tall(0.01)) font ',8'

@@ -47,8 +47,7 @@ std::string owned(char* text) {
   return copy;
 }
 
-// All nodes of some types below a node, none of them a leaf: in the order of the text, what stands within another
-// first.
+// All nodes of some types below a node, none of them a leaf: in the order of the text, nested ones first.
 std::vector<cmark_node*> nodes_below(cmark_node* root, std::initializer_list<cmark_node_type> types) {
   std::vector<cmark_node*> found;
   const std::unique_ptr<cmark_iter, decltype(&cmark_iter_free)> walk(cmark_iter_new(root), &cmark_iter_free);
@@ -75,7 +74,7 @@ void follow(const LinkRules& rules, cmark_node* link) {
   remove(link);
 }
 
-// the words of a picture as HTML; they leave it
+// the children of a picture as HTML; they are removed from it
 std::string caption_of(cmark_node* picture) {
   const Node page(cmark_node_new(CMARK_NODE_DOCUMENT), &cmark_node_free);
   cmark_node* line = cmark_node_new(CMARK_NODE_PARAGRAPH);
@@ -191,7 +190,7 @@ void replace_all(std::string& text, std::string_view found, std::string_view oth
     text.replace(at, found.size(), other);
 }
 
-// rgb( 96,  96,  96) at the begin of the text as #606060, and how much of the text that was; nothing where it is none
+// rgb( 96,  96,  96) at the beginning of the text as #606060, and the length of that text; empty if it is none
 std::optional<std::pair<std::string, std::size_t>> short_colour(std::string_view text) {
   const std::string head(text.substr(0, std::string_view("rgb(255, 255, 255)").size()));
   int red = 0, green = 0, blue = 0, length = 0;
@@ -199,8 +198,9 @@ std::optional<std::pair<std::string, std::size_t>> short_colour(std::string_view
   return std::pair(fmt::format("#{:02x}{:02x}{:02x}", red, green, blue), static_cast<std::size_t>(length));
 }
 
-// What gnuplot says of every line and letter is said once, at the figure and in manual.css, or is what SVG takes
-// anyway: half of a figure's size. The titles that it gives to its elements would show as hints beneath the pointer.
+// Attributes that gnuplot repeats for every line and letter are written once, at the figure and in manual.css, or are
+// SVG's defaults: half of a figure's size. The titles that it gives to its elements would show as hints beneath the
+// pointer.
 std::string compact(std::string svg) {
   constexpr std::string_view font = " font-family=\"DejaVu Sans,Helvetica,Arial,sans-serif\"";
   replace_all(svg, font, "");
@@ -231,7 +231,7 @@ std::string inline_svg(const std::filesystem::path& path, const std::string& pre
   const auto start = text.find("<svg");
   const auto end = text.rfind("</svg>");
   if (start == std::string::npos || end == std::string::npos)
-    throw std::runtime_error(path.filename().string() + " holds no figure");
+    throw std::runtime_error(path.filename().string() + " contains no figure");
 
   // every gnuplot file uses the same ids; in one page the first one would win
   static const std::regex id(R"re((\bid=['"]|href=['"]#|url\(['"]?#))re");

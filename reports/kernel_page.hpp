@@ -7,7 +7,7 @@
 
 namespace voussoir::reports {
 
-// What could not be shown is named on the page, and in `missing`, one sentence each.
+// Parts that could not be shown are named on the page, and in `missing`, one sentence each.
 std::string kernel_page(const Folders& folders, std::vector<std::string>& missing);
 
 }  // namespace voussoir::reports

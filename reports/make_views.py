@@ -1,10 +1,10 @@
 #!/usr/bin/python3
-"""make_views.py --source REPOSITORY --build BUILD [--jobs N] [--only CASE …]: what the manual shows of the cases' blocks.
+"""make_views.py --source REPOSITORY --build BUILD [--jobs N] [--only CASE …]: the manual's views of the cases' blocks.
 
 Runs every scene that reports/views.toml names, takes its poster by headless Chromium, and writes BUILD/reports/views:
-CASE.html, the figures of a case, and script.html, which a page holds once. What has not changed, program, scenes of the
-case and entry, is kept. Without the viewer a case's page says why it is missing, without Chromium there are no posters;
-both end with 77. A scene that cannot be run is named, and ends with 1.
+CASE.html, the figures of a case, and script.html, which a page includes once. A figure is kept if program, scenes of the
+case and entry have not changed. Without the viewer a case's page gives the reason, without Chromium there are no posters;
+both end with 77. A scene that cannot be run is named, and the exit code is 1.
 """
 import argparse
 import concurrent.futures
@@ -21,7 +21,7 @@ LONGEST = 300  # s of a run
 
 
 class Missing(Exception):
-    """why something cannot be shown"""
+    """the reason why something cannot be shown"""
 
 
 def last_line(text):
@@ -52,7 +52,7 @@ class Views:
         return text.hexdigest()
 
     def figure(self, view, number):
-        """the piece of the page, made again where something has changed"""
+        """the piece of the page, made again if something has changed"""
         work = self.out / "work" / f"{view['case']}-{number}"
         key, piece, wanted = work / "key", work / "piece.html", self.key(view)
         if not (piece.exists() and key.exists() and key.read_text() == wanted):
@@ -70,13 +70,13 @@ class Views:
             call(self.program, "view", run, "--fragment", "--look", view["look"], *options, "--out", piece)
             shutil.rmtree(run)
             key.write_text(wanted)
-        said = html.escape(view["caption"])
+        caption = html.escape(view["caption"])
         if not self.posters:
-            said += " The picture is missing: node or Chromium was not installed when this page was made."
-        return f'<figure class="view">{piece.read_text()}<figcaption>{said}</figcaption></figure>\n'
+            caption += " The picture is missing: node or Chromium was not installed when this page was made."
+        return f'<figure class="view">{piece.read_text()}<figcaption>{caption}</figcaption></figure>\n'
 
     def case(self, name, views):
-        """writes the figures of one case; says what failed"""
+        """writes the figures of one case; returns the failures"""
         text, failures = "", []
         for number, view in enumerate(views, 1):
             try:
@@ -88,7 +88,7 @@ class Views:
         return failures
 
     def forget_all_but(self, cases):
-        """what an older list made"""
+        """removes the pages of an older list"""
         for page in self.out.glob("*.html"):
             if page.stem not in {*cases, "script"}:
                 page.unlink()
@@ -98,7 +98,7 @@ class Views:
 
     def without_viewer(self, names, reason):
         for name in names:
-            (self.out / f"{name}.html").write_text(f'<p class="note">Blocks that can be turned are missing: {html.escape(reason)}</p>\n')
+            (self.out / f"{name}.html").write_text(f'<p class="note">The interactive view of the blocks is missing: {html.escape(reason)}</p>\n')
 
 
 def main():

@@ -1,4 +1,4 @@
-// voussoir_manual: builds the verification manual, one HTML file that needs nothing else to be read.
+// voussoir_manual: builds the verification manual, a single self-contained HTML file.
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
@@ -24,15 +24,15 @@ namespace fs = std::filesystem;
 using namespace voussoir::reports;
 using namespace voussoir::verification;
 
-// what every part of the manual is made of
+// common inputs of all parts of the manual
 struct Sources {
   Folders folders;
   fs::path keys;  // markdown list of all scene keys
   Verdicts verdicts;
-  std::vector<std::string>& missing;  // what could not be shown, one sentence each
+  std::vector<std::string>& missing;  // parts that could not be shown, one sentence each
 };
 
-// A part of the manual: its section, whose id is `id`, and the line that leads there.
+// A part of the manual: its section, whose id is `id`, and its line in the list of contents.
 struct Part {
   std::string group, id, title, html;
 };
@@ -83,7 +83,7 @@ void add_matrix(const Sources& sources, std::vector<Part>& parts) {
     parts.push_back({"By tests", "equations", "Equations", equations_page(matrix, sources.verdicts)});
     parts.push_back({"By tests", "thesis-cases", "The thesis's cases", thesis_page(matrix)});
     parts.push_back({"By tests", "promises", "Promises", promises_page(matrix)});
-    parts.push_back({"By tests", "grounds", "What checks rest on", grounds_page(matrix, sources.verdicts)});
+    parts.push_back({"By tests", "grounds", "Basis of the checks", grounds_page(matrix, sources.verdicts)});
   } catch (const std::exception& problem) {
     sources.missing.push_back(fmt::format("equations by tests: {}", problem.what()));
     parts.push_back({"By tests", "equations", "Equations",
@@ -93,7 +93,7 @@ void add_matrix(const Sources& sources, std::vector<Part>& parts) {
   }
 }
 
-// what earlier versions computed
+// values of earlier versions
 std::string history(const Sources& sources) {
   const Verdicts& verdicts = sources.verdicts;
   std::string text =
@@ -102,7 +102,7 @@ std::string history(const Sources& sources) {
            ? "No earlier version is kept, so nothing is compared."
            : fmt::format("Every value and every count of contact evaluations is compared with version {}: "
                          "{} of {} rows moved. A value has moved when it differs by more than rounding, a "
-                         "count when it differs at all; the changelog says why.",
+                         "count when it differs at all; the changelog gives the reason.",
                          escape(verdicts.compared_with), verdicts.moved.size(), verdicts.rows.size())) +
       "</p>\n";
   std::string moves;
@@ -118,7 +118,7 @@ std::string history(const Sources& sources) {
   return text + "</section>\n";
 }
 
-// what the viewers of all cases share; nothing where there are none
+// the common script of the viewers of all cases; empty if there are none
 std::string viewer_script(const Sources& sources) {
   const fs::path script = sources.folders.build / "reports" / "views" / "script.html";
   if (fs::exists(script)) return read_text(script);
@@ -130,26 +130,26 @@ std::string viewer_script(const Sources& sources) {
 std::vector<Part> all_parts(const Sources& sources) {
   const Folders& folders = sources.folders;
   const Verdicts& verdicts = sources.verdicts;
-  std::vector<Part> parts{{"", "top", "What this is", front(sources)},
+  std::vector<Part> parts{{"", "top", "About this manual", front(sources)},
                           {"", "verdicts", "Verdicts",
                            "<section id=\"verdicts\">\n<h2>Verdicts</h2>\n" + case_overview(verdicts) +
                                all_tables(verdicts) + "</section>\n"},
-                          {"", "all-checks", "All checks at one look", checks_page(folders, sources.missing)},
+                          {"", "all-checks", "All checks at a glance", checks_page(folders, sources.missing)},
                           {"", "history", "History", history(sources)}};
   add_cases(sources, CaseState::not_modelled, false, "Cases", parts);
   add_cases(sources, CaseState::not_modelled, true, "Not yet modelled", parts);
   add_matrix(sources, parts);
-  parts.push_back({"Speed", "what-accuracy-costs", "What accuracy costs", trade_page(folders, sources.missing)});
-  parts.push_back({"Speed", "what-a-slope-costs", "What it costs on a slope",
-                   text_page(folders, "slope_cost", "what-a-slope-costs")});
+  parts.push_back({"Speed", "what-accuracy-costs", "Cost of accuracy", trade_page(folders, sources.missing)});
+  parts.push_back(
+      {"Speed", "what-a-slope-costs", "Cost on a slope", text_page(folders, "slope_cost", "what-a-slope-costs")});
   parts.push_back({"Speed", "contact-kernel", "The contact kernel", kernel_page(folders, sources.missing)});
   parts.push_back(
-      {"Reference", "what-water-means", "What water means here", text_page(folders, "water", "what-water-means")});
+      {"Reference", "what-water-means", "Water in the model", text_page(folders, "water", "what-water-means")});
   parts.push_back({"Reference", "scene-keys", "Scene keys", scene_keys(sources)});
   return parts;
 }
 
-// the list of parts beside the text, with a box to find cases, keys and equations that the script fills
+// the list of parts beside the text, with a box to find cases, keys and equations, which the script fills
 std::string navigation(const std::vector<Part>& parts) {
   std::string text = fmt::format(
       "<nav><p class=\"name\"><a href=\"#top\">Voussoir</a> <span class=\"quiet\">{}</span></p>\n", VOUSSOIR_VERSION);
@@ -199,7 +199,8 @@ int main(int argc, char** argv) {
   Sources sources{{}, {}, {}, missing};
   fs::path out;
   app.add_option("--source", sources.folders.source, "the repository")->required();
-  app.add_option("--build", sources.folders.build, "the build folder, in which reports/verdicts.json lies")->required();
+  app.add_option("--build", sources.folders.build, "the build folder, which contains reports/verdicts.json")
+      ->required();
   app.add_option("--scene-keys", sources.keys,
                  "markdown list of all scene keys (default: reports/scene_keys.md in the build)");
   app.add_option("--out", out, "the manual (default: reports/manual-VERSION.html in the build)");

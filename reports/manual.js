@@ -1,4 +1,4 @@
-// What the page can do besides being read: find a case, key or equation by name, and print what is folded.
+// Search for a case, key or equation by name, and unfolding of all details for print.
 (() => {
   "use strict";
   const finder = document.getElementById("finder");
@@ -6,7 +6,7 @@
   const list = document.getElementById("found");
   const most = 40;
 
-  // what can be found: where it is, its name, and what its kind is called
+  // entries that can be found: place, name, and name of the kind
   const places = [];
   const add = (element, name, kind, besides = "") => {
     if (!element.id) element.id = "place-" + places.length;
@@ -36,7 +36,7 @@
     add(row, "Eq. " + cells[0].textContent + " " + cells[1].firstChild.textContent, "equation");
   }
 
-  // every word must be there; names come before texts, short names before long
+  // every word must occur; names come before texts, short names before long
   const find = () => {
     const words = box.value.toLowerCase().split(/\s+/).filter((word) => word);
     list.replaceChildren();
@@ -70,7 +70,7 @@
   });
   finder.hidden = false;
 
-  // what is folded is printed, and folded again
+  // folded details are opened for print, and folded again
   let opened = [];
   window.addEventListener("beforeprint", () => {
     opened = [...document.querySelectorAll("details:not([open])")];

@@ -52,7 +52,8 @@ std::string with_rules(const std::string& markdown) {
        }});
 }
 
-// what expressions over HTML would stumble on: code, quotes, brackets, links in tables, around pictures and in captions
+// inputs that would break regular expressions over HTML: code, quotes, brackets, links in tables, around pictures and
+// in captions
 TEST(Html, ChangesLinksAndPicturesInTheTree) {
   EXPECT_EQ(with_rules("[a](x) and [b *c*](drop)"), "<p><a href=\"#x\">a</a> and b <em>c</em></p>\n");
   EXPECT_EQ(with_rules("| t |\n|---|\n| [a](x) |\n").find("<a href=\"x\">"), std::string::npos);
@@ -81,7 +82,7 @@ TEST(Html, MakesIdsOfAFigureUnique) {
   EXPECT_THROW(inline_svg(path, "wedge"), std::runtime_error);
 }
 
-TEST(Html, SaysOnceWhatGnuplotRepeats) {
+TEST(Html, WritesOnceTheAttributesThatGnuplotRepeats) {
   const fs::path path = fs::path(testing::TempDir()) / "voussoir_figure.svg";
   const std::string font = "font-family=\"DejaVu Sans,Helvetica,Arial,sans-serif\"";
   write_atomically(
@@ -96,22 +97,22 @@ TEST(Html, SaysOnceWhatGnuplotRepeats) {
                 "<path stroke='#0072b2' d='M1,2 L3,4'/></g></g> <title>of mine</title><text>rgb(1)</text></svg>");
 }
 
-TEST(TextPage, LeadsToCasesAndTheirScenes) {
+TEST(TextPage, LinksToCasesAndTheirScenes) {
   const fs::path root = fs::path(testing::TempDir()) / "voussoir_text_page_test";
   write_atomically(root / "reports/water.md",
-                   "# Of water\n\n## What acts\n\n[case](../cases/water/README.md), [scene](../cases/water/raft.toml), "
+                   "# Of water\n\n## Loads\n\n[case](../cases/water/README.md), [scene](../cases/water/raft.toml), "
                    "[notes](../cases/water/NOTES.md), [elsewhere](../core/README.md)\n");
   const std::string page = text_page({root, root / "build"}, "water", "of-water");
   EXPECT_TRUE(holds(page, "id=\"of-water\""));
   EXPECT_TRUE(holds(page, "<h2>Of water</h2>"));
-  EXPECT_TRUE(holds(page, "<h3>What acts</h3>"));
+  EXPECT_TRUE(holds(page, "<h3>Loads</h3>"));
   EXPECT_TRUE(holds(page, "href=\"#water\""));
   EXPECT_TRUE(holds(page, "href=\"#water-raft-toml\""));
   EXPECT_TRUE(holds(page, "href=\"#water-notes\""));
   EXPECT_FALSE(holds(page, "core/README.md"));
 }
 
-TEST(CasePage, ShowsWhatThereIsAndNamesWhatIsNot) {
+TEST(CasePage, ShowsExistingPartsAndNamesMissingOnes) {
   const fs::path root = fs::path(testing::TempDir()) / "voussoir_page_test";
   fs::remove_all(root);
   const Folders folders{root, root / "build"};
@@ -149,7 +150,7 @@ TEST(CasePage, ShowsWhatThereIsAndNamesWhatIsNot) {
   EXPECT_TRUE(holds(case_page(folders, verdicts, {"tunnel", CaseState::not_modelled}, missing), "not yet modelled"));
 }
 
-// every case shows its blocks, or says why it has none to show
+// every case shows its blocks, or states why it has none to show
 TEST(Views, NameEveryCaseOnce) {
   const fs::path source = VOUSSOIR_SOURCE_DIR;
   const toml::table views = toml::parse_file((source / "reports" / "views.toml").string());
@@ -170,9 +171,9 @@ TEST(Views, NameEveryCaseOnce) {
   for (const auto& entry : fs::directory_iterator(source / "cases"))
     if (fs::exists(entry.path() / "README.md")) {
       const std::string name = entry.path().filename().string();
-      EXPECT_EQ(shown.erase(name) + without.erase(name), 1U) << name << " does not stand in reports/views.toml";
+      EXPECT_EQ(shown.erase(name) + without.erase(name), 1U) << name << " is not in reports/views.toml";
     }
-  EXPECT_TRUE(shown.empty() && without.empty()) << "reports/views.toml names what is no case";
+  EXPECT_TRUE(shown.empty() && without.empty()) << "reports/views.toml names something that is not a case";
 }
 
 TEST(CasePage, ShowsTheNotesBehindTheCase) {
@@ -205,7 +206,7 @@ TEST(CasePage, ShowsTheNotesBehindTheCase) {
   EXPECT_FALSE(holds(page, "<h3>Figures</h3>"));
 }
 
-TEST(KernelPage, ShowsTheRunAndNamesWhatIsMissing) {
+TEST(KernelPage, ShowsTheRunAndNamesMissingParts) {
   const fs::path root = fs::path(testing::TempDir()) / "voussoir_kernel_page_test";
   fs::remove_all(root);
   const Folders folders{root, root / "build"};
@@ -226,7 +227,7 @@ TEST(KernelPage, ShowsTheRunAndNamesWhatIsMissing) {
   EXPECT_TRUE(holds(page, "<td align=\"right\">42</td>"));
 }
 
-TEST(TradePage, ShowsTheComparisonAndNamesWhatIsMissing) {
+TEST(TradePage, ShowsTheComparisonAndNamesMissingParts) {
   const fs::path root = fs::path(testing::TempDir()) / "voussoir_trade_page_test";
   fs::remove_all(root);
   const Folders folders{root, root / "build"};
@@ -251,7 +252,7 @@ TEST(TradePage, ShowsTheComparisonAndNamesWhatIsMissing) {
   EXPECT_TRUE(holds(page, "href=\"#wedge\"")) << page;
 }
 
-TEST(ChecksPage, NamesWhatIsMissing) {
+TEST(ChecksPage, NamesMissingParts) {
   const fs::path root = fs::path(testing::TempDir()) / "voussoir_checks_page_test";
   fs::remove_all(root);
   const Folders folders{root, root / "build"};

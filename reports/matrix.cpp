@@ -48,7 +48,7 @@ bool names(const std::string& source, const std::string& ground) {
   return source.find(ground) != std::string::npos;
 }
 
-// "reference/arch" where reference.arch is a test
+// "reference/arch" if reference.arch is a test
 bool names_a_reference(const Matrix& matrix, const std::string& source) {
   static const std::string room = "reference/";
   for (std::size_t at = source.find(room); at != std::string::npos; at = source.find(room, at + 1)) {
@@ -70,14 +70,14 @@ void judge(const Matrix& matrix, const Equation& equation, std::vector<std::stri
   };
   if (equation.is_open()) {
     if (tested)
-      say(fmt::format("is said to be open, but {} names it; take the reason out, or the name",
+      say(fmt::format("is listed as not verified or left out, but {} names it; remove the reason, or the name",
                       at.tests.empty() ? "case " + at.cases.front() : at.tests.front()));
     return;
   }
   if (at.code.empty() && at.references.empty())
-    say("is named by no code; name it where it is, or say in left_out why it is nowhere");
+    say("is named by no code; name it at its place, or state in left_out why it has none");
   if (!tested)
-    say("is named by no test; name it in the test that verifies it, or say in not_verified why there is none");
+    say("is named by no test; name it in the test that verifies it, or state in not_verified why there is none");
 }
 
 void judge_tests(const Matrix& matrix, const std::string& who, const std::vector<std::string>& tests,
@@ -184,16 +184,16 @@ std::vector<std::string> problems(const Matrix& matrix) {
       programs.push_back("case." + name);
     judge_programs(matrix, who, programs, found);
     if (entry.cases.empty() && entry.tests.empty() && entry.remark.empty())
-      found.push_back(who + ": names neither case nor test; name one, or say in remark why there is none");
+      found.push_back(who + ": names neither case nor test; name one, or state in remark why there is none");
   }
   for (const Promise& promise : matrix.promises) {
     const std::string who = fmt::format("promises.toml: '{}'", promise.readme);
     if (matrix.readme.find(promise.readme) == std::string::npos)
-      found.push_back(who + ": neither README.md nor a page of docs says it; take its words from there");
+      found.push_back(who + ": is found neither in README.md nor in a page of docs; take its words from there");
     judge_tests(matrix, who, promise.tests, found);
     judge_programs(matrix, who, promise.programs, found);
     if (promise.tests.empty() && promise.programs.empty())
-      found.push_back(who + ": names no test; name what guards it");
+      found.push_back(who + ": names no test; name the tests that guard it");
   }
   return found;
 }
@@ -210,14 +210,14 @@ std::vector<std::string> problems(const Matrix& matrix, const Verdicts& verdicts
     const std::vector<std::string> equations = equations_named(source);
     for (const std::string& number : equations)
       if (!find_equation(matrix, number))
-        say(fmt::format("names Eq. {}, which the thesis has not; correct the number", number));
+        say(fmt::format("names Eq. {}, which is not in the thesis; correct the number", number));
     const bool rests = std::any_of(matrix.grounds.begin(), matrix.grounds.end(),
                                    [&](const Ground& ground) { return names(source, ground.name); });
     if (equations.empty() && !rests && !names_a_reference(matrix, source))
-      say("names neither an equation, nor a work or principle of reports/grounds.toml, nor a room of reference/; name "
-          "one");
+      say("names neither an equation, nor a work or principle of reports/grounds.toml, nor a folder of reference/; "
+          "name one");
     for (const std::string& form : wrongly_named(source))
-      say(fmt::format("has '{}', which is no name of an equation; write Eq. or Eqs", form));
+      say(fmt::format("has '{}', which is not a valid name of an equation; write Eq. or Eqs", form));
   }
   return found;
 }

@@ -21,13 +21,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// how many numbered equations each chapter and appendix of the thesis has
+// number of numbered equations of each chapter and appendix of the thesis
 constexpr std::array chapters{std::pair{"3", 55}, std::pair{"4", 18}, std::pair{"5", 14}, std::pair{"6", 9},
                               std::pair{"A", 10}, std::pair{"B", 1},  std::pair{"C", 1},  std::pair{"D", 2},
                               std::pair{"E", 2},  std::pair{"F", 8},  std::pair{"G", 3},  std::pair{"H", 6},
                               std::pair{"I", 4}};
 
-// the number of a chapter's last equation; 0 of what is none
+// the number of a chapter's last equation; 0 if there is no such chapter
 int last_of(std::string_view chapter) {
   for (const auto& [name, last] : chapters)
     if (chapter == name) return last;
@@ -50,7 +50,7 @@ toml::table parsed(const fs::path& file) {
   }
 }
 
-// One table of a list; what is asked of it is what it may hold.
+// One table of a list; the keys that are read are the keys that it may have.
 class Entry {
  public:
   Entry(const fs::path& file, const toml::table& table, std::string name)
@@ -78,7 +78,7 @@ class Entry {
     if (!node) return values;
     if (!node->is_array()) refuse(file_, line_of(*node), fmt::format("{}: {} must be a list of texts", name_, key));
     for (const toml::node& value : *node->as_array()) {
-      if (!value.is_string()) refuse(file_, line_of(value), fmt::format("{}: {} must hold texts", name_, key));
+      if (!value.is_string()) refuse(file_, line_of(value), fmt::format("{}: {} must contain texts", name_, key));
       values.push_back(value.ref<std::string>());
     }
     return values;
@@ -87,7 +87,7 @@ class Entry {
   void end() const {
     for (const auto& [key, node] : table_)
       if (std::find(known_.begin(), known_.end(), key.str()) == known_.end())
-        refuse(file_, line_of(node), fmt::format("{}: {} is no key here; take it out", name_, key.str()));
+        refuse(file_, line_of(node), fmt::format("{}: {} is not a key here; remove it", name_, key.str()));
   }
 
  private:
@@ -102,7 +102,7 @@ template <class Item, class Read>
 std::vector<Item> read_list(const fs::path& file, const char* name, Read read) {
   const toml::table whole = parsed(file);
   const toml::array* list = whole[name].as_array();
-  if (!list || whole.size() != 1) refuse(file, 1, fmt::format("must hold [[{}]] tables and nothing else", name));
+  if (!list || whole.size() != 1) refuse(file, 1, fmt::format("must contain [[{}]] tables only", name));
   std::vector<Item> items;
   for (const toml::node& node : *list) {
     if (!node.is_table()) refuse(file, line_of(node), fmt::format("{} must be a table", name));
@@ -134,7 +134,7 @@ Equation read_equation(const fs::path& file, const toml::table& table, const std
                           .not_verified = entry.text("not_verified")};
   entry.end();
   if (!equation.left_out.empty() && !(equation.not_verified + equation.instead).empty())
-    refuse(file, line_of(table), number + ": what is left out needs no other reason; take one out");
+    refuse(file, line_of(table), number + ": an equation that is left out needs no other reason; remove one");
   return equation;
 }
 
@@ -147,7 +147,8 @@ std::vector<Equation> read_equations(const fs::path& list, const fs::path& formu
   for (const auto& [chapter, node] : whole) {
     const int last = last_of(chapter.str());
     if (last == 0 || !node.is_table())
-      refuse(list, line_of(node), fmt::format("{} is no chapter of the thesis with numbered equations", chapter.str()));
+      refuse(list, line_of(node),
+             fmt::format("{} is not a chapter of the thesis with numbered equations", chapter.str()));
     for (const auto& [count, table] : *node.as_table()) {
       const std::string number = fmt::format("{}.{}", chapter.str(), count.str());
       const bool whole_number = count.str().find_first_not_of("0123456789") == std::string_view::npos;
@@ -166,7 +167,7 @@ std::vector<Equation> read_equations(const fs::path& list, const fs::path& formu
           fmt::format("<annotation encoding=\"application/x-tex\">{}</annotation>", escape(equation.tex));
       if (set == formulas.end() || set->second.find(made_of) == std::string::npos)
         refuse(list, line_of(*node),
-               fmt::format("{}: its MathML is not made of this formula; run reports/set_formulas.sh", number));
+               fmt::format("{}: its MathML was made of another formula; run reports/set_formulas.sh", number));
       equation.formula = set->second;
       equations.push_back(std::move(equation));
     }
@@ -197,9 +198,10 @@ std::vector<Ground> read_grounds(const fs::path& list) {
   std::vector<Ground> grounds;
   for (const char* kind : {"works", "principles"}) {
     const toml::table* table = whole[kind].as_table();
-    if (!table || whole.size() != 2) refuse(list, 1, "must hold the tables works and principles and nothing else");
+    if (!table || whole.size() != 2) refuse(list, 1, "must contain the tables works and principles only");
     for (const auto& [name, meaning] : *table) {
-      if (!meaning.is_string()) refuse(list, line_of(meaning), fmt::format("{} must say what it is", name.str()));
+      if (!meaning.is_string())
+        refuse(list, line_of(meaning), fmt::format("{} must have its meaning as text", name.str()));
       grounds.push_back({std::string(name.str()), meaning.ref<std::string>(), std::string_view(kind) == "works"});
     }
   }

@@ -64,7 +64,7 @@ std::string section(const std::string& id, const std::string& title, const std::
   return fmt::format("<section class=\"case\" id=\"{}\">\n<h2>{}</h2>\n{}</section>\n", id, title, content);
 }
 
-// what a chapter of the thesis is about
+// subject of a chapter of the thesis
 std::string chapter_title(char chapter) {
   switch (chapter) {
     case '3':
@@ -110,20 +110,16 @@ std::string equations_page(const Matrix& matrix, const Verdicts& verdicts) {
     ++counts[static_cast<int>(verified(equation))];
   std::string text = fmt::format(
       "<p>Every numbered equation of Boon (2013): {} are in the code and verified by a test, {} are left out, {} are "
-      "not verified, "
-      "each with its reason. Where the code does something else instead, the tests named verify that. Code and tests "
-      "name "
-      "equations, and this table is made of those names and of the sources of the checks; a name without equation and "
-      "an "
-      "equation without test are failures of <code>report.equations</code>.</p>\n",
+      "not verified, each with its reason. If the code does something else instead, the named tests verify that. Code "
+      "and tests name equations, and this table is made of those names and of the sources of the checks; a name "
+      "without equation and an equation without test are failures of <code>report.equations</code>.</p>\n",
       counts[0], counts[static_cast<int>(Verified::left_out)], counts[static_cast<int>(Verified::not_verified)]);
   for (auto equation = matrix.equations.begin(); equation != matrix.equations.end();) {
     const std::string title = chapter_title(equation->number[0]);
     std::string body;
     for (; equation != matrix.equations.end() && chapter_title(equation->number[0]) == title; ++equation)
       body += equation_row(matrix, verdicts, *equation);
-    text +=
-        fmt::format("<h3>{}</h3>\n", title) + table("equations", {"Eq.", "what it says", "in", "verified by"}, body);
+    text += fmt::format("<h3>{}</h3>\n", title) + table("equations", {"Eq.", "subject", "in", "verified by"}, body);
   }
   return section("equations", "Equations by tests", text);
 }
@@ -139,11 +135,10 @@ std::string thesis_page(const Matrix& matrix) {
     body += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", escape(entry.thesis),
                         escape(entry.subject), join(by, "<br>"), escape(entry.remark));
   }
-  return section("thesis-cases", "The thesis's cases by ours",
-                 "<p>What Boon (2013) computed, drew and tabulated, in its order, and the cases that answer it. A "
-                 "remark says what "
-                 "is not made again, and why.</p>\n" +
-                     table("thesis", {"thesis", "what it shows", "ours", "remark"}, body));
+  return section("thesis-cases", "Cases of the thesis",
+                 "<p>Computations, figures and tables of Boon (2013), in its order, and our cases for them. A remark "
+                 "states which parts are not repeated, and why.</p>\n" +
+                     table("thesis", {"thesis", "subject", "ours", "remark"}, body));
 }
 
 std::string promises_page(const Matrix& matrix) {
@@ -154,14 +149,15 @@ std::string promises_page(const Matrix& matrix) {
     body += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td></tr>\n", escape(promise.readme), escape(promise.meaning),
                         guards);
   }
-  return section("promises", "Promises by tests",
-                 "<p>What the README and the pages of docs promise, and the tests that fail when it is broken.</p>\n" +
-                     table("promises", {"in the pages' words", "meaning", "guarded by"}, body));
+  return section(
+      "promises", "Promises by tests",
+      "<p>Promises of the README and the pages of docs, and the tests that fail when they are broken.</p>\n" +
+          table("promises", {"in the pages' words", "meaning", "guarded by"}, body));
 }
 
 std::string grounds_page(const Matrix& matrix, const Verdicts& verdicts) {
   std::string text =
-      "<p>A check's source names what its expected value comes from: an equation of the thesis, a closed form in "
+      "<p>A check's source names the origin of its expected value: an equation of the thesis, a closed form in "
       "<code>reference/</code>, which shares no code with the method, a published work, or a principle.</p>\n";
   for (const bool works : {true, false}) {
     std::string body;
@@ -172,7 +168,7 @@ std::string grounds_page(const Matrix& matrix, const Verdicts& verdicts) {
     text += fmt::format("<h3>{}</h3>\n", works ? "Works" : "Principles") +
             table("grounds", {"name", works ? "work" : "meaning", "checks"}, body);
   }
-  return section("grounds", "What checks rest on", text);
+  return section("grounds", "Basis of the checks", text);
 }
 
 }  // namespace voussoir::reports

@@ -1,6 +1,6 @@
 #pragma once
-// The matrix as pages of the manual: equations by tests, the thesis's cases by ours, promises by tests, and what checks
-// rest on.
+// The matrix as pages of the manual: equations by tests, the cases of the thesis, promises by tests, and the basis of
+// the checks.
 #include <string>
 
 #include "reports/matrix.hpp"

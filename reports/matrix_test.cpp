@@ -85,7 +85,7 @@ bool holds(const std::vector<std::string>& problems, const std::string& part) {
   return false;
 }
 
-TEST(Matrix, IsMadeOfWhatTheSourcesName) {
+TEST(Matrix, IsMadeOfTheNamesInTheSources) {
   const Copy copy;
   const Matrix matrix = read_matrix(copy.root);
   const EquationPlaces limit = equation_places(matrix, equation(matrix, "4.8"));
@@ -110,14 +110,14 @@ TEST(Matrix, OfThisRepositoryFits) {
   EXPECT_LE(open, most_not_verified);
 }
 
-// ---- every failing, on a damaged copy ------------------------------------------------------------------------------
+// ---- every problem, on a damaged copy ------------------------------------------------------------------------------
 
-TEST(Matrix, ANameWithoutEquationShows) {
+TEST(Matrix, ReportsANameWithoutEquation) {
   const Copy copy("// Eq. 4.19\nTEST(Cone, More) {\n}\n");
   EXPECT_TRUE(holds(problems(read_matrix(copy.root)), "core/joint_laws/law_test.cpp:8: the thesis has no Eq. 4.19"));
 }
 
-TEST(Matrix, AnEquationWithoutTestShows) {
+TEST(Matrix, ReportsAnEquationWithoutTest) {
   const Copy copy;
   const auto found = problems(read_matrix(copy.root));
   EXPECT_TRUE(holds(found, "Eq. 3.27 is named by no code"));
@@ -127,34 +127,36 @@ TEST(Matrix, AnEquationWithoutTestShows) {
   EXPECT_FALSE(holds(found, "Eq. E.2 is named by no test"));
 }
 
-TEST(Matrix, ATestOfWhatIsLeftOutShows) {
+TEST(Matrix, ReportsATestOfAnEquationThatIsLeftOut) {
   const Copy copy("// Eq. 4.15\nTEST(Cone, Falls) {\n}\n");
-  EXPECT_TRUE(holds(problems(read_matrix(copy.root)), "Eq. 4.15 is said to be open, but Cone.Falls names it"));
+  EXPECT_TRUE(holds(problems(read_matrix(copy.root)),
+                    "Eq. 4.15 is listed as not verified or left out, but Cone.Falls names it"));
 }
 
-TEST(Matrix, ATestOrCaseThatThereIsNotShows) {
+TEST(Matrix, ReportsAMissingTestOrCase) {
   const Copy copy;
   const auto found = problems(read_matrix(copy.root));
   EXPECT_TRUE(holds(found, "there is no test Faults.ThirtyKillsLoseNothing"));
   EXPECT_TRUE(holds(found, "thesis_cases.toml: 4.8, Fig. 4.11: CTest knows no case.wedge"));
-  EXPECT_TRUE(holds(found, "neither README.md nor a page of docs says it"));
+  EXPECT_TRUE(holds(found, "is found neither in README.md nor in a page of docs"));
 }
 
-TEST(Matrix, AnotherFormOfNameShows) {
+TEST(Matrix, ReportsAnotherFormOfName) {
   const Copy copy("// equation 4.8\nTEST(Cone, More) {\n}\n");
-  EXPECT_TRUE(holds(problems(read_matrix(copy.root)), "law_test.cpp:8: 'equation 4.8' is no name of an equation"));
+  EXPECT_TRUE(
+      holds(problems(read_matrix(copy.root)), "law_test.cpp:8: 'equation 4.8' is not a valid name of an equation"));
 }
 
 // a case's notes are read as its README.md is
-TEST(Matrix, WrongNamesInNotesShow) {
+TEST(Matrix, ReportsWrongNamesInNotes) {
   const Copy copy;
   write_atomically(copy.root / "cases/beam/NOTES.md", "# Beam: notes\n\nEq. 4.19, equation 4.8.\n");
   const auto found = problems(read_matrix(copy.root));
   EXPECT_TRUE(holds(found, "cases/beam/NOTES.md:3: the thesis has no Eq. 4.19"));
-  EXPECT_TRUE(holds(found, "cases/beam/NOTES.md:3: 'equation 4.8' is no name of an equation"));
+  EXPECT_TRUE(holds(found, "cases/beam/NOTES.md:3: 'equation 4.8' is not a valid name of an equation"));
 }
 
-TEST(Matrix, MoreThanFifteenWithoutTestShow) {
+TEST(Matrix, ReportsMoreThanFifteenWithoutTest) {
   const Copy copy;
   std::string text = read_text(copy.root / "reports/equations.toml");
   for (int count = 1; count <= most_not_verified; ++count) {
@@ -172,14 +174,14 @@ TEST(Matrix, ADamagedListIsRefusedWithItsPlace) {
     return refusal([&] { read_matrix(copy.root); });
   };
   EXPECT_NE(refused("[4.9]", "[4.19]").find("the thesis has no Eq. 4.19"), std::string::npos);
-  EXPECT_NE(refused("[4.9]\n", "[4.8]\n").find("equations.toml:"), std::string::npos);  // an equation stands once
+  EXPECT_NE(refused("[4.9]\n", "[4.8]\n").find("equations.toml:"), std::string::npos);  // an equation is listed once
   EXPECT_NE(refused("[4.9]\nsubject", "[4.x]\nsubject").find("the thesis has no Eq. 4.x"), std::string::npos);
   EXPECT_NE(refused("subject = \"its limit\"\n", "").find("4.8: subject is missing"), std::string::npos);
-  EXPECT_NE(refused("\\mu F_n'", "\\mu F'").find("4.8: its MathML is not made of this formula"), std::string::npos);
-  EXPECT_NE(refused("left_out = ", "reason = ").find("reason is no key here"), std::string::npos);
+  EXPECT_NE(refused("\\mu F_n'", "\\mu F'").find("4.8: its MathML was made of another formula"), std::string::npos);
+  EXPECT_NE(refused("left_out = ", "reason = ").find("reason is not a key here"), std::string::npos);
 }
 
-TEST(Matrix, ASourceThatNamesNothingShows) {
+TEST(Matrix, ReportsASourceThatNamesNoGround) {
   const Copy copy;
   write_atomically(copy.root / "reference/CMakeLists.txt", "voussoir_test(reference.arch LABEL reference)\n");
   const Matrix matrix = read_matrix(copy.root);
@@ -190,8 +192,8 @@ TEST(Matrix, ASourceThatNamesNothingShows) {
   };
   EXPECT_TRUE(holds(found("a number"), "case wedge: check 'angle': its source 'a number' names neither"));
   EXPECT_TRUE(holds(found("reference/nothing"), "names neither"));
-  EXPECT_TRUE(holds(found("Boon (2013), Eq. 4.19"), "names Eq. 4.19, which the thesis has not"));
-  EXPECT_TRUE(holds(found("Boon (2013), equation 4.8"), "is no name of an equation"));
+  EXPECT_TRUE(holds(found("Boon (2013), Eq. 4.19"), "names Eq. 4.19, which is not in the thesis"));
+  EXPECT_TRUE(holds(found("Boon (2013), equation 4.8"), "is not a valid name of an equation"));
   for (const char* good :
        {"Eq. 4.8", "least mechanism, reference/arch", "Newmark (1965), sliding block", "equilibrium: W/k"})
     EXPECT_TRUE(found(good).empty()) << good;
@@ -202,7 +204,7 @@ TEST(Matrix, ASourceThatNamesNothingShows) {
 
 // ---- pages ---------------------------------------------------------------------------------------------------------
 
-TEST(MatrixPage, SetsFormulasAndLeadsToChecks) {
+TEST(MatrixPage, SetsFormulasAndLinksToChecks) {
   const Copy copy;
   const Matrix matrix = read_matrix(copy.root);
   Verdicts verdicts;

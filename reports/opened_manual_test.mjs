@@ -1,4 +1,4 @@
-// node opened_manual_test.mjs MANUAL.html CASES: whether the blocks of a manual can be turned where it is read: posters
+// node opened_manual_test.mjs MANUAL.html CASES: whether the blocks of a manual can be turned in its page: posters
 // first, a picture when one is clicked, through which the manual's own style lets the blocks be seen.
 import assert from 'node:assert/strict';
 import { Browser } from '../viewer/test/browser.mjs';
@@ -13,8 +13,8 @@ assert.equal(await browser.js("return document.querySelectorAll('canvas').length
 await browser.js("document.querySelector('.voussoir .poster').click()");
 await browser.until('picture', `${states('ready')} === 1`);
 assert.equal(await browser.js("return getComputedStyle(document.querySelector('.voussoir svg.overlay, .voussoir .overlay svg')).backgroundColor"),
-  'rgba(0, 0, 0, 0)', 'what lies over the blocks lets them be seen');
-// what the list of views says is what is seen
+  'rgba(0, 0, 0, 0)', 'the layer over the blocks is transparent');
+// the view shows the state that the list of views states
 assert.equal(await browser.js('return window.voussoir.views[0].look.forces'), 'arrows');
 await browser.quiet(manual);
 await browser.close();

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""printed_test.py BUILD SOURCE FOLDER: a manual of two cases, with blocks that can be turned, is made, opened, printed and compared.
+"""printed_test.py BUILD SOURCE FOLDER: a manual of two cases, with interactive views of blocks, is made, opened, printed and compared.
 
-The PDF must say what the page says, and a page with another number, title or line of a scene must be told from it. Ends with
-77 where the viewer, Chromium or poppler-utils is missing; VOUSSOIR_NO_SKIP=1 makes that a failure.
+The PDF must have the text of the page, and a page with another number, title or line of a scene must be found to differ. Ends
+with 77 if the viewer, Chromium or poppler-utils is missing; VOUSSOIR_NO_SKIP=1 makes that a failure.
 """
 import json
 import os
@@ -32,7 +32,7 @@ def run(*command, wanted=0):
 
 def expect(truth, what):
     if not truth:
-        stop(1, f"not so: {what}")
+        stop(1, f"failed: {what}")
 
 
 def row(case, computed):
@@ -54,8 +54,8 @@ run(source / "reports" / "make_views.py", "--source", source, "--build", folder,
 run(build / "reports" / "voussoir_manual", "--source", source, "--build", folder, "--out", manual)
 page = manual.read_text()
 expect(page.count('<div class="voussoir"') == len(cases), "each case shows its blocks")
-expect(page.count('<img alt="blocks" src="data:image/webp;base64,') == len(cases), "each has a poster")
-expect(page.count('id="voussoir-viewer"') == 1, "the page holds the viewer once")
+expect(page.count('<img alt="blocks" src="data:image/webp;base64,') == len(cases), "each case has a poster")
+expect(page.count('id="voussoir-viewer"') == 1, "the page contains the viewer once")
 
 run(shutil.which("node") or "nodejs", source / "reports" / "opened_manual_test.mjs", manual, len(cases))
 
@@ -65,7 +65,7 @@ pictures = run("pdfimages", "-list", printed)
 expect(sum(" 920 " in line for line in pictures.splitlines()) >= len(cases), "posters are printed")
 changes = {"33.3588": "33.3589", "<h2>Scene keys</h2>": "<h2>Keys of scenes</h2>", "normal_stiffness = 1e9": "normal_stiffness = 2e9"}
 for found, other in changes.items():
-    expect(found in page, f"the page holds {found}")
+    expect(found in page, f"the page contains {found}")
     damaged.write_text(page.replace(found, other))
     text = run(source / "reports" / "same_numbers.py", damaged, printed, wanted=1)
-    expect(other.replace("<h2>", "").replace("</h2>", "") in text, f"what differs is named: {other}, in\n{text}")
+    expect(other.replace("<h2>", "").replace("</h2>", "") in text, f"the difference is named: {other}, in\n{text}")

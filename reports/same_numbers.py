@@ -1,9 +1,9 @@
 #!/usr/bin/python3
-"""same_numbers.py MANUAL.html MANUAL.pdf: whether the printed manual says what the page says.
+"""same_numbers.py MANUAL.html MANUAL.pdf: whether the printed manual has the text and numbers of the page.
 
-Every title, every row of a table with its numbers, and every line of a scene must stand in the PDF's text, and every
-title of the first two levels in its outline. Blanks do not count, since print breaks lines elsewhere. Names what is
-missing, and ends with 1; with 77 without poppler-utils.
+Every title, every row of a table with its numbers, and every line of a scene must be in the PDF's text, and every
+title of the first two levels in its outline. Blanks do not count, since print breaks lines elsewhere. Names the missing
+ones, and ends with 1; with 77 without poppler-utils.
 """
 import html.parser
 import re
@@ -16,11 +16,11 @@ def squeezed(text):
     return "".join(text.split())
 
 
-drawn = "\0"  # where a text is interrupted by a formula or picture, whose letters the PDF has in another order
+drawn = "\0"  # marks a formula or picture within a text, whose letters the PDF has in another order
 
 
 class Page(html.parser.HTMLParser):
-    """titles: (level, text); rows: texts of table rows; lines: of what is set as it was written"""
+    """titles: (level, text); rows: texts of table rows; lines: of preformatted text"""
 
     def __init__(self):
         super().__init__(convert_charrefs=True)
@@ -63,7 +63,7 @@ def main(manual, pdf):
     with open(manual, encoding="utf-8") as file:
         page.feed(file.read())
     raw = subprocess.run(["pdftotext", "-raw", pdf, "-"], capture_output=True, check=True, text=True).stdout
-    # a long line may go on over a page's end
+    # a long line may continue on the next page
     foot = re.compile(r"\f\d+ / \d+\s*Voussoir, verification manual\s*")
     printed = squeezed(foot.sub("", "\f" + raw))
     outline = subprocess.run(["pdftohtml", "-xml", "-i", "-stdout", pdf], capture_output=True, check=True, text=True).stdout
@@ -77,7 +77,7 @@ def main(manual, pdf):
     missing += [f"outline: {title}" for level, title in page.titles if level <= 2 and squeezed(title) not in in_outline]
     for text in missing[:20]:
         print(f"the PDF lacks {text}")
-    print(f"{len(page.titles)} titles, {len(page.rows)} rows and {len(page.lines)} lines of the manual held against the PDF, "
+    print(f"{len(page.titles)} titles, {len(page.rows)} rows and {len(page.lines)} lines of the manual compared with the PDF, "
           f"{len(missing)} missing")
     return 1 if missing else 0
 

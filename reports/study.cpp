@@ -1,5 +1,5 @@
 // voussoir_study_report: turns the study of one case into points, figures, a recommendation and a page for the manual,
-// compares the studies of all cases, and shows all checks at one look.
+// compares the studies of all cases, and shows all checks at a glance.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -69,7 +69,7 @@ std::vector<voussoir::reports::BudgetSet> budget_sets(const fs::path& cases) {
   return sets;
 }
 
-// a JSON file of every subfolder, as the part of a report that has its name and its contents
+// a JSON file of every subfolder, as the part of a report with its name and its content
 template <class Part>
 std::vector<Part> parts_of(const fs::path& folder, const std::string& file) {
   std::vector<Part> parts;
@@ -78,12 +78,12 @@ std::vector<Part> parts_of(const fs::path& folder, const std::string& file) {
   return parts;
 }
 
-// what is compared, and where
+// inputs of the comparison, and their places
 struct Compared {
   fs::path folder, case_outputs, budgets, style_folder;
 };
 
-// all studies in a folder beside each other
+// comparison of all studies in a folder
 void compare(const Compared& compared) {
   const fs::path &folder = compared.folder, &style_folder = compared.style_folder;
   using namespace voussoir::reports;
@@ -107,7 +107,7 @@ void compare(const Compared& compared) {
   fmt::print("{} studies compared: {}\n", studies.size(), (folder / "trade.md").string());
 }
 
-// all checks at one look
+// all checks at a glance
 void gather_checks(const fs::path& verdict_file, const fs::path& style_folder, const fs::path& out) {
   using namespace voussoir::reports;
   const auto verdicts = voussoir::verification::verdicts_from_json(nlohmann::json::parse(read_text(verdict_file)));
@@ -122,27 +122,26 @@ void gather_checks(const fs::path& verdict_file, const fs::path& style_folder, c
             "verification_spread=" + in_words(spreads.groups[0].over_tolerance),
             "validation_spread=" + in_words(spreads.groups[1].over_tolerance)});
   write_atomically(out / "checks.md", checks_markdown(spreads));
-  fmt::print("{} checks at one look: {}\n", verdicts.rows.size(), (out / "checks.md").string());
+  fmt::print("{} checks at a glance: {}\n", verdicts.rows.size(), (out / "checks.md").string());
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app{
-      "Joins results with references: error against cost, Pareto front, recommendation; all checks at one look."};
+      "Joins results with references: error against cost, Pareto front, recommendation; all checks at a glance."};
   app.require_subcommand(1);
   fs::path study_file, reference_file, verdict_file, out, style_folder, folder, case_outputs, budgets;
   CLI::App* one = app.add_subcommand("case", "the report on one case's study");
-  one->add_option("--study", study_file, "what `voussoir study` wrote")->required();
+  one->add_option("--study", study_file, "study.csv of `voussoir study`")->required();
   one->add_option("--reference", reference_file, "reference.json of the case's test")->required();
   one->add_option("--out", out, "folder for study_points.csv, study.md, study.json and the figures")->required();
-  CLI::App* all = app.add_subcommand("compare", "all cases beside each other");
-  all->add_option("--studies", folder, "folder that holds a folder for every case; trade.md, .csv and .svg go there")
+  CLI::App* all = app.add_subcommand("compare", "comparison of all cases");
+  all->add_option("--studies", folder, "folder with a folder for every case; trade.md, .csv and .svg go there")
       ->required();
-  all->add_option("--cases", case_outputs, "folder of what the cases' tests wrote, in which budget.csv are looked for");
-  all->add_option("--budgets", budgets,
-                  "folder that holds a folder for every case whose scene was run with its budget");
-  CLI::App* checks = app.add_subcommand("checks", "all checks of a build at one look");
+  all->add_option("--cases", case_outputs, "folder of the files of the cases' tests, in which budget.csv are sought");
+  all->add_option("--budgets", budgets, "folder with a folder for every case whose scene was run with its budget");
+  CLI::App* checks = app.add_subcommand("checks", "all checks of a build at a glance");
   checks->add_option("--verdicts", verdict_file, "verdicts.json of the summary")->required();
   checks->add_option("--out", out, "folder for checks.md, checks.csv and the figures")->required();
   for (CLI::App* command : {one, all, checks})

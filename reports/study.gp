@@ -1,5 +1,5 @@
 # Work and precision of one case's study. draw.sh passes: points (csv), sweeps (names, as words), quantity, cost
-# ('contact evaluations' or 'steps', what the recommendation counts), default ('yes': the scene as it is has a result).
+# ('contact evaluations' or 'steps', the unit of the recommendation), default ('yes': the scene as it is has a result).
 set terminal svg size 760,880
 set datafile missing NaN
 set logscale xy
@@ -8,7 +8,7 @@ set format y '10^{%T}'
 set offsets graph 0.04, graph 0.06, graph 0.08, graph 0.06
 set ylabel 'relative error of '.quantity noenhanced
 
-# the three accuracies that a recommendation is given for
+# the three accuracies of the recommendations
 do for [level in '0.05 0.01 0.001'] {
   set arrow from graph 0, first level + 0 to graph 1, first level + 0 nohead dt 3 lw 1 lc rgb '#808080' back
 }
@@ -16,7 +16,7 @@ set label 1 '5 %'   at graph 1.005, first 0.05  font ',11' tc rgb '#606060'
 set label 2 '1 %'   at graph 1.005, first 0.01  font ',11' tc rgb '#606060'
 set label 3 '0.1 %' at graph 1.005, first 0.001 font ',11' tc rgb '#606060'
 
-# each a word of its own, whatever blanks it holds
+# each a word of its own, even with blanks
 count = words(sweeps)
 
 # a row belongs to the curve when quantity and sweep agree; the others are left out without breaking the line

@@ -6,10 +6,10 @@
 namespace voussoir::reports {
 namespace {
 
-// errors nearer to the finest setting's than this factor have levelled off
+// errors within this factor of the finest setting's have levelled off
 constexpr double levelled_off = 2.0;
 
-// a line through two points says nothing about itself
+// a line through two points has no error estimate
 constexpr std::size_t fewest_settings = 3;
 
 ObservedOrder fit(const KnobError* first, std::size_t count) {
@@ -44,7 +44,7 @@ std::optional<ObservedOrder> observed_order(std::vector<KnobError> settings) {
   std::sort(settings.begin(), settings.end(), [](const auto& a, const auto& b) { return a.value > b.value; });
   if (settings.back().error > settings.front().error) std::reverse(settings.begin(), settings.end());
 
-  // the worst error of each setting and all finer ones: a lucky hit on the way counts for nothing
+  // the worst error of each setting and all finer ones: a lucky hit on the way does not count
   std::vector<double> worst(settings.size());
   for (std::size_t k = settings.size(); k-- > 0;)
     worst[k] = std::max(settings[k].error, k + 1 < settings.size() ? worst[k + 1] : 0.0);

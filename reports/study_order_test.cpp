@@ -1,4 +1,4 @@
-// unit.study_report: orders that are known because the errors were made with them.
+// unit.study_report: orders that are known because the errors were made from them.
 #include "reports/study_order.hpp"
 
 #include <gtest/gtest.h>
@@ -21,15 +21,15 @@ TEST(ObservedOrder, FindsThePowerThatMadeTheErrors) {
   EXPECT_EQ(order->finest, 0.001);
 }
 
-TEST(ObservedOrder, IsNegativeWhereMoreIsFiner) {
+TEST(ObservedOrder, IsNegativeIfMoreIsFiner) {
   std::vector<KnobError> settings;
   for (const double value : {1.0, 2.0, 4.0, 8.0})
     settings.push_back({value, 1 / (value * value)});
   EXPECT_NEAR(observed_order(settings)->order, -2, 1e-12);
 }
 
-// behind the plateau the knob says nothing; the first that reached it still lies on the line
-TEST(ObservedOrder, StopsWhereSomethingElseLimitsTheError) {
+// on the plateau the knob has no effect; the first setting that reached it is still on the line
+TEST(ObservedOrder, StopsWhenSomethingElseLimitsTheError) {
   std::vector<KnobError> settings;
   for (const double value : {1.0, 0.1, 0.01, 0.001, 1e-4, 1e-5})
     settings.push_back({value, std::max(value, 0.001)});
@@ -43,7 +43,7 @@ TEST(ObservedOrder, StopsWhereSomethingElseLimitsTheError) {
 TEST(ObservedOrder, StatesItsUncertainty) {
   const double step = std::log(10.0), r = 0.1;
   std::vector<KnobError> settings;
-  const double wave[] = {r, -r, -r, r};  // sums to nothing, and nothing with x
+  const double wave[] = {r, -r, -r, r};  // sums to zero, and is uncorrelated with x
   for (int k = 0; k < 4; ++k)
     settings.push_back({std::pow(10.0, -k), std::exp(-k * step + wave[k])});
   const auto order = observed_order(settings);
@@ -52,7 +52,7 @@ TEST(ObservedOrder, StatesItsUncertainty) {
   EXPECT_NEAR(order->uncertainty, 2 * std::sqrt(4 * r * r / 2 / (5 * step * step)), 1e-12);
 }
 
-TEST(ObservedOrder, IsNoneWhereNothingFalls) {
+TEST(ObservedOrder, IsNoneIfNothingFalls) {
   EXPECT_FALSE(observed_order({{1, 0.1}, {0.1, 0.1}, {0.01, 0.1}, {0.001, 0.1}}));
   EXPECT_FALSE(observed_order({{1, 0.1}, {0.1, 0.01}})) << "two points are always on a line";
   EXPECT_FALSE(observed_order({{1, 0.1}, {0.1, 0.011}, {0.01, 0.012}, {0.001, 0.01}})) << "one step, then flat";

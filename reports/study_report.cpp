@@ -12,7 +12,7 @@
 namespace voussoir::reports {
 namespace {
 
-// s: study.csv counts no finer, and the figure's axis is a logarithm
+// s: study.csv has no finer resolution, and the figure's axis is a logarithm
 constexpr double shortest_time = 1e-3;
 
 double to_number(const std::string& text, const char* column, std::size_t line) {
@@ -49,7 +49,7 @@ Recommendation recommend(const Study& study, const std::string& quantity, double
   return best;
 }
 
-// by the error alone: an error bar may follow a law of its own. What reached the floor has left the line.
+// by the error only: an error bar may follow a law of its own. Errors at the floor are off the line.
 SweepOrder order_of(const Study& study, const std::string& quantity, const std::string& sweep) {
   SweepOrder found{quantity, sweep, "", std::nullopt};
   std::vector<KnobError> settings;
@@ -71,7 +71,7 @@ bool has_an_order(const Study& study, const std::string& quantity, const std::st
   });
 }
 
-// what a level in a scene promises; nothing for any other setting
+// the promise of a level in a scene; empty for any other setting
 std::optional<double> promise_of(const StudyRow& row) {
   if (row.key != level_key) return std::nullopt;
   for (std::size_t k = 0; k < accuracy_levels.size(); ++k)
@@ -79,7 +79,7 @@ std::optional<double> promise_of(const StudyRow& row) {
   throw std::runtime_error(fmt::format("study.csv: there is no accuracy level '{}'", row.value));
 }
 
-// text from a csv file that stands in a markdown table
+// text from a csv file within a markdown table
 std::string cell(const std::string& text) {
   std::string safe;
   for (const char character : text) {

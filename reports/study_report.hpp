@@ -1,5 +1,5 @@
 #pragma once
-// Joins what a study computed with the reference numbers of the case's test: error against cost, and what to recommend.
+// Joins the results of a study with the reference numbers of the case's test: error against cost, and a recommendation.
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -13,7 +13,7 @@
 namespace voussoir::reports {
 
 // Smallest error that is drawn and listed, in place of anything closer: a logarithm needs a number above zero, and a
-// thousandth of the finest promise of accuracy.hpp is as good as exact when settings are chosen.
+// thousandth of the finest promise of accuracy.hpp is practically exact when settings are chosen.
 constexpr double relative_error_floor = 1e-6;
 
 // One line of study.csv: one setting of one knob, one quantity.
@@ -27,7 +27,7 @@ struct StudyRow {
   long long steps = 0;
   double seconds = 0.0;
 
-  // the knob, where it is a number
+  // the knob, if it is a number
   std::optional<double> number() const;
 };
 
@@ -39,7 +39,7 @@ struct Reference {
 struct StudyPoint {
   StudyRow row;
   double relative_error = 0.0;        // not below relative_error_floor
-  double relative_error_upper = 0.0;  // error plus error bar: what is safely reached
+  double relative_error_upper = 0.0;  // error plus error bar: the accuracy that is reached with certainty
   bool pareto = false;                // no other setting is both as cheap and as accurate
 };
 
@@ -59,7 +59,7 @@ struct Study {
   std::vector<std::string> quantities;  // those with a reference, in order of appearance
   std::vector<StudyPoint> points;
   std::vector<StudyRow> failed;
-  std::vector<std::string> unjudged;  // why a quantity has no error: one sentence each
+  std::vector<std::string> unjudged;  // reasons why a quantity has no error: one sentence each
   std::vector<Recommendation> recommendations;
   std::vector<SweepOrder> orders;
 };
@@ -67,13 +67,13 @@ struct Study {
 // the scene's key that takes one of accuracy_levels
 inline constexpr std::string_view level_key = "accuracy.level";
 
-// One line for every level that a study sweeps and that misses what it promises; empty when all keep it.
+// One line for every level that a study sweeps and that misses its promise; empty when all keep it.
 std::string broken_promises(const Study& study);
 
 // The sweep in which `voussoir study` runs the scene as it is.
 inline constexpr std::string_view default_sweep = "default";
 
-// What cost is counted in: contact evaluations, or steps in a study in which nothing ever touches.
+// The unit of cost: contact evaluations, or steps in a study in which nothing ever touches.
 enum class CostUnit { contact_evaluations, steps };
 CostUnit cost_unit(const Study& study);
 const char* name_of(CostUnit unit);

@@ -1,4 +1,4 @@
-// unit.study_report: hand-made studies whose answers can be seen at a glance.
+// unit.study_report: hand-made studies whose results can be seen at a glance.
 #include "reports/study_report.hpp"
 
 #include <gtest/gtest.h>
@@ -56,7 +56,7 @@ TEST(Study, RecommendsTheCheapestSettingPerAccuracy) {
   EXPECT_EQ(study.recommendations[2].cheapest->row.value, "0.01");  // 0.1 %
 }
 
-TEST(Study, SaysWhenNoSettingReachesAnAccuracy) {
+TEST(Study, ReportsAnAccuracyThatNoSettingReaches) {
   const Study study = judged("time step,f,0.5,1,angle,30.9,0,deg,ok,200,20,0.2\n");
   EXPECT_TRUE(study.recommendations[0].cheapest.has_value());
   EXPECT_FALSE(study.recommendations[1].cheapest.has_value());

@@ -1,4 +1,4 @@
-# The look of every figure; draw.sh runs it before the figure's own file, which only plots. A figure of another size says
+# The look of every figure; draw.sh runs it before the figure's own file, which only plots. A figure of another size begins with
 #   set terminal svg size 1000,520 @page
 #   plot 'curve.csv' using 'x':'lower':'upper' @band  title 'tolerance', \
 #        'curve.csv' using 'x':'theory'        @theory  title 'theory', \
@@ -12,7 +12,7 @@ set terminal svg size 760,460 @page
 set datafile separator comma
 set key autotitle columnheader
 
-# line types 1 to 7: what a plot takes in order when it names no style
+# line types 1 to 7: taken in order by a plot that names no style
 set linetype 1 lc rgb '#0072b2' lw 2 pt 7  ps 0.6
 set linetype 2 lc rgb '#d55e00' lw 2 pt 5  ps 0.6
 set linetype 3 lc rgb '#009e73' lw 2 pt 9  ps 0.7
@@ -34,7 +34,7 @@ set grid back lc rgb '#e2e2e2' lw 1 dt 1
 picture = "unset border; unset tics; unset grid; set size ratio -1"
 stone = "with filledcurves closed fc rgb '#efe6d2' fs solid border lc rgb '#8c7f66'"
 set title font ',15'
-# the legend stands above the frame, so that it never covers data
+# the legend is above the frame, so that it never covers data
 set key outside top center horizontal samplen 2.5 spacing 1.1
 set style fill solid 0.3 noborder
 set bars 0.5

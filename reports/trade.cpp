@@ -13,7 +13,7 @@ namespace {
 
 using nlohmann::json;
 
-// one number of one case, to be summed up over all
+// one number of one case, for a summary over all
 struct Named {
   std::string name;
   double value = 0.0;
@@ -24,7 +24,7 @@ bool is_compared(const CaseStudy& entry) {
   return !scene.is_null() && scene.at("cost").get<double>() > 0.0;
 }
 
-// as a multiple of what the scene as it is takes; nothing where that is too little to be measured
+// as a multiple of the cost of the scene as it is; empty if that is too little to be measured
 std::optional<double> ratio(const CaseStudy& entry, const json& point, const char* what) {
   if (!is_compared(entry)) return std::nullopt;
   const double scene = entry.study.at("default").at(what).get<double>();
@@ -92,12 +92,12 @@ std::string reading_of_level(const std::vector<CaseStudy>& studies, std::size_t 
   std::string text = fmt::format("- **{:g} %** is reached in {} of {} cases", 100.0 * accuracy,
                                  studies.size() - missed.size(), studies.size());
   if (!costs.empty()) text += ", for this multiple of the cost of the scene as it is: " + summary(costs);
-  text += fmt::format(". The scenes reach it as they are in {}.", scenes.size());
+  text += fmt::format(". The unchanged scenes reach it in {}.", scenes.size());
   if (!missed.empty()) text += fmt::format(" No setting tried reaches it in {}.", joined(missed));
   return text + "\n";
 }
 
-// what each further digit is worth where both ends are reached
+// the cost of each further digit if both ends are reached
 std::string reading_of_digits(const std::vector<CaseStudy>& studies) {
   std::vector<Named> factors;
   std::vector<std::string> free;
@@ -109,7 +109,7 @@ std::string reading_of_digits(const std::vector<CaseStudy>& studies) {
   }
   if (factors.empty()) return "";
   std::string text = "- From 5 % to 0.1 % the cost grows by this factor: " + summary(factors) + ".";
-  if (!free.empty()) text += fmt::format(" The cheapest setting of all reaches both in {}.", joined(free));
+  if (!free.empty()) text += fmt::format(" In {} the cheapest setting of all reaches both.", joined(free));
   return text + "\n";
 }
 
@@ -164,7 +164,7 @@ std::string failure_table(const std::vector<CaseStudy>& studies) {
       rows += fmt::format("| {} | {} | {} | {} |\n", link(entry), row.at("sweep").get<std::string>(), setting(row),
                           row.at("status").get<std::string>());
   if (rows.empty()) return "None.\n";
-  return "| case | sweep | setting | what went wrong |\n|---|---|---|---|\n" + rows;
+  return "| case | sweep | setting | failure |\n|---|---|---|---|\n" + rows;
 }
 
 std::string level_table(const std::vector<CaseStudy>& studies) {
@@ -176,20 +176,21 @@ std::string level_table(const std::vector<CaseStudy>& studies) {
                           point.at("contact_evaluations").get<long long>(), point.at("steps").get<long long>(),
                           times(ratio(entry, point, "cost")));
   if (rows.empty()) return "";
-  return "### What the levels reach\n\n`[accuracy] level` in a scene sets what the scene does not state itself; here "
-         "they are on the cases' own quantities. A level that missed its promise would fail `make reports`.\n\n"
+  return "### Accuracy of the levels\n\n`[accuracy] level` in a scene sets the settings that the scene does not state. "
+         "Here "
+         "the levels are tested on the cases' own quantities; a level that misses its promise fails `make reports`.\n\n"
          "| case | level | promised | error with error bar | contact evaluations | steps | cost, scene as it is = 1 |\n"
          "|---|---|--:|--:|--:|--:|--:|\n" +
          rows + "\n";
 }
 
-// what a failure is called; its full text is in the table of settings that failed
+// short name of a failure; its full text is in the table of settings that failed
 std::string brief_status(const json& failure) {
   const std::string status = failure.at("status");
   return fmt::format("**{}**", status.substr(0, status.find(':')));
 }
 
-// every sweep over how many points carry a joint face, or whether it is carried as a whole
+// every sweep over the number of points of a joint face, or over the integrated face contact
 std::string points_table(const std::vector<CaseStudy>& studies) {
   const auto is_whole = [](const json& row) {
     return row.at("key") == "contact.face" && row.at("value") == "integrated";
@@ -198,7 +199,7 @@ std::string points_table(const std::vector<CaseStudy>& studies) {
     return is_whole(row) || row.at("key").get<std::string>().ends_with(".sub_contacts");
   };
   const auto points = [&](const json& row) {
-    return is_whole(row) ? "whole face" : row.at("value").get<std::string>();
+    return is_whole(row) ? "integrated" : row.at("value").get<std::string>();
   };
   std::string rows;
   for (const CaseStudy& entry : studies) {
@@ -214,20 +215,18 @@ std::string points_table(const std::vector<CaseStudy>& studies) {
                             point.at("steps").get<long long>(), point.at("seconds").get<double>());
   }
   if (rows.empty()) return "";
-  return "### Points along a joint face\n\nWith one point a face resists neither spin nor, as a face does, rocking. "
-         "What "
-         "more of them give, what the whole face gives over which the joint is integrated (`contact.face`), and what "
-         "they cost: a contact evaluation is counted once however many points carry the face, so their price shows in "
-         "the seconds.\n\n"
+  return "### Points along a joint face\n\nWith one point a face resists neither spin nor, as a real face does, "
+         "rocking. The table compares one point, several points and the integrated face contact (`contact.face`). A "
+         "contact evaluation is counted once for any number of points, so their cost shows in the seconds only.\n\n"
          "| case | sweep | points along a face | error with error bar | contact evaluations | steps | seconds |\n"
          "|---|---|--:|--:|--:|--:|--:|\n" +
          rows + "\n";
 }
 
-// sweeps over how rest is found: "way to rest: local damping"
-constexpr std::string_view way_to_rest = "way to rest: ";
+// sweeps over the static solution method: "static solution: local damping"
+constexpr std::string_view way_to_rest = "static solution: ";
 
-// a column for each way, a row for each case; first what it misses, then what it costs
+// a column for each method, a row for each case; first the error, then the cost
 std::string ways_table(const std::vector<CaseStudy>& studies) {
   struct Cell {
     std::string error, cost;
@@ -238,7 +237,7 @@ std::string ways_table(const std::vector<CaseStudy>& studies) {
     const std::string sweep = setting.at("sweep");
     if (!sweep.starts_with(way_to_rest)) return;
     std::string way = sweep.substr(way_to_rest.size());
-    const bool by_increments = setting.at("key") == "damping.increments";
+    const bool by_increments = setting.at("key") == "static_increments";
     if (by_increments) way += ", " + setting.at("value").get<std::string>();
     std::vector<std::string>& group = by_increments ? newton : marched;
     if (std::ranges::find(group, way) == group.end()) group.push_back(way);
@@ -271,9 +270,10 @@ std::string ways_table(const std::vector<CaseStudy>& studies) {
     }
     return text + "\n";
   };
-  return "### Ways to rest\n\nThe same scene by dynamic relaxation, by the true motion with Cundall's damping or with "
-         "dashpots alone, and by Newton's method on the joints, with the increments in which a ramp of gravity or a "
-         "fall of friction is put on. Newton's evaluations include those that confirm its rest.\n\n" +
+  return "### Static solution methods\n\nThe same scene by dynamic relaxation, by the true motion with Cundall's "
+         "damping or with dashpots only, and by the implicit static solver (Newton–Raphson), with the number of "
+         "increments of a "
+         "ramp of gravity or a reduction of friction. Its evaluations include those that confirm equilibrium.\n\n" +
          table("error with error bar", &Cell::error) + table("contact evaluations", &Cell::cost);
 }
 
@@ -310,11 +310,11 @@ std::string trade_markdown(const std::vector<CaseStudy>& studies) {
   if (studies.empty()) return "No study has a result.\n";
   std::string text = fmt::format(
       "Every study changes one setting of a case at a time and compares the result with the case's exact reference. "
-      "Below are the settings that nothing beats, for {} cases. Cost is counted in contact evaluations (in steps where "
-      "nothing touches) as a multiple of what the scene takes as it is; a setting reaches an accuracy when its error "
-      "and its error bar together do. Seconds are those of runs side by side.\n\n"
+      "Below are the settings that no other beats, for {} cases. Cost is counted in contact evaluations (in steps "
+      "if nothing touches) as a multiple of the cost of the scene as it is; a setting reaches an accuracy when its "
+      "error and its error bar together do. Seconds are those of runs side by side.\n\n"
       "![Error, error bar included, against cost, one line for each case: the settings that no other beats. At cost 1 "
-      "stands the scene as it is.](trade.svg)\n\n",
+      "is the scene as it is.](trade.svg)\n\n",
       studies.size());
   for (std::size_t level = 0; level < studies.front().study.at("recommendations").size(); ++level)
     text += reading_of_level(studies, level);
@@ -323,8 +323,7 @@ std::string trade_markdown(const std::vector<CaseStudy>& studies) {
           ways_table(studies) + level_table(studies);
   text +=
       "### Observed orders\n\nThe slope of log error over log setting where the error falls, with two standard errors; "
-      "none where it does not fall beyond its scatter: the knob buys nothing there, or something else limits the "
-      "error.\n\n" +
+      "none if it does not fall beyond its scatter: the knob has no effect, or something else limits the error.\n\n" +
       order_table(studies) + "\n";
   return text + "### Settings that failed\n\n" + failure_table(studies);
 }

@@ -1,4 +1,4 @@
-# What accuracy costs, over all cases. draw.sh passes: data (trade.csv), cases (names, as words).
+# Cost of accuracy, over all cases. draw.sh passes: data (trade.csv), cases (names, as words).
 set terminal svg size 760,620
 set datafile missing NaN
 set logscale xy

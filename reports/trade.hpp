@@ -1,5 +1,5 @@
 #pragma once
-// All studies beside each other: what accuracy costs, case by case, against the scene as it is.
+// Comparison of all studies: the cost of accuracy, case by case, against the scene as it is.
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -22,7 +22,7 @@ std::vector<std::string> compared_cases(const std::vector<CaseStudy>& studies);
 // of some; throws std::out_of_range of none
 double median(std::vector<double> values);
 
-// The page "What accuracy costs": tables, and sentences that read them. The figure is trade.svg.
+// The page "Cost of accuracy": tables, and sentences that read them. The figure is trade.svg.
 std::string trade_markdown(const std::vector<CaseStudy>& studies);
 
 }  // namespace voussoir::reports

@@ -1,5 +1,5 @@
 #pragma once
-// Pages that set all cases beside each other: "What accuracy costs", of their studies, and "All checks at one look".
+// Pages that compare all cases: "Cost of accuracy", of their studies, and "All checks at a glance".
 #include <string>
 #include <vector>
 
@@ -7,7 +7,7 @@
 
 namespace voussoir::reports {
 
-// What could not be shown is named on the page, and in `missing`, one sentence each.
+// Parts that could not be shown are named on the page, and in `missing`, one sentence each.
 std::string trade_page(const Folders& folders, std::vector<std::string>& missing);
 std::string checks_page(const Folders& folders, std::vector<std::string>& missing);
 

@@ -1,4 +1,4 @@
-// unit.study_report: two made-up studies beside each other, and what the page says of them.
+// unit.study_report: two made-up studies beside each other, and the sentences of the page on them.
 #include "reports/trade.hpp"
 
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ TEST(Trade, ComparesWithTheSceneAsItIs) {
   const std::string page = trade_markdown(studies);
   for (const char* part :
        {"**5 %** is reached in 2 of 2 cases", "2 (median; from 0.1 in slope to 4 in flight)",
-        "The scenes reach it as they are in 1.", "**1 %** is reached in 1 of 2 cases",
+        "The unchanged scenes reach it in 1.", "**1 %** is reached in 1 of 2 cases",
         "No setting tried reaches it in flight.", "| | | 1 % | `t = 1` deg | 0.9 % | × 0.2 | × 0.2 | × 0.2 |",
         "| | | 1 % | **none of the settings reaches it** |",
         "| [slope](../slope/README.md) | point | `p = corner` | no equilibrium |"})
@@ -55,18 +55,18 @@ TEST(Trade, ListsThePointsAlongAFace) {
   EXPECT_NE(page.find("| [slope](../slope/README.md) | points | 1 | **no bracket** |"), std::string::npos) << page;
   EXPECT_NE(page.find("| [slope](../slope/README.md) | points | 2 | 1 % | 100 | 11 | 1.5 |"), std::string::npos)
       << page;
-  EXPECT_NE(page.find("| [slope](../slope/README.md) | whole faces | whole face | 0.1 % | 100 | 12 | 0.5 |"),
+  EXPECT_NE(page.find("| [slope](../slope/README.md) | whole faces | integrated | 0.1 % | 100 | 12 | 0.5 |"),
             std::string::npos)
       << page;
   EXPECT_EQ(page.find("| whole faces | point |"), std::string::npos) << page;
   EXPECT_EQ(trade_markdown({made("flight", flight)}).find("Points along"), std::string::npos);
 }
 
-TEST(Trade, SetsTheWaysToRestBesideEachOther) {
+TEST(Trade, ComparesTheStaticSolutionMethods) {
   const std::string lines =
       "default,,,,angle,30,0,deg,ok,100,10,1\n"
-      "way to rest: true motion,damping.viscous_ratio,0.3,,angle,,,deg,incomplete: step limit,100,10,1\n"
-      "way to rest: Newton,damping.increments,4,,angle,30.3,0,deg,ok,7,11,1.5\n";
+      "static solution: true motion,damping.viscous_ratio,0.3,,angle,,,deg,incomplete: step limit,100,10,1\n"
+      "static solution: Newton,static_increments,4,,angle,30.3,0,deg,ok,7,11,1.5\n";
   const std::string page = trade_markdown({made("slope", lines), made("flight", flight)});
   EXPECT_NE(page.find("| error with error bar | true motion | Newton, 4 |\n|---|--:|--:|\n"
                       "| [slope](../slope/README.md) | **incomplete** | 1 % |\n\n"
@@ -74,10 +74,10 @@ TEST(Trade, SetsTheWaysToRestBesideEachOther) {
                       "| [slope](../slope/README.md) | – | 7 |\n\n"),
             std::string::npos)
       << page;
-  EXPECT_EQ(trade_markdown({made("flight", flight)}).find("Ways to rest"), std::string::npos);
+  EXPECT_EQ(trade_markdown({made("flight", flight)}).find("Static solution methods"), std::string::npos);
 }
 
-TEST(Trade, LeavesOutWhatHasNothingToCompareWith) {
+TEST(Trade, LeavesOutCasesWithNothingToCompareWith) {
   const std::vector<CaseStudy> studies{
       made("broken", "default,,,,angle,,,deg,diverged,9,9,1\ntolerance,t,1,deg,angle,30,0,deg,ok,200,20,0.2\n")};
   EXPECT_TRUE(compared_cases(studies).empty());

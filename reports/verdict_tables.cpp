@@ -20,7 +20,7 @@ std::string cost_cells(const Row& row) {
                      row.cost.seconds);
 }
 
-// what has moved since the version that the history ends with; no cell without a history
+// the move since the last version of the history; no cell without a history
 std::string moved_cell(const Verdicts& verdicts, const Row& row) {
   return verdicts.compared_with.empty() ? "" : "<td>" + escape(show_moved(move_of(verdicts, row))) + "</td>";
 }

@@ -14,7 +14,7 @@
 namespace voussoir {
 namespace {
 
-// what a spreadsheet takes for a formula
+// whether a spreadsheet takes it for a formula
 bool begins_formula(std::string_view text) {
   return !text.empty() && std::string_view("=+-@").find(text.front()) != std::string_view::npos;
 }
@@ -30,7 +30,7 @@ bool is_number(std::string_view text) {
   return error == std::errc() && end == text.data() + text.size();
 }
 
-// the text that a cell stands for
+// the text that a cell represents
 std::string meant(std::string text) {
   if (text.starts_with('\'') && begins_formula(behind_apostrophes(text))) text.erase(0, 1);
   return text;
@@ -106,7 +106,7 @@ std::size_t edits_between(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-// the column that a foreign name most likely stands for: by its usual names, without its unit, within two slips
+// the column that a foreign name most likely means: by its usual names, without its unit, within two edits
 std::string meant_column(const std::string& name, const std::vector<std::string>& columns,
                          const std::map<std::string, std::string>& usual) {
   constexpr std::size_t most_edits = 2, shortest = 4;  // in a name of so many letters
@@ -123,19 +123,19 @@ std::string meant_column(const std::string& name, const std::vector<std::string>
   return {};
 }
 
-constexpr const char* comment_line = "a comment; a table has a header and rows and nothing else: remove this line";
+constexpr const char* comment_line = "a comment; a table has only a header and rows: remove this line";
 
 bool is_comment(std::string_view line) {
   return line[line.find_first_not_of(" \t")] == '#';
 }
 
-// what other programs write for a header, named by what it is
+// refuses the headers of other programs, with the reason
 void refuse_other_headers(std::string_view line, int number) {
   if (is_comment(line)) throw FileFault(number, 0, comment_line);
   if (line.starts_with("sep="))
     throw FileFault(number, 0,
                     shown(line) +
-                        " is a word to a spreadsheet and no header: remove this line; columns are separated by "
+                        " is an instruction to spreadsheets and no header: remove this line; columns are separated by "
                         "commas here");
   for (const auto& [separator, word] : {std::pair{';', "semicolons"}, {'\t', "tabs"}})
     if (line.find(',') == std::string_view::npos && line.find(separator) != std::string_view::npos)
@@ -145,7 +145,7 @@ void refuse_other_headers(std::string_view line, int number) {
                                   word));
 }
 
-// a row with one cell more for each number whose decimals stand behind a comma
+// a row with one cell more for each number whose decimals are behind a comma
 bool may_hold_decimal_commas(const std::vector<CsvCell>& cells, std::size_t columns) {
   return cells.size() > columns && std::all_of(cells.begin(), cells.end(), [](const CsvCell& cell) {
            return cell.text.empty() || is_number(cell.text);
@@ -191,13 +191,13 @@ CsvReader::CsvReader(std::string_view text, std::size_t most_columns) : lines_(t
   if (!next_cells(first)) throw FileFault(1, 0, "is empty; the first row names the columns");
   header_line_ = first.line;
   if (std::any_of(first.cells.begin(), first.cells.end(), [](const CsvCell& cell) { return is_number(cell.text); }))
-    throw FileFault(first.line, 0, "the header is missing: the first row names the columns, here it holds numbers");
+    throw FileFault(first.line, 0, "the header is missing: the first row names the columns, here it has numbers");
   for (const CsvCell& cell : first.cells) {
     if (cell.text.empty())
       throw FileFault(first.line, cell.column, "a column without a name; the first row is the header");
     if (find(cell.text))
       throw FileFault(first.line, cell.column,
-                      "column " + shown(cell.text) + " stands twice in the header; remove one");
+                      "column " + shown(cell.text) + " occurs twice in the header; remove one");
     header_.push_back(cell);
   }
 }
@@ -221,7 +221,7 @@ bool CsvReader::next(CsvRow& row) {
   if (row.cells.size() == header_.size()) return true;
   if (is_comment(lines_.line())) throw FileFault(row.line, 0, comment_line);
   throw FileFault(row.line, 0,
-                  "has " + std::to_string(row.cells.size()) + " cells where the header has " +
+                  "has " + std::to_string(row.cells.size()) + " cells, but the header has " +
                       std::to_string(header_.size()) +
                       (may_hold_decimal_commas(row.cells, header_.size())
                            ? "; were decimals written with a comma? write 3.5, not 3,5"
@@ -256,7 +256,7 @@ void CsvTable::check_header(const std::vector<std::string>& required, const std:
       throw FileFault(
           header_line, cell.column,
           "no such column as " + shown(cell.text) + (meant.empty() ? ";" : fmt::format("; did you mean {}?", meant)) +
-              fmt::format(" there are {} and, where needed, {}", fmt::join(required, ", "), fmt::join(optional, ", ")));
+              fmt::format(" there are {} and, if needed, {}", fmt::join(required, ", "), fmt::join(optional, ", ")));
   for (const std::string& name : required)
     if (!find(name))
       throw FileFault(header_line, 0,

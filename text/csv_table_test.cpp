@@ -1,4 +1,4 @@
-// Tables: what is written comes back as it was, whatever it holds; what is malformed is reported with its place.
+// Tables: every written text comes back unchanged; malformed ones are reported with the place.
 #include "text/csv_table.hpp"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ void expect_fault(const std::string& text, std::size_t most_rows, int line, int 
   SCOPED_TRACE(part);
   try {
     parse_csv(text, most_rows);
-    ADD_FAILURE() << "read without a complaint";
+    ADD_FAILURE() << "read without an error";
   } catch (const FileFault& fault) {
     EXPECT_EQ(fault.line, line) << fault.what();
     EXPECT_EQ(fault.column, column) << fault.what();
@@ -33,15 +33,15 @@ TEST(CsvTable, ReadsQuotesBlanksAndEveryLineEnd) {
   EXPECT_EQ(table.rows[1].cells[1].column, 5);
 }
 
-TEST(CsvTable, TellsWhereItIsMalformed) {
+TEST(CsvTable, ReportsThePlaceOfAnError) {
   const auto fault = [](const std::string& text, int line, int column, const std::string& part) {
     expect_fault(text, 100, line, column, part);
   };
   fault("", 1, 0, "is empty");
   fault("\n  \n", 1, 0, "is empty");
   fault("a,,c\n", 1, 3, "without a name");
-  fault("a,b,a\n", 1, 5, "stands twice");
-  fault("a,b\n1\n", 2, 0, "has 1 cells where the header has 2");
+  fault("a,b,a\n", 1, 5, "occurs twice");
+  fault("a,b\n1\n", 2, 0, "has 1 cells, but the header has 2");
   fault("a,b\n1,2,3\n", 2, 0, "has 3 cells");
   fault("a,b\n1,\"2\n", 2, 3, "not closed");
   fault("a,b\n\"1\"2,3\n", 2, 4, "behind a closed quote");

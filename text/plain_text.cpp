@@ -9,12 +9,12 @@ constexpr std::string_view replacement = "\xEF\xBF\xBD";  // U+FFFD
 
 struct Character {
   char32_t code = 0;
-  std::size_t length = 1;  // bytes; of what is no UTF-8 the one that stands where a character must begin
+  std::size_t length = 1;  // bytes; if it is no UTF-8, the one at which a character must begin
   bool valid = false;
 };
 
-// the character at the begin of a text that is not empty; overlong forms, surrogates and what lies beyond U+10FFFF are
-// no UTF-8
+// the character at the begin of a text that is not empty; overlong forms, surrogates and codes beyond U+10FFFF are no
+// UTF-8
 Character first_character(std::string_view text) {
   const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
   const unsigned char lead = byte(0);
@@ -36,7 +36,7 @@ bool turns_direction(char32_t c) {
   return c == 0x061C || c == 0x200E || c == 0x200F || (c >= 0x202A && c <= 0x202E) || (c >= 0x2066 && c <= 0x2069);
 }
 
-// what a character is that no plain text holds; empty for all others
+// the kind of a character that is no plain text; empty for all others
 std::string_view kind_of_fault(char32_t c) {
   if (c < 0x20 || (c >= 0x7F && c <= 0x9F)) return "a control character";
   if (c == 0x2028 || c == 0x2029) return "a line separator";
@@ -46,7 +46,7 @@ std::string_view kind_of_fault(char32_t c) {
   return {};
 }
 
-// the next place from `at` on that needs a look: everything else is printable ASCII
+// the next place from `at` on that needs a check: everything else is printable ASCII
 std::size_t skip_ascii(std::string_view text, std::size_t at) {
   while (at < text.size() && text[at] >= 0x20 && text[at] < 0x7F)
     ++at;

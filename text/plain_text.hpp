@@ -1,6 +1,6 @@
-// Which text is taken and shown: valid UTF-8 without characters that steer a terminal or change the order of what is
-// read. Whatever comes from outside is held against it where it enters, and what could still slip through is replaced
-// where it is shown.
+// Text that is accepted and shown: valid UTF-8 without characters that control a terminal or change the order of
+// reading. Every text from outside is checked when it is read, and characters that still pass are replaced when they
+// are shown.
 #pragma once
 
 #include <optional>
@@ -9,17 +9,17 @@
 
 namespace voussoir {
 
-// the first byte of what is no plain text, and what it is, e.g. "a control character (U+001B)"
+// the first byte that is no plain text, and its kind, e.g. "a control character (U+001B)"
 struct TextFault {
   std::size_t at = 0;
   std::string what;
 };
 
 // Refused are bytes that are no UTF-8 (RFC 3629), control characters (C0, DEL, C1), line and paragraph separators,
-// marks that turn the direction of text, and noncharacters, which XML forbids. Tabs pass where a file may hold them.
+// marks that turn the direction of text, and noncharacters, which XML forbids. Tabs pass if a file may have them.
 std::optional<TextFault> text_fault(std::string_view text, bool tabs_pass = false);
 
-// the same text with a blank for every C0 character and U+FFFD for whatever else is no plain text
+// the same text with a blank for every C0 character and U+FFFD for any other character that is no plain text
 std::string printable(std::string_view text);
 
 // printable, and cut behind about `limit` bytes

@@ -1,4 +1,4 @@
-// Plain text: what is taken, what is refused and where, and how the rest is shown.
+// Plain text: which text is accepted, which is refused and at which place, and how the rest is shown.
 #include "text/plain_text.hpp"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ TEST(PlainText, TakesEveryScript) {
   EXPECT_FALSE(text_fault("a\tb", true));
 }
 
-TEST(PlainText, RefusesWhatIsNoUtf8) {
+TEST(PlainText, RefusesBytesThatAreNoUtf8) {
   expect_fault(
       "S\xFC"
       "d",
@@ -35,7 +35,7 @@ TEST(PlainText, RefusesWhatIsNoUtf8) {
   expect_fault("\xFF\xFE", 0, "0xFF");          // UTF-16
 }
 
-TEST(PlainText, RefusesWhatSteersATerminalOrTurnsText) {
+TEST(PlainText, RefusesCharactersThatControlATerminalOrTurnText) {
   expect_fault(std::string_view("a\0", 2), 1, "control character (U+0000)");
   expect_fault("\x1b[2J", 0, "control character (U+001B)");
   expect_fault("a\nb", 1, "control character (U+000A)");

@@ -19,8 +19,7 @@ class OpenFile {
     descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
     const bool missing = errno == ENOENT || errno == ENOTDIR || errno == ELOOP || errno == ENAMETOOLONG;
     if (descriptor_ < 0 && missing) throw ReadFault("no such file; check its path");
-    if (descriptor_ < 0)
-      throw ReadFault("cannot be read; check its permissions and those of the folders on the way to it");
+    if (descriptor_ < 0) throw ReadFault("cannot be read; check its permissions and those of the folders above it");
     if (::fstat(descriptor_, &status_) != 0 || !S_ISREG(status_.st_mode)) {
       ::close(descriptor_);
       throw ReadFault("not a file but a folder, a pipe or a device; give the path of a file");

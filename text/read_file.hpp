@@ -1,4 +1,4 @@
-// A file in memory, whole or refused: no pipe or device that never ends, nothing larger than was asked for.
+// A file in memory, complete or refused: no endless pipe or device, no file larger than permitted.
 #pragma once
 
 #include <cstdint>
@@ -13,10 +13,10 @@ struct ReadFault : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Throws ReadFault for what is missing, no regular file, larger than `most` bytes, or unreadable.
+// Throws ReadFault for a file that is missing, not regular, larger than `most` bytes, or unreadable.
 std::string read_file(const std::filesystem::path& file, std::uintmax_t most);
 
-// the same, but of a larger file the first `most` bytes; `size` becomes that of the whole file
+// the same, but of a larger file the first `most` bytes; `size` becomes that of the entire file
 std::string read_head(const std::filesystem::path& file, std::uintmax_t most, std::uintmax_t& size);
 
 }  // namespace voussoir

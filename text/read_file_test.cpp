@@ -1,4 +1,4 @@
-// Files are read whole or refused, at once and without taking memory.
+// Files are read completely or refused, immediately and without taking memory.
 #include "text/read_file.hpp"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ class ReadFile : public ::testing::Test {
   const fs::path folder_ = fs::temp_directory_path() / ("voussoir_read_file_" + std::to_string(::getpid()));
 };
 
-TEST_F(ReadFile, IsWholeOrRefused) {
+TEST_F(ReadFile, IsCompleteOrRefused) {
   const std::string content("a\0b\r\n", 5);
   std::ofstream(folder_ / "file", std::ios::binary) << content;
   EXPECT_EQ(read_file(folder_ / "file", 5), content);

@@ -25,8 +25,8 @@ constexpr std::array top_folders{"text",  "core",       "app",     "reference", 
                                  "cases", "benchmarks", "reports", "fuzz",      "python"};
 
 // The rooms of the core from the ground up: a room may include those of the lines before its own. Files within a room
-// need no line: there, as everywhere, circles alone are refused. So contact, joint_laws, load and support know neither
-// Model nor State, and output and scene do not know each other.
+// need no line: there, as everywhere, only circles are refused. So contact, joint_laws, load and support do not know
+// Model or State, and output and scene do not know each other.
 const std::vector<std::vector<std::string_view>> floors{
     {"base/", "geometry/"},
     {"exchange/", "joint_laws/", "joint_sets/", "load/", "potential/", "solvers/"},
@@ -38,7 +38,7 @@ const std::vector<std::vector<std::string_view>> floors{
     {"run/"},
 };
 
-// what another folder of the house may include besides itself, folders or single files
+// the files and folders that another folder of the repository may include besides itself, folders or single files
 struct Reach {
   std::string_view folder;
   std::vector<std::string_view> may_include;
@@ -52,7 +52,7 @@ const std::vector<Reach> reaches{
     {"cases", {"core", "app", "reference", "verification", "text"}},
     {"benchmarks", {"core", "app", "text"}},
     {"reports",
-     {"verification", "text", "core/base/accuracy.hpp"}},  // what the accuracy levels promise, which reports judge
+     {"verification", "text", "core/base/accuracy.hpp"}},  // the promises of the accuracy levels, which reports judge
     {"fuzz", {"core", "app", "text"}},
     {"python", {"core", "text"}},
 };
@@ -66,7 +66,7 @@ bool is_ours(std::string_view path) {
          std::find(top_folders.begin(), top_folders.end(), top_folder(path)) != top_folders.end();
 }
 
-// what a folder holds: a folder in it, or a header with its source. core/contact/pair.hpp -> contact/ in core, pair in
+// a member of a folder: a folder in it, or a header with its source. core/contact/pair.hpp -> contact/ in core, pair in
 // core/contact
 std::string_view name_in(std::string_view folder, std::string_view path) {
   const std::string_view rest = path.substr(folder.empty() ? 0 : folder.size() + 1);
@@ -86,19 +86,19 @@ std::string common_folder(std::string_view a, std::string_view b) {
   return folder;
 }
 
-// nothing: the room has no line
+// empty: the room has no line
 std::optional<std::size_t> floor_of(std::string_view room) {
   for (std::size_t i = 0; i < floors.size(); ++i)
     if (std::ranges::find(floors[i], room) != floors[i].end()) return i;
   return std::nullopt;
 }
 
-// a test, and the shapes that tests share, may use all of the core, but stay inside the house's order otherwise
+// a test, and the shapes that tests share, may use all of the core, but otherwise keep the order of folders
 bool is_test(std::string_view path) {
   return path.ends_with("_test.cpp") || path.ends_with("_test.hpp") || path.starts_with("core/testing/");
 }
 
-// both files lie in the core
+// both files are in the core
 std::string judge_floors(const std::string& from_path, const std::string& to_path) {
   if (is_test(from_path)) return {};
   if (is_test(to_path)) return "only tests may include it";
@@ -126,13 +126,13 @@ bool in_one_program(const std::string& a, const std::string& b) {
   return case_of(a).empty() || case_of(b).empty() || case_of(a) == case_of(b);
 }
 
-// What a folder holds and who includes whom there, with one #include for each arrow.
+// The members of a folder and who includes whom there, with one #include for each arrow.
 struct FolderGraph {
   std::map<std::string, std::map<std::string, std::string>> arrows;
 
   // the shortest circle through a name, as one sentence; empty: none
   std::string circle_through(const std::string& start) const {
-    std::map<std::string, std::string> from;  // who led to each
+    std::map<std::string, std::string> from;  // the predecessor of each
     std::vector<std::string> reached{start};
     for (std::size_t k = 0; k < reached.size(); ++k) {
       const auto out = arrows.find(reached[k]);
@@ -155,7 +155,7 @@ struct FolderGraph {
   }
 };
 
-// circles of files and folders in any folder of the house, each told once; tests include what they like
+// circles of files and folders in any folder of the repository, each reported once; tests may include any file
 void check_circles(const std::vector<SourceFile>& sources, std::vector<std::string>& found) {
   std::map<std::string, FolderGraph> graphs;
   for (const SourceFile& source : sources) {
@@ -168,13 +168,13 @@ void check_circles(const std::vector<SourceFile>& sources, std::vector<std::stri
     }
   }
   for (const auto& [folder, graph] : graphs) {
-    std::set<std::string> told;
+    std::set<std::string> reported;
     for (const auto& [name, out] : graph.arrows) {
       const std::string circle = graph.circle_through(name);
-      if (circle.empty() || told.contains(name)) continue;
-      found.push_back(fmt::format("a circle in {}: {}", folder.empty() ? "the house" : folder, circle));
+      if (circle.empty() || reported.contains(name)) continue;
+      found.push_back(fmt::format("a circle in {}: {}", folder.empty() ? "the repository" : folder, circle));
       for (const auto& [other, unused] : graph.arrows)
-        if (circle.find('/' + other + (other.ends_with('/') ? "" : ".")) != std::string::npos) told.insert(other);
+        if (circle.find('/' + other + (other.ends_with('/') ? "" : ".")) != std::string::npos) reported.insert(other);
     }
   }
 }
@@ -186,8 +186,8 @@ void check_types(const std::vector<SourceFile>& sources, std::vector<std::string
       const auto [first, last] = places.equal_range(type);
       for (auto other = first; other != last; ++other)
         if (in_one_program(other->second, source.path))
-          found.push_back(fmt::format("{} and {} both define {}: one program may hold both, rename one", other->second,
-                                      source.path, type));
+          found.push_back(fmt::format("{} and {} both define {}: one program may contain both, rename one",
+                                      other->second, source.path, type));
       places.emplace(type, source.path);
     }
 }
@@ -346,7 +346,7 @@ std::vector<std::string> dead_citations(const fs::path& root) {
           is_there(source.parent_path() / name) || is_there(root / "core" / name) ||
           is_there(root / top_folder(from) / name))
         continue;
-      dead.push_back(fmt::format("{} cites {}, which is not there", from, name));
+      dead.push_back(fmt::format("{} cites {}, which does not exist", from, name));
     }
   }
   return dead;

@@ -1,8 +1,8 @@
 #pragma once
 // Who may include whom: the order of the folders and of the rooms of the core is stated once, in architecture.cpp, and
 // enforced by unit.architecture; all else follows from the #include lines: in no folder may files or folders include
-// each other in a circle. And no two types of one program have one name: the linker would take the functions of either
-// for both, without a word.
+// each other in a circle. And no two types of one program have one name: the linker would silently take the functions
+// of either for both.
 #include <filesystem>
 #include <set>
 #include <string>
@@ -22,7 +22,7 @@ struct SourceFile {
 // The paths between "…" or <…> of every #include line.
 std::vector<std::string> include_paths(std::string_view text);
 
-// The structs, classes and enums that a text defines in named namespaces or none; not what stands within them.
+// The structs, classes and enums that a text defines in named namespaces or none; not those within them.
 std::vector<std::string> type_names(std::string_view text);
 
 // All .hpp and .cpp files below the project's folders, sorted by path.
@@ -40,8 +40,8 @@ std::vector<std::string> unused_files(const std::vector<SourceFile>& sources, co
 // extension or without, and names of pages and sources.
 std::vector<std::string> cited_paths(std::string_view text);
 
-// One sentence for each that is neither below the root, nor beside the file that cites it, nor in its house or the
-// core, nor, of a name alone, anywhere.
+// One sentence for each that does not exist below the root, beside the file that cites it, in its top folder or in the
+// core, nor, if it is a name without folder, anywhere.
 std::vector<std::string> dead_citations(const std::filesystem::path& root);
 
 // Rooms that have a floor and no file: renamed or deleted since.

@@ -1,4 +1,4 @@
-// unit.architecture: reads the #include arrows of the sources; first it shows that a wrong arrow would be seen.
+// unit.architecture: reads the #include arrows of the sources; first it shows that a wrong arrow would be found.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -72,7 +72,7 @@ TEST(Architecture, RefusesCirclesInAnyFolder) {
       found({{"app/study/rows.cpp", {"app/run/folder.hpp"}, 10}, {"app/run/budget.cpp", {"app/study/work.hpp"}, 10}})
           .size(),
       1u);
-  // of three, told once; a test may close one
+  // of three, reported once; a test may close one
   EXPECT_EQ(found({{"reports/a.hpp", {"reports/b.hpp"}, 10},
                    {"reports/b.cpp", {"reports/c.hpp"}, 10},
                    {"reports/c.cpp", {"reports/a.hpp"}, 10}})
@@ -101,12 +101,12 @@ TEST(Architecture, RefusesTwoTypesOfOneName) {
   };
   EXPECT_EQ(both("app/import/imported.hpp", "core/output/origin.hpp"),
             std::vector<std::string>{"app/import/imported.hpp and core/output/origin.hpp both define voussoir::Origin: "
-                                     "one program may hold both, rename one"});
+                                     "one program may contain both, rename one"});
   EXPECT_EQ(both("cases/wedge/wedge_scene.hpp", "cases/wedge/wedge_test.cpp").size(), 1u);
   EXPECT_TRUE(both("cases/arch/arch_trial.hpp", "cases/wedge/wedge_test.cpp").empty());
 }
 
-TEST(Architecture, KeepsTheHousesApart) {
+TEST(Architecture, KeepsTopFoldersApart) {
   for (const char* other : {"reference/wedge/wedge.hpp", "cases/wedge/x.hpp", "verification/verification.hpp",
                             "app/main.hpp", "reports/text.hpp", "benchmarks/x.hpp"}) {
     EXPECT_FALSE(arrow("core/step.cpp", other).empty()) << other;
@@ -148,8 +148,8 @@ TEST(Architecture, FindsWhatCommentsCite) {
   EXPECT_TRUE(cited_paths("// history.csv and km/h, and/or 3.5 m\n").empty());
 }
 
-// a page that is gone, a file that is renamed
-TEST(Architecture, RefusesCitationsOfWhatIsNotThere) {
+// a page that was deleted, a file that was renamed
+TEST(Architecture, RefusesCitationsOfMissingFiles) {
   const std::filesystem::path root = std::filesystem::temp_directory_path() / "voussoir_architecture_test";
   std::filesystem::remove_all(root);
   std::filesystem::create_directories(root / "core/law");
@@ -160,9 +160,9 @@ TEST(Architecture, RefusesCitationsOfWhatIsNotThere) {
   EXPECT_TRUE(dead_citations(root).empty());
   write("core/law/other.hpp", "// decisions in method.md; core/joint_laws.cpp\n#include <map>  // core/neighbours\n");
   EXPECT_EQ(dead_citations(root),
-            (std::vector<std::string>{"core/law/other.hpp cites method.md, which is not there",
-                                      "core/law/other.hpp cites core/joint_laws.cpp, which is not there",
-                                      "core/law/other.hpp cites core/neighbours, which is not there"}));
+            (std::vector<std::string>{"core/law/other.hpp cites method.md, which does not exist",
+                                      "core/law/other.hpp cites core/joint_laws.cpp, which does not exist",
+                                      "core/law/other.hpp cites core/neighbours, which does not exist"}));
   std::filesystem::remove_all(root);
 }
 
@@ -178,7 +178,7 @@ TEST(Architecture, RefusesFilesThatNothingUses) {
 
 TEST(Architecture, HoldsInTheSources) {
   const std::vector<SourceFile> sources = read_sources(VOUSSOIR_SOURCE_DIR);
-  ASSERT_GT(sources.size(), 5u) << "no sources were read, so nothing would be found";
+  ASSERT_GT(sources.size(), 5u) << "no sources were read, so no violation would be found";
   for (const std::string& violation : violations(sources))
     ADD_FAILURE() << violation;
   for (const std::string& room : rooms_without_file(sources))

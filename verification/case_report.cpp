@@ -43,17 +43,17 @@ std::string current_test() {
   return info ? fmt::format("{}.{}", info->test_suite_name(), info->name()) : "outside any test";
 }
 
-// stands in the file until the report is destroyed: a crash or a timeout leaves it there
+// is in the file until the report is destroyed: a crash or a timeout leaves it there
 constexpr const char* unfinished = "stopped before its end";
 
-// true once per case and process, when rows of earlier runs are to be forgotten
+// true once per case and process, when rows of earlier runs are to be discarded
 bool first_of_a_fresh_run(const std::string& case_name) {
   static std::set<std::string> started;
   const char* fresh = std::getenv("VOUSSOIR_FRESH");
   return started.insert(case_name).second && fresh && *fresh;
 }
 
-// which test recorded a quantity: the same test may do so again (--gtest_repeat), another would hide the first
+// the test that recorded a quantity: the same test may do so again (--gtest_repeat), another would hide the first
 std::map<std::pair<std::string, std::string>, std::string>& recorder_of() {
   static std::map<std::pair<std::string, std::string>, std::string> recorders;
   return recorders;
@@ -64,7 +64,7 @@ std::string describe(const Row& row) {
   const char* sign = check.tolerance.bound == Bound::at_most    ? "at most "
                      : check.tolerance.bound == Bound::at_least ? "at least "
                                                                 : "";
-  // fmt compares what it prints: under floating-point traps a NaN would end the program unreported
+  // fmt compares the number that it prints: under floating-point traps a NaN would end the program unreported
   const std::string computed = std::isnan(row.computed) ? "nan" : fmt::format("{:.9g}", row.computed);
   return fmt::format("{}: {} = {} {}, expected {}{:.9g} within {:.3g} (margin {:.3g}; {}; because {})", row.case_name,
                      check.quantity, computed, check.unit, sign, check.expected, width(check.expected, check.tolerance),
@@ -84,7 +84,7 @@ CaseReport::CaseReport(std::string case_name, std::vector<std::string> promised)
       promised_(std::move(promised)),
       test_(current_test()),
       exceptions_at_start_(std::uncaught_exceptions()) {
-  // a crash later on must leave the case as not run, not with the rows of an earlier run
+  // after a later crash the case must count as not run, not have the rows of an earlier run
   if (first_of_a_fresh_run(case_name_)) {
     fs::remove(verdict_path(case_name_));
     fs::remove(case_output(case_name_) / "reference.json");
@@ -114,7 +114,7 @@ bool CaseReport::record(const Check& check, double computed, Cost cost, const ch
 void CaseReport::report(const std::string& quantity, const std::string& unit, double value, const std::string& note,
                         Cost cost) {
   if (quantity.empty() || unit.empty() || note.empty())
-    throw std::invalid_argument("a reported number needs quantity, unit and a note that says why it is shown");
+    throw std::invalid_argument("a reported number needs quantity, unit and a note on why it is shown");
   const Check shown{quantity, unit, Kind::reported, "this run", 0.0, {}, note};
   add({case_name_, shown, value, cost, current_commit()});
 }
@@ -155,7 +155,7 @@ std::string CaseReport::missing_promise() const {
   return {};
 }
 
-// what went wrong in this test that no failed row tells: the summary must not be greener than CTest
+// failures in this test that no failed row reports: the summary must not be greener than CTest
 std::string CaseReport::failure_outside_checks() const {
   if (std::uncaught_exceptions() > exceptions_at_start_) return "stopped by an exception";
   if (const std::string missing = missing_promise(); !missing.empty()) return missing;

@@ -1,5 +1,5 @@
 #pragma once
-// What a case's test talks to: each check is asserted with GoogleTest and becomes a row of the verdict table.
+// The report of a case's test: each check is asserted with GoogleTest and becomes a row of the verdict table.
 #include <filesystem>
 #include <set>
 #include <string>
@@ -10,13 +10,13 @@
 
 namespace voussoir::verification {
 
-// Folder for the data files (CSV for the figures, …) of this run; made when it is not there.
+// Folder for the data files (CSV for the figures, …) of this run; created if it does not exist.
 // <VOUSSOIR_CASE_OUTPUT>/<case>, by default <build>/cases/<case>.
 std::filesystem::path case_output(const std::string& case_name);
 
 // Collects the rows of one test and writes them to <VOUSSOIR_VERDICTS>/<case>.json, by default <build>/verdicts.
 // Several tests and programs may report on one case: rows are merged by quantity. With VOUSSOIR_FRESH set, as CTest
-// does for a case's own entry, the first report of a process forgets the rows of earlier runs.
+// does for a case's own entry, the first report of a process discards the rows of earlier runs.
 class CaseReport {
  public:
   // `promised` names quantities that must have been recorded by the end: a check that is silently left out is a
@@ -36,13 +36,13 @@ class CaseReport {
   void report(const std::string& quantity, const std::string& unit, double value, const std::string& note,
               Cost cost = {});
 
-  // The same of a time, or a ratio of times, measured by a clock: it is not compared with earlier versions.
+  // The same for a time, or a ratio of times, measured by a clock: it is not compared with earlier versions.
   void report_time(const std::string& quantity, const std::string& unit, double value, const std::string& note);
 
-  // The number that this case's study measures its error against: <case_output>/reference.json.
+  // The reference value of this case's study: <case_output>/reference.json.
   void reference(const std::string& quantity, double value, const std::string& unit);
 
-  // Keeps the rows so far, marked as unfinished; the destructor writes them all and takes the mark away.
+  // Writes the rows so far, marked as unfinished; the destructor writes them all and removes the mark.
   void write();
 
  private:

@@ -1,5 +1,5 @@
 # Writes the name of the current commit to FILE, only when it has changed; "unknown" outside a checkout of this project:
-# a source archive unpacked inside another repository must not take that one's commit.
+# a source archive unpacked inside another repository must not use that one's commit.
 cmake_minimum_required(VERSION 3.25)
 set(commit unknown)
 execute_process(COMMAND git -C ${SOURCE} rev-parse --show-prefix

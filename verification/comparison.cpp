@@ -52,7 +52,7 @@ double width(double expected, const Tolerance& tolerance) {
 }
 
 bool within(double computed, double expected, const Tolerance& tolerance) {
-  // ask for finiteness first: a comparison with NaN would be false here, but true once negated elsewhere
+  // test for finiteness first: a comparison with NaN would be false here, but true once negated elsewhere
   if (!std::isfinite(computed) || !std::isfinite(expected)) return false;
   return excess(computed, expected, tolerance.bound) <= width(expected, tolerance);
 }
@@ -60,7 +60,7 @@ bool within(double computed, double expected, const Tolerance& tolerance) {
 bool bites(const Check& check) {
   const double half = width(check.expected, check.tolerance);
 
-  // a tolerance of zero asks for the very same number: then the nearest other number must be refused
+  // a tolerance of zero requires the very same number: then the nearest other number must be refused
   const double above = half > 0.0 ? check.expected + 3.0 * half : std::nextafter(check.expected, infinity);
   const double below = half > 0.0 ? check.expected - 3.0 * half : std::nextafter(check.expected, -infinity);
   const bool refuses_above = !within(above, check.expected, check.tolerance);
@@ -79,10 +79,10 @@ double margin(double computed, const Check& check) {
 }
 
 void require_complete(const Check& check) {
-  require(!check.quantity.empty(), check, "has no quantity; name what is compared");
+  require(!check.quantity.empty(), check, "has no quantity; name the compared quantity");
   require(!check.unit.empty(), check, "has no unit; write \"1\" for a number without dimension");
   require(!check.source.empty(), check, "has no source; name author, year and equation, or the identity");
-  require(!check.because.empty(), check, "has no because; say what the tolerance is derived from");
+  require(!check.because.empty(), check, "has no because; state the derivation of the tolerance");
   require(check.kind != Kind::reported, check, "has kind reported; use report() for a number without a target");
   require(std::isfinite(check.expected), check, "expects a number that is not finite");
 

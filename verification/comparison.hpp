@@ -1,11 +1,11 @@
 #pragma once
-// The only pass/fail rule of this project, and what a check must state before it may be judged by it.
+// The only pass/fail rule of this project, and the fields that a check must state before it may be judged by it.
 #include <string>
 #include <string_view>
 
 namespace voussoir::verification {
 
-// Which side of the expected value is allowed. at_most and at_least belong to checks of kind `limit` only.
+// The allowed side of the expected value. at_most and at_least are for checks of kind `limit` only.
 enum class Bound { both, at_most, at_least };
 
 // Both numbers are finite and not negative; the two parts add up (see width).
@@ -17,9 +17,9 @@ struct Tolerance {
 
 enum class Kind {
   exact,      // closed form, or an identity: verification
-  limit,      // an inequality or a limit the answer must approach: verification
+  limit,      // an inequality or a limit that the result must approach: verification
   published,  // a value printed by others, with their uncertainty: validation
-  drift,      // our own earlier value: says "moved", never "right"
+  drift,      // our own earlier value: reports "moved", never "right"
   reported,   // a number without a target: shown, never judged
 };
 
@@ -30,7 +30,7 @@ struct Check {
   std::string source;  // author, year, equation or page; for an identity, its name
   double expected = 0.0;
   Tolerance tolerance;
-  std::string because;        // why the tolerance is what it is: derived, not tuned
+  std::string because;        // justification of the tolerance: derived, not tuned
   bool by_the_clock = false;  // of kind reported: a time, which no two runs share
 };
 
@@ -40,16 +40,16 @@ double width(double expected, const Tolerance& tolerance);
 // True when both numbers are finite and |computed - expected| <= width; a bound relaxes the other side.
 bool within(double computed, double expected, const Tolerance& tolerance);
 
-// True when a value three tolerances away on each forbidden side is refused, so that the check can fail at all.
+// True when a value three tolerances away on each forbidden side is refused, so that the check can fail.
 bool bites(const Check& check);
 
-// How much of the tolerance is used: 1 is the edge, above 1 failed, negative is room to spare on a bounded side.
+// The used part of the tolerance: 1 is the edge, above 1 failed, negative is room to spare on a bounded side.
 double margin(double computed, const Check& check);
 
 // Throws std::invalid_argument, naming the check, when a field is empty or a number makes no sense.
 void require_complete(const Check& check);
 
-// Names as they stand in files. The readers throw std::invalid_argument for a name that is not in the list.
+// Names as written in files. The readers throw std::invalid_argument for a name that is not in the list.
 std::string_view name_of(Kind kind);
 std::string_view name_of(Bound bound);
 Kind kind_of(std::string_view name);

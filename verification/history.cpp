@@ -84,7 +84,7 @@ bool value_moved(double before, const Row& now) {
   return std::abs(now.computed - before) > rounding;
 }
 
-// the first section of a changelog: what comes next
+// the first section of a changelog: the next version
 std::string_view newest(std::string_view changelog) {
   const auto begin = changelog.find("## ");
   if (begin == std::string_view::npos) return {};
@@ -125,7 +125,7 @@ std::string math_functions_in(std::string_view version_text) {
 }
 
 std::string history_lines(const Verdicts& verdicts, const std::string& math_functions) {
-  if (!all_good(verdicts)) throw std::runtime_error("a version whose checks do not all pass is no history");
+  if (!all_good(verdicts)) throw std::runtime_error("a version whose checks do not all pass is not kept");
   std::string text = json{{"math_functions", math_functions}}.dump() + "\n";
   for (const Row& row : verdicts.rows) {
     if (!std::isfinite(row.computed)) continue;

@@ -1,5 +1,5 @@
-// unit.verification: what has moved since an earlier version is told with its old and new value, and fails unless the
-// changelog says that it was meant.
+// unit.verification: a value that has moved since an earlier version is reported with its old and new value, and is a
+// failure unless the changelog announces it.
 #include "verification/history.hpp"
 
 #include <gtest/gtest.h>
@@ -53,13 +53,13 @@ TEST_F(History, IsReadInTheOrderOfVersions) {
   EXPECT_TRUE(read_history(folder / "none").empty());
 }
 
-TEST_F(History, TellsNothingOfWhatStayed) {
+TEST_F(History, ReportsNoValueThatStayed) {
   EXPECT_TRUE(moved_since(newest(), verdicts(30.02)).empty());
   EXPECT_TRUE(moved_since(newest(), verdicts(30.02 * (1 + 1e-10))).empty());  // rounding
 }
 
-TEST_F(History, TellsOldAndNewOfWhatMoved) {
-  const auto moved = moved_since(newest(), verdicts(30.020001));  // and the time, which is by the clock
+TEST_F(History, ReportsOldAndNewValuesThatMoved) {
+  const auto moved = moved_since(newest(), verdicts(30.020001));  // and the time, which is measured by the clock
   ASSERT_EQ(moved.size(), 1u);
   EXPECT_EQ(describe(moved[0], "0.10.0"), "wedge: critical friction: 30.020001 deg, was 30.02 in 0.10.0");
 
@@ -88,10 +88,10 @@ TEST_F(History, AMoveMustBeAnnouncedInTheFirstSection) {
   EXPECT_TRUE(announced("## 0.11.0 (unreleased)\n- Moved: `wedge`, all of it\n## 0.10.0\n"));
   EXPECT_FALSE(announced("## 0.11.0 (unreleased)\n- Moved: `wedge`: `steps`\n", 1));
   EXPECT_FALSE(announced("## 0.11.0 (unreleased)\n- Moved: `slump`\n", 1));
-  EXPECT_FALSE(announced("## 0.11.0\n## 0.10.0\n- Moved: `wedge`\n"));  // said of an earlier version
+  EXPECT_FALSE(announced("## 0.11.0\n## 0.10.0\n- Moved: `wedge`\n"));  // in the section of an earlier version
 }
 
-TEST_F(History, StandsInTheTable) {
+TEST_F(History, IsShownInTheTable) {
   Verdicts now = verdicts(30.03);
   now.compared_with = "0.10.0";
   now.moved = moved_since(newest(), now);
@@ -114,19 +114,19 @@ TEST_F(History, IsDrawnWithItsMoves) {
   EXPECT_EQ(table.rows[6].cells[4].text, "0");
 }
 
-TEST_F(History, RefusesWhatIsNoHistory) {
+TEST_F(History, RefusesInvalidHistories) {
   Verdicts failing = verdicts(31.0);
   EXPECT_THROW(history_lines(failing, ""), std::runtime_error);
   const auto message = [](const std::string& name, const std::string& text) {
     write_atomically(folder / name, text);
-    std::string told;
+    std::string refusal;
     try {
       read_history(folder);
     } catch (const std::runtime_error& problem) {
-      told = problem.what();
+      refusal = problem.what();
     }
     fs::remove(folder / name);
-    return told;
+    return refusal;
   };
   EXPECT_NE(message("1.0.0.jsonl", history_lines(verdicts(30.0), "") + "{\"case\": 1}\n").find("1.0.0.jsonl:5:"),
             std::string::npos);

@@ -24,7 +24,7 @@ std::string commit_in(const fs::path& file) {
   return commit.empty() ? "unknown" : commit;
 }
 
-// What has moved since the newest version of the history, and the drawing's data.
+// The values that have moved since the newest version of the history, and the drawing's data.
 void compare(Verdicts& verdicts, const fs::path& folder, const fs::path& changelog, const fs::path& out,
              const std::string& math_functions) {
   const std::vector<PastVersion> history = read_history(folder);
@@ -35,8 +35,8 @@ void compare(Verdicts& verdicts, const fs::path& folder, const fs::path& changel
   const auto idle = mark_announced(verdicts.moved, fs::exists(changelog) ? read_text(changelog) : "");
   if (math_functions != history.back().math_functions && !verdicts.moved.empty()) {
     fmt::print(
-        "note: the C library computes other functions here (hash {}) than those of {} (hash {}): what moved is told, "
-        "not judged\n",
+        "note: the C library computes other functions here (hash {}) than those of {} (hash {}): values that moved are "
+        "reported, not judged\n",
         math_functions, verdicts.compared_with, history.back().math_functions);
     for (Moved& moved : verdicts.moved)
       moved.announced = true;
@@ -44,10 +44,9 @@ void compare(Verdicts& verdicts, const fs::path& folder, const fs::path& changel
   for (const Moved& moved : verdicts.moved)
     fmt::print("MOVED {}{}\n", describe(moved, verdicts.compared_with), moved.announced ? " (announced)" : "");
   if (!all_announced(verdicts))
-    fmt::print(
-        "What is meant to move is said in the first section of CHANGELOG.md: - Moved: `case`: `quantity`, since …\n");
+    fmt::print("Announce intended moves in the first section of CHANGELOG.md: - Moved: `case`: `quantity`, since …\n");
   for (const std::string& line : idle)
-    fmt::print("note: CHANGELOG.md announces what did not move since {}: {}\n", verdicts.compared_with, line);
+    fmt::print("note: CHANGELOG.md announces a move that did not happen since {}: {}\n", verdicts.compared_with, line);
 }
 
 }  // namespace
@@ -62,8 +61,8 @@ int main(int argc, char** argv) {
   app.add_option("--out", out, "folder for verdicts.md, verdicts.csv and verdicts.json")->required();
   app.add_option("--commit-file", commit_file, "file that holds the commit's name");
   app.add_option("--history", history, "folder of earlier versions' rows, to compare with");
-  app.add_option("--changelog", changelog, "file that says which values are meant to move");
-  app.add_option("--version-file", version_file, "file of what `voussoir --version` prints");
+  app.add_option("--changelog", changelog, "file that announces which values are meant to move");
+  app.add_option("--version-file", version_file, "file with the output of `voussoir --version`");
   app.add_option("--keep", keep, "write the rows as a version of the history into this file, when all is good");
   CLI11_PARSE(app, argc, argv);
 
@@ -76,7 +75,7 @@ int main(int argc, char** argv) {
     write_atomically(out / "verdicts.json", verdict_json(verdicts).dump(1) + "\n");
     write_atomically(out / "verdicts.txt", one_line(verdicts) + "\n");
 
-    // name what is wrong before the last line counts it
+    // list all failures before the last line counts them
     for (const Row& row : verdicts.rows)
       if (!passed(row))
         fmt::print("FAILED {}: {} = {} {}, expected {} within {}\n", row.case_name, row.check.quantity,

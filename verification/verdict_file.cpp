@@ -19,7 +19,7 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-// JSON has no word for NaN and infinity; a failed result must still reach the table as what it was
+// JSON has no word for NaN and infinity; a failed result must still reach the table with its value
 json number(double value) {
   if (std::isfinite(value)) return value;
   return std::isnan(value) ? "nan" : value > 0.0 ? "inf" : "-inf";
@@ -101,7 +101,7 @@ Row row_from_json(const json& text) {
       require_complete(row.check);
     }
 
-    // the stored word is for readers of the file; the rule has the last word
+    // the stored verdict is for readers of the file; the rule decides
     const auto stored = text.at("verdict").get<std::string>();
     if (stored != verdict_of(row))
       throw std::runtime_error(

@@ -18,7 +18,7 @@ std::string plural(int number, std::string_view singular, std::string_view plura
   return fmt::format("{} {}", number, number == 1 ? singular : plural_form);
 }
 
-// a table cell in markdown must not hold a bar or a line end
+// a table cell in markdown must not contain a bar or a line end
 std::string cell(std::string text) {
   std::string safe;
   for (const char character : text) {
@@ -65,7 +65,7 @@ Verdicts collect(const fs::path& folder, const std::vector<std::string>& cases,
       verdicts.failures.push_back({name, "has verdict rows although it is listed as not yet modelled"});
   }
 
-  // rows that nobody asked for: a removed or misspelt case, which would otherwise vanish from the table
+  // rows that no list names: a removed or misspelt case, which would otherwise vanish from the table
   std::vector<std::string> extra;
   if (fs::exists(folder))
     for (const auto& entry : fs::directory_iterator(folder))
@@ -129,7 +129,7 @@ const std::vector<VerdictGroup>& verdict_groups() {
        "Against closed forms, identities and limits: are the equations solved right?",
        {Kind::exact, Kind::limit}},
       {"Validation", "Against numbers published by others, with their uncertainty.", {Kind::published}},
-      {"Drift", "Against our own earlier value: it says \"moved\", never \"right\".", {Kind::drift}},
+      {"Drift", "Against our own earlier value: it shows \"moved\", never \"right\".", {Kind::drift}},
       {"Reported", "Numbers without a target; never judged.", {Kind::reported}}};
   return groups;
 }
@@ -151,7 +151,7 @@ std::string_view name_of(CaseState state) {
 }
 
 std::string show(double value) {
-  // fmt compares what it prints: under floating-point traps a NaN would end the program
+  // fmt compares the number that it prints: under floating-point traps a NaN would end the program
   return std::isnan(value) ? "nan" : fmt::format("{:.6g}", value);
 }
 
@@ -176,7 +176,7 @@ std::string verdict_markdown(const Verdicts& verdicts) {
   if (!open.empty()) text += "\n## Cases without rows\n\n| case | state |\n|---|---|\n" + open;
 
   if (!verdicts.failures.empty()) {
-    text += "\n## Failures outside a check\n\n| case | what |\n|---|---|\n";
+    text += "\n## Failures outside a check\n\n| case | failure |\n|---|---|\n";
     for (const Failure& failure : verdicts.failures)
       text += fmt::format("| {} | **FAILED** {} |\n", failure.case_name, cell(failure.message));
   }
@@ -186,7 +186,7 @@ std::string verdict_markdown(const Verdicts& verdicts) {
     if (moved.gone)
       gone += fmt::format("| {} | {} | {} |\n", moved.case_name, cell(moved.quantity), show_moved(&moved));
   if (!gone.empty())
-    text += fmt::format("\n## Rows of {} that are gone\n\n| case | quantity | what |\n|---|---|---|\n",
+    text += fmt::format("\n## Rows of {} that are gone\n\n| case | quantity | change |\n|---|---|---|\n",
                         verdicts.compared_with) +
             gone;
   const std::string since = verdicts.compared_with.empty() ? "moved" : "moved since " + verdicts.compared_with;

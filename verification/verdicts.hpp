@@ -1,5 +1,5 @@
 #pragma once
-// All verdicts of one build: what the summary prints and the manual shows.
+// All verdicts of one build, printed by the summary and shown in the manual.
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -16,22 +16,22 @@ struct CaseStatus {
   CaseState state = CaseState::not_run;
 };
 
-// Something that failed without a row of its own: an unreadable file, an exception, rows of a case nobody listed.
+// Something that failed without a row of its own: an unreadable file, an exception, rows of a case that is not listed.
 struct Failure {
   std::string case_name;
   std::string message;
 };
 
-// How a row differs from the same of an earlier version (verification/history.hpp).
+// The difference of a row from the same row of an earlier version (verification/history.hpp).
 struct Moved {
   std::string case_name;
   std::string quantity;
   std::string unit;
   double before = 0.0, now = 0.0;
   long long evaluations_before = 0, evaluations_now = 0;
-  bool value = false, cost = false;  // what has moved
-  bool gone = false;                 // no such row any more
-  bool announced = false;            // the changelog says so
+  bool value = false, cost = false;  // whether value or cost has moved
+  bool gone = false;                 // the row no longer exists
+  bool announced = false;            // announced in the changelog
 };
 
 struct Verdicts {
@@ -50,32 +50,32 @@ struct Counts {
   int not_run = 0;
 };
 
-// The lists come from CMake, never from the files that happen to be there; a file outside both lists is a failure.
+// The lists come from CMake, never from the files that happen to exist; a file outside both lists is a failure.
 Verdicts collect(const std::filesystem::path& folder, const std::vector<std::string>& cases,
                  const std::vector<std::string>& not_modelled, const std::string& commit);
 
 Counts count(const Verdicts& verdicts);
 
-// False when anything failed, a case did not run, or nothing was checked at all.
+// False when anything failed, a case did not run, or nothing was checked.
 bool all_good(const Verdicts& verdicts);
 
-// The row's move since that version; none when it stayed.
+// The row's move since that version; null if it did not move.
 const Moved* move_of(const Verdicts& verdicts, const Row& row);
 
-// What a table says of it: "", "was 33.4", "42 evaluations more", …
+// Its text in a table: "", "was 33.4", "42 evaluations more", …
 std::string show_moved(const Moved* moved);
 
-// Whether the changelog tells of all moves.
+// Whether the changelog announces all moves.
 bool all_announced(const Verdicts& verdicts);
 
-// "12 checks passed, 0 failed, 1 case not run", and how many moved, if any
+// "12 checks passed, 0 failed, 1 case not run", and the number of moved rows, if any
 std::string one_line(const Verdicts& verdicts);
 
 std::string verdict_markdown(const Verdicts& verdicts);
 std::string verdict_csv(const Verdicts& verdicts);
 nlohmann::json verdict_json(const Verdicts& verdicts);
 
-// Reads back what verdict_json wrote; throws std::runtime_error when it is not that.
+// Reads the output of verdict_json; throws std::runtime_error when it is not that.
 Verdicts verdicts_from_json(const nlohmann::json& text);
 
 // The tables, in this order: verification is never mixed with validation.

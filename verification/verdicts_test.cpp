@@ -60,7 +60,7 @@ TEST_F(Table, FailsForExtraRows) {
   EXPECT_FALSE(all_good(collected({"wedge"}, {"tunnel"})));
 }
 
-TEST_F(Table, FailsForFailuresThatNoRowTells) {
+TEST_F(Table, FailsForFailuresWithoutARow) {
   merge_into_case_file(folder / "wedge.json", "wedge", {}, "Wedge.Slides", "stopped by an exception");
   EXPECT_FALSE(all_good(collected()));
   merge_into_case_file(folder / "wedge.json", "wedge", {}, "Wedge.Slides", "");
@@ -82,7 +82,7 @@ TEST_F(Table, FailsForFilesThatAreEmptyCutOrEdited) {
     EXPECT_FALSE(all_good(collected()));
     EXPECT_FALSE(collected().failures.empty());
   };
-  edited([](auto& text) { text["rows"][0]["computed"] = 31.0; });  // still says passed
+  edited([](auto& text) { text["rows"][0]["computed"] = 31.0; });  // still with the stored verdict passed
   edited([](auto& text) { text["rows"][0].erase("computed"); });
   edited([](auto& text) { text["rows"][0]["because"] = ""; });
   edited([](auto& text) { text["rows"][0]["case"] = "slump"; });

@@ -1,4 +1,4 @@
-// unit.verification, first half: the rule and the report must refuse what they are there to refuse.
+// unit.verification, first half: the rule and the report must refuse wrong results and incomplete checks.
 #include "verification/verification.hpp"
 
 #include <gtest/gtest-spi.h>
@@ -33,13 +33,13 @@ TEST(Within, IsTrueInsideAndOnTheEdgeOnly) {
 }
 
 TEST(Within, RefusesTheWrongSign) {
-  // the classical trap: a relative error without the absolute value accepts anything of a negative force
+  // the classical trap: a relative error without the absolute value accepts any negative force
   EXPECT_FALSE(within(21.7, -21.7, {0.0, 0.01}));
   EXPECT_FALSE(within(-1000.0, -21.7, {0.0, 0.01}));
   EXPECT_FALSE(within(-1e-3, 1e-3, {0.0, 0.999}));
 }
 
-TEST(Within, RefusesWhatIsNotFinite) {
+TEST(Within, RefusesNumbersThatAreNotFinite) {
   for (const double bad : {nan, inf, -inf}) {
     for (const Bound bound : {Bound::both, Bound::at_most, Bound::at_least}) {
       EXPECT_FALSE(within(bad, 1.0, {0.1, 0.1, bound}));
@@ -68,7 +68,7 @@ TEST(Within, RefusesResultsScaledByOnePlusThreeTolerances) {
   for (const double expected : {1e-9, 0.3, -21.7, 6.1e7}) {
     for (const double relative : {1e-12, 1e-6, 1e-2, 0.2}) {
       const Tolerance tolerance{0.0, relative};
-      // the computed value may itself stand anywhere in the accepted interval
+      // the computed value may itself be anywhere in the accepted interval
       for (const double place : {-0.99, 0.0, 0.99}) {
         const double computed = expected * (1.0 + place * relative);
         ASSERT_TRUE(within(computed, expected, tolerance));
@@ -117,7 +117,7 @@ TEST(Check, MustBeAbleToFail) {
   }
 }
 
-TEST(Margin, SaysHowMuchOfTheToleranceIsUsed) {
+TEST(Margin, IsTheUsedPartOfTheTolerance) {
   Check check{"q", "m", Kind::limit, "s", 10.0, {0.5, 0.0}, "b"};
   EXPECT_DOUBLE_EQ(margin(10.25, check), 0.5);
   EXPECT_DOUBLE_EQ(margin(9.0, check), 2.0);
@@ -151,7 +151,7 @@ class Report : public testing::Test {
   static inline const fs::path folder = fs::path(testing::TempDir()) / "voussoir_report_test";
 };
 
-TEST_F(Report, PassesAndKeepsARow) {
+TEST_F(Report, PassesAndRecordsARow) {
   {
     CaseReport report("kept");
     EXPECT_TRUE(report.record(good_check(), -21.75, {42, 0.5}));
@@ -184,7 +184,7 @@ TEST_F(Report, FailsInGoogleTestAndInTheRow) {
   }
 }
 
-TEST_F(Report, MergesByQuantityAndForgetsWhenFresh) {
+TEST_F(Report, MergesByQuantityAndDiscardsOldRowsWhenFresh) {
   const Row earlier{"merged", good_check(), -21.7, {}, "earlier"};
   Row renamed = earlier;
   renamed.check.quantity = "gone from the source";
@@ -210,7 +210,7 @@ TEST_F(Report, RefusesTheSameQuantityTwice) {
   EXPECT_THROW(report.report("other", "m", 1.0, ""), std::invalid_argument);
 }
 
-TEST_F(Report, TellsOfAnExceptionAndOfABrokenPromise) {
+TEST_F(Report, ReportsAnExceptionAndAMissingPromisedCheck) {
   try {
     CaseReport report("thrown");
     report.record(good_check(), -21.7);

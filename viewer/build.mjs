@@ -1,5 +1,5 @@
-// node build.mjs MODULES ASSET: bundles src/ with three.js of MODULES and writes the pieces of a page as a C++ file; the
-// script also as viewer.js beside it, whose size is tested, and the licence of three.js.
+// node build.mjs MODULES ASSET: bundles src/ with three.js of MODULES and writes the parts of a page as a C++ file, and
+// next to it the script as viewer.js, whose size is tested, and the licence of three.js.
 import { createRequire } from 'node:module';
 import { copyFileSync, readFileSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
@@ -27,7 +27,7 @@ writeFileSync(join(dirname(asset), 'viewer.js'), script);
 copyFileSync(join(modules, 'node_modules/three/LICENSE'), join(dirname(asset), 'LICENSE.three'));
 const packed = gzipSync(script, { level: 9 }).toString('base64');
 
-// what unpacks the script, and runs it as an element's text: the policy below allows that and no request at all
+// unpacks the script and runs it as an element's text: the policy below allows that, but no request
 const loader = readFileSync(join(source, 'loader.js'), 'utf8').trim();
 const policy = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:";
 const pieces = {
@@ -50,7 +50,7 @@ const pieces = {
   after_fragment: '</script></div>\n',
 };
 
-// no compiler takes a literal of any length: pieces of one are joined
+// compilers limit the length of a literal: its parts are joined
 const literal = (text) =>
   (text.match(/[^]{1,8000}/g) ?? ['']).map((part) => `R"~~~(${part})~~~"`).join('\n    ');
 const views = Object.entries(pieces).map(([name, text]) => `const std::string_view ${name} =\n    ${literal(text)};\n`);

@@ -1,7 +1,7 @@
 // node poster.mjs PAGE PICTURE [LOOK [WIDTH HEIGHT [SCALE]]]: a still picture of a page that `voussoir run --view` wrote, by
-// headless Chromium. LOOK is what stands behind # in its address, e.g.
-// "frame=3&magnified=100&colour=displacement&forces=arrows". The page draws it as its button `save PNG` does, or, where
-// PICTURE ends in .webp, as such without loss, some 0.6 times as large.
+// headless Chromium. LOOK is the part after # in its address, e.g.
+// "frame=3&magnified=100&colour=displacement&forces=arrows". The page draws it as its button `save PNG` does, or, if
+// PICTURE ends in .webp, as lossless WebP, about 0.6 times as large.
 import { spawnSync } from 'node:child_process';
 import { writeFileSync } from 'node:fs';
 import { resolve } from 'node:path';

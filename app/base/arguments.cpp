@@ -35,8 +35,8 @@ void add_scene(CLI::App* command, SceneArguments& arguments) {
       ->check(plain_text())
       ->type_name("FILE");
   add_repeated(command, "--set", arguments.overrides,
-               "replaces a value of the scene; tables of a list by their name, e.g. joints.A.dip=65. Each takes a "
-               "--set of its own")
+               "replace a value of the scene; tables of a list are addressed by name, e.g. joints.A.dip=65; repeat "
+               "--set for each value")
       ->type_name("KEY=VALUE")
       ->check(plain_text());
 }
@@ -47,8 +47,8 @@ void add_out(CLI::App* command, std::filesystem::path& out, const std::string& m
 
 void add_overwrite(CLI::App* command, bool& overwrite) {
   command->add_flag("--overwrite", overwrite,
-                    "remove the results that the folder holds, and replace files of the names that are written; what "
-                    "this command reads is never replaced");
+                    "remove the results in the folder, and replace files of the names that are written; files that "
+                    "this command reads are never replaced");
 }
 
 void add_threads(CLI::App* command, int& threads) {

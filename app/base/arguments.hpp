@@ -1,4 +1,4 @@
-// What the arguments of several commands share: options and what they take.
+// Options that several commands share, and the values they take.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -17,7 +17,7 @@ struct ParsedCommand {
   Arguments& arguments;
 };
 
-// A command with arguments of its own, which live as long as the parser.
+// A command with its arguments, which live as long as the parser.
 template <class Arguments>
 ParsedCommand<Arguments> add_command(CLI::App& program, Action& action, const std::string& name,
                                      const std::string& meaning, ExitCode (*act)(const Arguments&)) {
@@ -38,7 +38,8 @@ inline constexpr double least_positive = 1e-9, largest_argument = 1e12;
 // Within the range, and finite: nan would pass every comparison.
 CLI::Validator finite(double low, double high);
 
-// What is printed or becomes part of a file's name, and never nothing: an empty name is a variable that was not set.
+// Text that is printed or becomes part of a file's name. It must not be empty: an empty name is a variable that was not
+// set.
 CLI::Validator plain_text();
 
 void add_scene(CLI::App* command, SceneArguments& arguments);

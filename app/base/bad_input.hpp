@@ -1,4 +1,4 @@
-// Input that is legal by itself but cannot be had here: one line for people; the program ends with exit code 2.
+// Input that is valid in itself but not supported here: one line for people; the program ends with exit code 2.
 #pragma once
 
 #include <stdexcept>

@@ -1,4 +1,4 @@
-// What a command gives to the program: arguments, declared to the parser, and what they ask for.
+// A command of the program: arguments, declared to the parser, and the action they ask for.
 #pragma once
 
 #include <functional>
@@ -11,11 +11,11 @@ class App;
 
 namespace voussoir {
 
-// What the arguments ask for, to be done once all of them are read. Returns the exit code; throws SceneError, BadInput,
+// The action of a command, run once all arguments are read. Returns the exit code; throws SceneError, BadInput,
 // FolderInUse or OutputError.
 using Action = std::function<ExitCode()>;
 
-// Adds a command, with its help, to the program; when its arguments are read, `action` is what they ask for.
+// Adds a command, with its help, to the program; when its arguments are read, `action` is set to their action.
 using AddCommand = void(CLI::App& program, Action& action);
 
 }  // namespace voussoir

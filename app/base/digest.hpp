@@ -1,4 +1,5 @@
-// A hash that tells inputs, programs and results apart: 128 bits, so that no study ever sees two by chance alike.
+// A hash that distinguishes inputs, programs and results: 128 bits, so that a chance collision is practically
+// impossible.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What the program's exit codes mean, in the words that its help and its manual page print.
+// The meanings of the program's exit codes, as its help and its manual page print them.
 #pragma once
 
 #include "core/output/results.hpp"
@@ -10,10 +10,10 @@ enum class ExitCode {
   incomplete = 1,  // complete, but a goal was not reached: no equilibrium, no bracket
   bad_input = 2,
   in_use = 3,         // another run writes to the folder
-  numerical = 4,      // a contact without an answer, a number that is not finite
+  numerical = 4,      // a contact without a solution, a number that is not finite
   output = 5,         // a result could not be written or renamed
   disk_full = 6,      // or a quota or a limit on the size of files
-  not_permitted = 7,  // a folder or file that must not be written
+  not_permitted = 7,  // a folder or file without write permission
   no_memory = 8,
   signal = 128  // and the number of the signal that ended a run: 130 for SIGINT, 143 for SIGTERM
 };

@@ -17,7 +17,7 @@ volatile std::sig_atomic_t noted = 0;
 
 // The next one from a keyboard ends the program. The others are repeated by machines and must not disturb the
 // checkpoint: a batch system sends SIGTERM to each process of a job and so does the study that started us, and SIGXCPU
-// comes with every further second of processor time.
+// is repeated at every further second of processor time.
 void note(int signal) {
   noted = signal;
   for (const int other : asking)
@@ -29,11 +29,11 @@ void note(int signal) {
 void note_interruptions() {
   struct sigaction action = {};
   action.sa_handler = note;
-  action.sa_flags = static_cast<int>(SA_RESTART);  // a signal is no reason for a file not to open
+  action.sa_flags = static_cast<int>(SA_RESTART);  // a signal must not make the opening of a file fail
   for (const int signal : asking)
     ::sigaddset(&action.sa_mask, signal);
   for (const int signal : asking) {
-    // who started us may have asked for deafness: nohup, or a shell that runs us in the background
+    // the parent process may have asked us to ignore it: nohup, or a shell that runs us in the background
     struct sigaction before = {};
     ::sigaction(signal, nullptr, &before);
     if (before.sa_handler != SIG_IGN) ::sigaction(signal, &action, nullptr);

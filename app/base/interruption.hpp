@@ -11,7 +11,7 @@ void note_interruptions();
 // the signal noted last; 0: none
 int interruption();
 
-// At the program's start: a file that exceeds the limit of its size becomes an error of writing instead of a signal,
+// At the program's start: a file that exceeds the size limit becomes a write error instead of a signal,
 // and a standard stream that is closed cannot be mistaken for the next file that is opened.
 void prepare_process();
 

@@ -1,5 +1,5 @@
-// Lines for people on stderr. Where nobody can read them (a log on a full disk), the work and its exit code matter
-// more: unlike fmt's print, this throws nothing of its own. What a terminal would obey is replaced
+// Lines for people on stderr. If they cannot be written (a log on a full disk), the work and its exit code matter
+// more: unlike fmt's print, this throws nothing of its own. Control characters are replaced
 // (text/plain_text.hpp).
 #pragma once
 

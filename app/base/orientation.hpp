@@ -1,4 +1,4 @@
-// Orientations as reports tell them: the mean of a set's joints, and poles for a stereonet.
+// Orientations for reports: the mean of a set's joints, and poles for a stereonet.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@ namespace voussoir {
 
 struct MeanOrientation {
   DipAndDirection angles{0, 0};
-  std::optional<double> fisher_constant;  // 3-D; nothing where the normals do not scatter
+  std::optional<double> fisher_constant;  // 3-D; nothing if the normals do not scatter
 };
 
 // Of unit normals that have no sign: the axis of their largest moment. Fisher's constant is that of the normals turned

@@ -1,4 +1,4 @@
-// One line on the terminal that tells how far a run has come.
+// One line on the terminal that shows the progress of a run.
 #pragma once
 
 #include <chrono>
@@ -15,7 +15,7 @@ std::string duration_text(double seconds);
 bool is_terminal();
 
 // On a terminal it rewrites its line a few times a second. Elsewhere, in a file or a pipe, it adds a line once a
-// minute: nothing of a short run, and of a long one enough to see that it continues.
+// minute: nothing for a short run, and for a long one enough to see that it continues.
 class ProgressLine {
  public:
   explicit ProgressLine(bool wanted, bool terminal = is_terminal(),

@@ -28,7 +28,7 @@ void use_glpk([[maybe_unused]] Solvers<Dim>& solvers) {
 #endif
 }
 
-// Ipopt as chosen, and where it is built in also for what our own search leaves unanswered
+// Ipopt as chosen, and if it is built in also for points that our own search does not find
 template <int Dim>
 void use_ipopt([[maybe_unused]] CentreSolver chosen, [[maybe_unused]] Solvers<Dim>& solvers) {
 #ifdef VOUSSOIR_HAS_IPOPT

@@ -1,4 +1,4 @@
-// From a scene file to results in memory: what `voussoir run` does, without files. Cases call it.
+// From a scene file to results in memory: `voussoir run` without files. Cases call it.
 #pragma once
 
 #include <filesystem>
@@ -24,9 +24,9 @@ struct LoadedScene {
   std::string text;  // the effective scene: the file with its overrides, as TOML
   std::string hash;  // fingerprint of its canonical form, which layout and comments do not change
   std::vector<std::filesystem::path> files;  // that were read
-  std::vector<std::string> from_level;       // what accuracy.level set: "key = value"
+  std::vector<std::string> from_level;       // set by accuracy.level: "key = value"
   std::vector<std::string> warnings;         // stated values that look like mistakes, one line each
-  std::shared_ptr<const Scene> stated;       // what the file says
+  std::shared_ptr<const Scene> stated;       // as the file states it
   AnyPrepared prepared;
 };
 
@@ -35,10 +35,10 @@ struct LoadedScene {
 LoadedScene load_scene(const std::filesystem::path& path, const std::vector<std::string>& overrides = {},
                        int threads = 1);
 
-// the same for those who ask a scene for its blocks alone: it need not have a stage
+// the same if only the blocks of a scene are needed: it need not have a stage
 LoadedScene load_blocks(const std::filesystem::path& path, const std::vector<std::string>& overrides = {});
 
-// what the user should know of the files that the scene names, on stderr
+// warnings about the files that the scene names, on stderr
 void tell_remarks(const Scene& scene);
 
 using ProgressHook = std::function<void(const ProgressReport&)>;
@@ -55,7 +55,7 @@ struct SceneRun {
 SceneRun run_scene(const std::filesystem::path& path, const std::vector<std::string>& overrides = {}, int threads = 1,
                    const ProgressHook& progress = {});
 
-// what is built in besides the core: glpk, ipopt, fast arithmetic
+// features built in besides the core: glpk, ipopt, fast arithmetic
 std::vector<std::pair<std::string, bool>> features();
 
 }  // namespace voussoir

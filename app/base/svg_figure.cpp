@@ -111,7 +111,7 @@ std::string drawn(const Curve& curve, const Axis& x, const Axis& y, const char* 
   return fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\"/>\n", path, colour);
 }
 
-// from low to high, told apart without colours too: its lightness rises evenly (viridis, five of its colours)
+// from low to high, readable without colour too: the lightness rises evenly (viridis, five of its colours)
 std::string shade(double fraction) {
   constexpr int stops[][3] = {{68, 1, 84}, {59, 82, 139}, {33, 145, 140}, {94, 201, 98}, {253, 231, 37}};
   const double at = std::clamp(fraction, 0.0, 1.0) * 4;
@@ -145,7 +145,7 @@ std::string drawn_mark(MapMark mark, double x, double y, double half) {
   return mark == MapMark::cross ? cross(x, y, half) : ring(x, y, half);
 }
 
-// the scale beside a map, with the marks that it uses
+// the scale next to a map, with the marks that it uses
 std::string map_legend(const MapFigure& figure, double low, double high) {
   constexpr double x = 620, wide = 20, steps = 50;
   std::string text;
@@ -219,7 +219,7 @@ std::string svg_map(const MapFigure& figure) {
 }
 
 std::string stereonet_svg(const std::string& title, const std::vector<PoleSet>& sets) {
-  constexpr std::size_t most_named = 14;  // beside the net
+  constexpr std::size_t most_named = 14;  // next to the net
   std::string text = head(title);
   for (const double fraction : {1.0, 2.0 / 3, 1.0 / 3}) {
     // circles of equal plunge: 0, 30, 60 degrees

@@ -23,7 +23,7 @@ struct Diagram {
   std::vector<Curve> curves;   // in the colours of Okabe & Ito (2008), in this order
 };
 
-// axes with round numbers that hold every point; y begins at 0
+// axes with round numbers that include every point; y begins at 0
 std::string svg(const Diagram& diagram);
 
 enum class MapMark { none, cross, ring };
@@ -45,7 +45,7 @@ struct PoleSet {
   std::vector<std::pair<double, double>> poles;  // trend (clockwise from north) and plunge (below horizontal), rad
 };
 
-// Lower hemisphere, equal area (Schmidt): a pole of plunge p lies sqrt(2) sin((90° - p)/2) of the radius from the
+// Lower hemisphere, equal area (Schmidt): a pole of plunge p is at sqrt(2) sin((90° - p)/2) of the radius from the
 // centre.
 std::string stereonet_svg(const std::string& title, const std::vector<PoleSet>& sets);
 

@@ -1,4 +1,4 @@
-// What follows from a scene's numbers before anything is run: what is forecast, and what looks wrong.
+// The forecast and the warnings that follow from a scene's numbers before it is run.
 #pragma once
 
 #include <string>

@@ -9,7 +9,7 @@
 
 namespace voussoir {
 
-// its name or else its number with a title
+// its name, or its number with a title
 template <int Dim>
 std::string name_of(const Model<Dim>& model, int body) {
   const std::string title = title_of(model, body);

@@ -49,7 +49,7 @@ double aspect_ratio(const Body<Dim>& body) {
   return (high - low).maxCoeff() / (high - low).minCoeff();
 }
 
-// the first of them, the lower number first where two are alike
+// the first of them; of two that are equal the one of lower number first
 template <int Dim>
 std::string listed(const Model<Dim>& model, std::vector<Judged> all, const std::function<bool(double, double)>& worse,
                    const char* unit) {

@@ -1,4 +1,4 @@
-// What `voussoir check` tells of joints that miss the domain, and of the blocks that cost most.
+// The lines of `voussoir check` about joints that miss the domain, and about the blocks that cost most.
 #pragma once
 
 #include "core/model/prepared.hpp"

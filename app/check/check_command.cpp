@@ -91,7 +91,7 @@ void print_joints(const Model<Dim>& model) {
   if (model.joints.size() > most_shown) print_line("", fmt::format("and {} more", model.joints.size() - most_shown));
 }
 
-// what of the blocks lies in water, and how much of their weight it carries, where the scene has them
+// the volume of blocks below water, and the part of their weight that buoyancy carries, if the scene has water
 template <int Dim>
 void print_water(const Prepared<Dim>& prepared) {
   const Model<Dim>& model = prepared.model;
@@ -115,7 +115,7 @@ void print_water(const Prepared<Dim>& prepared) {
         below += submerged<Dim>(body.parts, body.radius, {.centroid = body.reference}, surface).volume;
         whole += volume(body);
       }
-      print_line(label, fmt::format("{}: {:g} N/m³ {}; {:.6g} {} of the free blocks lie below it, {:.4g} %", water.name,
+      print_line(label, fmt::format("{}: {:g} N/m³ {}; {:.6g} {} of the free blocks are below it, {:.4g} %", water.name,
                                     water.unit_weight, on, below, Dim == 3 ? "m³" : "m²",
                                     whole > 0 ? 100 * below / whole : 0));
     }
@@ -131,12 +131,12 @@ void print_water(const Prepared<Dim>& prepared) {
   if (std::abs(lift) < 16 * std::numeric_limits<double>::epsilon() * weight) lift = 0;
   if (weight > 0)
     print_line(
-        "", fmt::format("before the first stage it lifts the free blocks by {:.6g} N{}, {:.4g} % of their weight", lift,
-                        Dim == 2 ? "/m" : "", 100 * lift / weight));
-  print_line("", "it stands still (no flow, drag or added mass); contact forces are effective");
+        "", fmt::format("before the first stage its uplift on the free blocks is {:.6g} N{}, {:.4g} % of their weight",
+                        lift, Dim == 2 ? "/m" : "", 100 * lift / weight));
+  print_line("", "hydrostatic (no flow, drag or added mass); contact forces are effective");
 }
 
-// the laws that a plain joint has not, one after the other
+// the laws that a plain joint does not have, one after the other
 std::vector<std::string> laws_text(const JointProperties& p) {
   std::vector<std::string> laws;
   const auto add = [&](bool has, auto... arguments) {
@@ -155,8 +155,8 @@ std::vector<std::string> laws_text(const JointProperties& p) {
       p.hardening_exponent);
   add(p.laws.friction == FrictionLaw::softening,
       fmt::runtime("friction coefficient softens by {:g} within {:g} m of slip"), p.softening_drop, p.softening_slip);
-  add(p.tension > 0, fmt::runtime("tension {:g} Pa where bonded"), p.tension);
-  add(p.cohesion > 0, fmt::runtime("cohesion {:g} Pa where bonded"), p.cohesion);
+  add(p.tension > 0, fmt::runtime("tension {:g} Pa if bonded"), p.tension);
+  add(p.cohesion > 0, fmt::runtime("cohesion {:g} Pa if bonded"), p.cohesion);
   return laws;
 }
 
@@ -168,24 +168,24 @@ void print_properties(const Model<Dim>& model, const ContactSettings& contact) {
     print_line(k == 0 ? "properties" : "",
                fmt::format("{}: normal {:g}, shear {:g} {}, friction {:g} deg{}", p.name, p.normal_stiffness,
                            p.shear_stiffness, p.constant_stiffness ? "N/m" : "Pa/m", to_degrees(p.friction),
-                           used[k] ? "" : "; of no face that may meet another"));
+                           used[k] ? "" : "; no face that may touch another has them"));
     for (const std::string& law : laws_text(p))
       print_line("", "  " + law);
     if (is_integrated(contact, p)) {
       print_line("", p.sub_contacts == 1
-                         ? "  each contact as a whole, integrated"
-                         : fmt::format("  each contact as a whole, integrated (sub_contacts = {} is not used)",
-                                       p.sub_contacts));
+                         ? "  integrated face contact"
+                         : fmt::format("  integrated face contact (sub_contacts = {} is not used)", p.sub_contacts));
       continue;
     }
     if (contact.face == ContactFace::integrated)
-      print_line("", fmt::format("  not integrated: {}", p.constant_stiffness ? "constant_stiffness knows no area"
-                                                         : p.laws.bond        ? "it can be bonded"
-                                                                              : "its laws differ from point to point"));
-    print_line("", p.sub_contacts == 1
-                       ? "  one point a face"
-                       : fmt::format("  {} points a face", Dim == 2 ? fmt::format("{}", p.sub_contacts)
-                                                                    : fmt::format("{0} x {0}", p.sub_contacts)));
+      print_line(
+          "", fmt::format("  not integrated: {}", p.constant_stiffness ? "constant_stiffness is independent of the area"
+                                                  : p.laws.bond        ? "it can be bonded"
+                                                                : "its laws depend on the history at each point"));
+    print_line("", p.sub_contacts == 1 ? "  one contact point per face"
+                                       : fmt::format("  {} contact points per face",
+                                                     Dim == 2 ? fmt::format("{}", p.sub_contacts)
+                                                              : fmt::format("{0} x {0}", p.sub_contacts)));
   }
 }
 
@@ -211,7 +211,7 @@ void print_monitors(const Prepared<Dim>& prepared) {
   }
 }
 
-// what a reader might look for in vain
+// features that the scene does not use
 template <int Dim>
 std::string inactive(const Prepared<Dim>& prepared) {
   std::vector<std::string> list;
@@ -261,15 +261,15 @@ std::string solvers_text(const ContactSettings& contact) {
                      normal);
 }
 
-// joints whose laws Newton's method does not follow, where it is asked for
+// joints whose laws Newton's method does not support, if it is asked for
 template <int Dim>
 void print_left_to_relaxation(const Prepared<Dim>& prepared) {
-  if (!asks_for_newton(prepared.settings.damping, prepared.stages)) return;
+  if (!asks_for_newton(prepared.settings.statics, prepared.stages)) return;
   std::vector<std::string> names;
   for (const JointProperties& p : prepared.model.properties)
     if (!newton_follows(p)) names.push_back(p.name);
   if (!names.empty())
-    print_line("", fmt::format("Newton's method leaves all to relaxation: {} softens", fmt::join(names, ", ")));
+    print_line("", fmt::format("relaxation replaces Newton's method: {} softens", fmt::join(names, ", ")));
 }
 
 template <int Dim>
@@ -285,6 +285,7 @@ void print_active(const Scene& stated, const Prepared<Dim>& prepared) {
   print_properties(prepared.model, prepared.settings.contact);
   print_line("gravity", vector_text<Dim>(prepared.model.gravity) + " m/s²");
   print_water(prepared);
+  print_line("statics", statics_text(settings.statics));
   print_line("damping", damping_text(settings.damping));
   print_line("solvers", solvers_text(settings.contact));
   print_stages(prepared.stages, prepared.model.waters);
@@ -299,12 +300,14 @@ void print_derived(const Forecast& forecast) {
   print_line("contacts",
              fmt::format("{} pairs near each other, {} of them touch", forecast.candidates, forecast.touching));
   if (forecast.candidates > 0)
-    print_line("", fmt::format("most, {}, of block {}; {:.0f} pairs in all are allowed; a run takes about {:.0f} MB",
+    print_line("", fmt::format("most, {}, of block {}; at most {:.0f} pairs are allowed; a run takes about {:.0f} MB",
                                forecast.most_candidates, forecast.crowded, forecast.candidates_allowed,
                                1e-6 * forecast.memory));
   if (const auto& bonds = forecast.bonds)
-    print_line("bonds", fmt::format("at the start {} closed joints press and can be bonded, {} when they first press",
-                                    bonds->made, bonds->due));
+    print_line(
+        "bonds",
+        fmt::format("at the start {} closed joints are in compression and can be bonded, {} when first in compression",
+                    bonds->made, bonds->due));
   if (forecast.overlap > 0)
     print_line("overlap", fmt::format("about {:.2g} m under a block's own weight, {:.1g} of its inscribed radius",
                                       forecast.overlap, forecast.overlap_fraction));
@@ -325,6 +328,8 @@ ExitCode check_command(const SceneArguments& arguments) {
   std::visit([&](const auto& prepared) { print_active(*scene.stated, prepared); }, scene.prepared);
   for (std::size_t k = 0; k < scene.from_level.size(); ++k)
     print_line(k == 0 ? "by level" : "", scene.from_level[k]);
+  for (std::size_t k = 0; k < scene.stated->renamed.size(); ++k)
+    print_line(k == 0 ? "renamed" : "", scene.stated->renamed[k]);
   const Assessment assessment = assess(scene);
   print_derived(assessment.forecast);
   for (const std::string& warning : assessment.warnings)
@@ -337,7 +342,8 @@ ExitCode check_command(const SceneArguments& arguments) {
 
 void add_check(CLI::App& program, Action& action) {
   const auto [command, arguments] =
-      add_command(program, action, "check", "say what a scene activates and what looks wrong", check_command);
+      add_command(program, action, "check",
+                  "report the features a scene uses, a forecast of the run, and likely mistakes", check_command);
   add_scene(command, arguments);
 }
 

@@ -5,7 +5,7 @@
 
 namespace voussoir {
 
-// says what a scene activates, what follows from its numbers, and what looks wrong; writes nothing
+// reports the features a scene uses, a forecast of the run, and likely mistakes; writes nothing
 void add_check(CLI::App& program, Action& action);
 
 }  // namespace voussoir

@@ -7,7 +7,7 @@
 
 namespace voussoir {
 
-// one labelled line; the label only where the block of lines begins
+// one labelled line; only the first line of a group has its label
 inline void print_line(const char* label, const std::string& text) {
   fmt::print("  {:<12}{}\n", label, text);
 }

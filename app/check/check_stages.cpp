@@ -5,14 +5,13 @@
 
 #include "app/check/check_line.hpp"
 #include "core/scene/stage_excavations.hpp"
-#include "core/step/relaxation.hpp"
 #include "text/angle.hpp"
 
 namespace voussoir {
 namespace {
 
 struct PlanText {
-  std::string operator()(const SettlePlan& plan) const { return "settle until at rest" + gravity(plan.gravity); }
+  std::string operator()(const SettlePlan& plan) const { return "settle until equilibrium" + gravity(plan.gravity); }
   std::string operator()(const RunPlan& plan) const {
     return fmt::format("run for {:g} s", plan.duration) + gravity(plan.gravity);
   }
@@ -33,11 +32,11 @@ struct PlanText {
     return fmt::format("by bisection to {:g}", plan.tolerance);
   }
   static std::string gravity(const GravityPlan& plan) {
-    if (plan.ramp > 0 && !plan.to && plan.from == 0) return fmt::format(", gravity put on within {:g} s", plan.ramp);
+    if (plan.ramp > 0 && !plan.to && plan.from == 0) return fmt::format(", gravity applied within {:g} s", plan.ramp);
     if (plan.ramp > 0)
-      return fmt::format(", gravity taken from {:g} to {:g} times itself within {:g} s", plan.from, plan.to.value_or(1),
-                         plan.ramp);
-    return plan.to ? fmt::format(", under {:g} times the gravity", *plan.to) : "";
+      return fmt::format(", gravity changed from {:g} to {:g} times its value within {:g} s", plan.from,
+                         plan.to.value_or(1), plan.ramp);
+    return plan.to ? fmt::format(", under {:g} times gravity", *plan.to) : "";
   }
   static std::string how(const ReducePlan& plan) {
     switch (plan.method) {
@@ -83,7 +82,7 @@ std::string move_text(const MovePlan& move) {
   return text + factor_text(move.factor);
 }
 
-// what happens to the model before the stage, and what is forced upon it within
+// changes of the model before the stage, and motions and loads prescribed during it
 std::string change_text(const Change& change) {
   std::string text;
   for (const MovePlan& move : change.move)
@@ -93,7 +92,7 @@ std::string change_text(const Change& change) {
         fmt::format("; stress {} = {} Pa on outer faces of blocks",
                     plan.stress.size() == 3 ? "(xx, yy, xy)" : "(xx, yy, zz, yz, zx, xy)", numbers_text(plan.stress));
     if (plan.in_situ)
-      text += fmt::format(" and that of {:g} N/m³ below {:g} m, horizontally {:g}{} times as much",
+      text += fmt::format(" plus the stress of {:g} N/m³ below {:g} m, horizontally {:g}{} times as much",
                           plan.in_situ->unit_weight.value(), plan.in_situ->surface, plan.in_situ->k0,
                           plan.in_situ->k0_y ? fmt::format(", along y {:g}", *plan.in_situ->k0_y) : "");
   }
@@ -119,37 +118,46 @@ std::string change_text(const Change& change) {
 
 }  // namespace
 
-std::string damping_text(const DampingSettings& damping, bool seeks_rest) {
+std::string statics_text(const StaticsSettings& statics) {
+  switch (statics.method) {
+    case Statics::local:
+      return "true motion under local damping";
+    case Statics::newton:
+      return fmt::format("Newton's method in {} increment{}, confirmed by relaxation", statics.increments,
+                         statics.increments == 1 ? "" : "s");
+    case Statics::adaptive:
+      break;
+  }
+  return "relaxation";
+}
+
+std::string damping_text(const DampingSettings& damping) {
   std::string text;
   if (damping.local > 0) text = fmt::format("local {:g}", damping.local);
   if (damping.viscous_ratio > 0) text += fmt::format("{}viscous {:g}", text.empty() ? "" : ", ", damping.viscous_ratio);
-  std::string rest;
-  if (relaxes(seeks_rest, damping))
-    rest =
-        damping.statics == Statics::newton
-            ? fmt::format("; to rest by Newton's method in {} increments, confirmed by relaxation", damping.increments)
-            : "; to rest by relaxation";
-  return (text.empty() ? "none" : text) + rest;
+  return text.empty() ? "none" : text;
 }
 
 void print_stages(const std::vector<StagePlan>& stages, const std::vector<Water>& waters) {
-  ActingShare acting;
+  ActingForces acting;
   for (std::size_t k = 0; k < stages.size(); ++k) {
     const StagePlan& stage = stages[k];
     std::string text = fmt::format("{} {}: {}", k + 1, stage.name, std::visit(PlanText{}, stage.plan));
     text += change_text(stage.change);
     for (const WaterPlan& water : stage.water)
       text += fmt::format("; water '{}' changes within {:g} s", waters[water.water].name, water.ramp);
-    if (stage.let_off)
-      text += fmt::format("; lets off to a share of {:g} within {:g} s", stage.let_off->share, stage.let_off->duration);
-    const bool seeks_rest = !std::holds_alternative<RunPlan>(stage.plan);
-    if (stage.damping) text += "; damping " + damping_text(*stage.damping, seeks_rest);
+    if (const auto& forces = stage.excavation_forces)
+      text += fmt::format("; excavation forces fall to {} within {:g} s", remaining_text(forces->remaining),
+                          forces->duration);
+    if (stage.statics && !std::holds_alternative<RunPlan>(stage.plan))
+      text += "; statics: " + statics_text(*stage.statics);
+    if (stage.damping) text += "; damping " + damping_text(*stage.damping);
     print_line(k == 0 ? "stages" : "", text);
     acting.follow(stage);
   }
-  if (acting.share > 0)
-    print_line("", fmt::format("let_off: a share of {:g} still acts after the last stage, since stage {}", acting.share,
-                               acting.stage));
+  if (acting.remaining > 0)
+    print_line("", fmt::format("excavation_forces: {} after the last stage, since stage {}",
+                               remaining_text(acting.remaining), acting.stage));
 }
 
 }  // namespace voussoir

@@ -1,4 +1,4 @@
-// What `voussoir check` tells of the stages: what each changes, prescribes and seeks.
+// The lines of `voussoir check` about the stages: what each changes, prescribes and seeks.
 #pragma once
 
 #include <string>
@@ -8,7 +8,8 @@
 
 namespace voussoir {
 
-std::string damping_text(const DampingSettings& damping, bool seeks_rest = true);
+std::string statics_text(const StaticsSettings& statics);
+std::string damping_text(const DampingSettings& damping);
 
 void print_stages(const std::vector<StagePlan>& stages, const std::vector<Water>& waters);
 

@@ -13,7 +13,7 @@
 namespace voussoir {
 namespace {
 
-// the bolts, and what they would cross if they were installed in the blocks as they are cut
+// the bolts, and the joints they would cross if they were installed in the blocks as they are cut
 template <int Dim>
 void print_bolts(const Prepared<Dim>& prepared) {
   const Model<Dim>& model = prepared.model;
@@ -44,16 +44,17 @@ void print_bolts(const Prepared<Dim>& prepared) {
       text += fmt::format(" that cross {} joints of the blocks as they are cut, {} each", joints,
                           fewest == most ? fmt::format("{}", most) : fmt::format("{} to {}", fewest, most));
     if (properties.kind == BoltKind::grouted)
-      text += fmt::format("; nodes {:.3g} m apart at most, {:.2g} of the length over which the bar takes up its force",
-                          longest_nodes, longest_nodes / transfer_length(properties));
+      text += fmt::format(
+          "; node spacing at most {:.3g} m, {:.2g} of the length over which the bond builds up the bar force",
+          longest_nodes, longest_nodes / transfer_length(properties));
     if (idle > 0) text += fmt::format("; {} cross none", idle);
-    if (thin > 0) text += fmt::format("; of {} springs an anchor lies in the middle of a thin block", thin);
+    if (thin > 0) text += fmt::format("; {} springs have an anchor in the middle of a thin block", thin);
     print_line(label, text);
     label = "";
   }
 }
 
-// linings, and how their nodes stand against the blocks as they are cut
+// linings, and the spacing of their nodes relative to the blocks as they are cut
 template <int Dim>
 void print_linings(const Prepared<Dim>& prepared) {
   const char* label = "linings";
@@ -101,11 +102,11 @@ void print_particles(const Model<Dim>& model) {
                   count, model.parts.size(),
                   most > 0 ? fmt::format(", corner radius {:.4g} to {:.4g} m", least, most) : "", mass, drawing));
   if (!model.properties.empty())
-    print_line("", fmt::format("they touch at one point, without area, by the properties {} (N/m)",
+    print_line("", fmt::format("they touch at one point, without area, with the properties {} (N/m)",
                                model.properties[model.default_properties].name));
   if (most_inner > 0)
-    print_line("", fmt::format("blocks of half-spaces meet them with edges rounded by {:.4g} to {:.4g} m "
-                               "(contact.potential_radius): one at right angles recedes by {:.2g} m",
+    print_line("", fmt::format("in contact with them, blocks of half-spaces have edges rounded by {:.4g} to {:.4g} m "
+                               "(contact.potential_radius): a right-angled edge recedes by {:.2g} m",
                                least_inner, most_inner, (std::sqrt(2) - 1) * most_inner));
 }
 

@@ -1,4 +1,4 @@
-// What `voussoir check` tells of bolts and linings, and of potential particles.
+// The lines of `voussoir check` about bolts and linings, and about potential particles.
 #pragma once
 
 #include "core/model/prepared.hpp"

@@ -26,8 +26,8 @@ double smallest_size(const Model<Dim>& model) {
 }
 
 // a stage that relaxes from its first step on stops every body
-bool relaxes(const StagePlan& stage, const DampingSettings& damping) {
-  if (damping.statics == Statics::local) return false;
+bool relaxes(const StagePlan& stage, const StaticsSettings& statics) {
+  if (statics.method == Statics::local) return false;
   if (const auto* plan = std::get_if<ReducePlan>(&stage.plan))
     return plan->method == ReductionMethod::bisection || plan->method == ReductionMethod::steps;
   return std::holds_alternative<SettlePlan>(stage.plan);
@@ -39,7 +39,7 @@ double ramp_of(const StagePlan& stage) {
   if (const auto* plan = std::get_if<RunPlan>(&stage.plan)) ramp = plan->gravity.ramp;
   for (const WaterPlan& water : stage.water)
     ramp = std::max(ramp, water.ramp);
-  if (stage.let_off) ramp = std::max(ramp, stage.let_off->duration);
+  if (stage.excavation_forces) ramp = std::max(ramp, stage.excavation_forces->duration);
   return ramp;
 }
 
@@ -47,18 +47,18 @@ const char* text_of(EstimateKind kind) {
   return kind == EstimateKind::about ? "about" : kind == EstimateKind::at_least ? "at least" : "at most";
 }
 
-bool asks_for_newton(const DampingSettings& damping, const std::vector<StagePlan>& stages) {
-  return damping.statics == Statics::newton || std::any_of(stages.begin(), stages.end(), [](const StagePlan& s) {
-           return s.damping && s.damping->statics == Statics::newton;
+bool asks_for_newton(const StaticsSettings& statics, const std::vector<StagePlan>& stages) {
+  return statics.method == Statics::newton || std::any_of(stages.begin(), stages.end(), [](const StagePlan& s) {
+           return s.statics && s.statics->method == Statics::newton;
          });
 }
 
 namespace {
 
-constexpr double relaxed_fraction = 0.9;  // of the stability limit: what relaxation takes for its step
+constexpr double relaxed_fraction = 0.9;  // of the stability limit: the step of relaxation
 
-// Overlap at which the joints under a body carry its weight: u such that sum k A (n·g)² u = W over its faces that look
-// down and may meet another. 0 without gravity or without such a face.
+// Overlap at which the joints under a body support its weight: u such that sum k A (n·g)² u = W over its faces that
+// look down and may touch another. 0 without gravity or without such a face.
 template <int Dim>
 double own_weight_overlap(const Model<Dim>& model, const std::vector<bool>& used, const Body<Dim>& body) {
   const double g = model.gravity.norm();
@@ -78,11 +78,13 @@ double own_weight_overlap(const Model<Dim>& model, const std::vector<bool>& used
   return stiffness > 0 ? body.mass * g / stiffness : 0;
 }
 
-// Time in which a block that bounces on its joint comes down to the fraction `rest` of its first swing. Local damping
-// (fraction α) drives every swing inwards with 1-α and outwards with 1+α of the force, the dashpot takes ξω of the
-// amplitude per time. Relaxation damps critically.
-double settling_time(double overlap, double g, const DampingSettings& damping, double rest) {
-  if (relaxes(true, damping)) return -std::log(rest) / std::sqrt(g / overlap);
+// Time in which the oscillation of a block on its joint decays to the fraction `rest` of its first amplitude. Local
+// damping (fraction α) leaves 1-α of the force inwards and 1+α outwards, the dashpot reduces the amplitude at the rate
+// ξω. Relaxation damps critically.
+double settling_time(double overlap, double g, const Settings& settings) {
+  const double rest = settings.equilibrium.unbalanced;
+  if (relaxes(true, settings.statics)) return -std::log(rest) / std::sqrt(g / overlap);
+  const DampingSettings& damping = settings.damping;
   const double frequency = std::sqrt(g / overlap), in = std::sqrt(1 - damping.local),
                out = std::sqrt(1 + damping.local);
   const double half_swing = 0.5 * std::numbers::pi * (1 / in + 1 / out) / frequency;
@@ -117,10 +119,10 @@ struct Forecaster {
     return 0;
   }
   double ramp(const ReducePlan& plan) const { return static_cast<double>(plan.ramp_steps) * time_step; }
-  // a trial ends at rest, or when a body has slid away at a tenth of gravity
+  // a trial ends in equilibrium, or when a body has slid away at a tenth of gravity
   double trial(const ReducePlan& plan) const {
-    const double way = plan.failure_displacement > 0 ? plan.failure_displacement : 0.1 * smallest;
-    const double sliding = g > 0 && !relaxed ? std::sqrt(2 * way / (0.1 * g)) : 0;
+    const double distance = plan.failure_displacement > 0 ? plan.failure_displacement : 0.1 * smallest;
+    const double sliding = g > 0 && !relaxed ? std::sqrt(2 * distance / (0.1 * g)) : 0;
     return ramp(plan) + std::max(settling, sliding);
   }
 };
@@ -131,11 +133,11 @@ EstimateKind kind_of(const StagePlan& stage) {
   return plan && plan->method != ReductionMethod::bisection ? EstimateKind::at_most : EstimateKind::at_least;
 }
 
-// Of linings together. A chain of n beams bends in modes whose frequencies range as n² to 1: so many steps a method
-// that goes by the stiffest takes until the slowest is at rest.
+// Of all linings. A chain of n beams bends in modes whose frequencies range as n² to 1: an explicit method, whose step
+// the stiffest mode limits, takes about n² steps until the slowest is in equilibrium.
 struct LiningCost {
   double step_limit;  // s: of the beams' stiffest mode
-  double steps = 0;   // to rest, about; not by Newton's method
+  double steps = 0;   // to equilibrium, about; not by Newton's method
 };
 
 template <int Dim>
@@ -160,27 +162,26 @@ void forecast_stages(const Prepared<Dim>& prepared, const Model<Dim>& model, Sta
   std::vector<std::string> installed;
   for (const StagePlan& stage : prepared.stages) {
     const Settings settings = settings_of(stage, prepared.settings);
-    const DampingSettings& damping = settings.damping;
     installed.insert(installed.end(), stage.change.install.begin(), stage.change.install.end());
     const LiningCost linings = cost_of_linings(model, installed);
-    TimeStepEstimate estimate =
-        estimate_time_step<Dim>(model, settings, damping, state.bodies, state.loads, state.contacts, state.time_step);
+    TimeStepEstimate estimate = estimate_time_step<Dim>(model, settings, settings.damping, state.bodies, state.loads,
+                                                        state.contacts, state.time_step);
     if (linings.step_limit < estimate.limit) {
       if (!settings.time.step && std::isfinite(estimate.limit)) estimate.step *= linings.step_limit / estimate.limit;
       estimate.limit = linings.step_limit;
     }
     if (&stage == &prepared.stages.front()) result.step_limit = estimate.limit;
-    const bool relaxed = relaxes(stage, damping);
+    const bool relaxed = relaxes(stage, settings.statics);
     StageForecast forecast{.name = stage.name, .time_step = estimate.step, .kind = kind_of(stage)};
     if (relaxed && !prepared.settings.time.step && std::isfinite(estimate.limit))
       forecast.time_step = relaxed_fraction * estimate.limit;
     double settling = 0;
-    if (g > 0 && result.overlap > 0)
-      settling = settling_time(result.overlap, g, damping, prepared.settings.equilibrium.unbalanced);
+    if (g > 0 && result.overlap > 0) settling = settling_time(result.overlap, g, settings);
     forecast.duration =
         std::visit(Forecaster{settling, g, smallest, forecast.time_step, relaxed, ramp_of(stage)}, stage.plan);
     if (forecast.time_step > 0) forecast.steps = forecast.duration / forecast.time_step;
-    if (forecast.steps > 0 && damping.statics != Statics::newton && !std::holds_alternative<RunPlan>(stage.plan))
+    if (forecast.steps > 0 && settings.statics.method != Statics::newton &&
+        !std::holds_alternative<RunPlan>(stage.plan))
       forecast.steps = std::max(forecast.steps, linings.steps);
     result.stages.push_back(forecast);
   }
@@ -197,14 +198,14 @@ void find_overlaps(const Model<Dim>& model, Forecast& result) {
   }
 }
 
-// the block with most neighbours, and the memory of a run: a step keeps two lists of pairs while one is renewed
+// the block with most neighbours, and the memory of a run: a step has two lists of pairs while one is renewed
 template <int Dim>
 void find_crowd(const Prepared<Dim>& prepared, const Model<Dim>& model, const State<Dim>& state, Forecast& result) {
-  constexpr double memory_of_a_block = 10e3;  // bytes, measured over whole runs
+  constexpr double memory_of_a_block = 10e3;  // bytes, measured in complete runs
   result.memory = memory_of_a_block * static_cast<double>(model.bodies.size()) +
                   2.0 * static_cast<double>(state.contacts.list.size() * sizeof(Contact<Dim>) +
                                             state.contacts.subs.size() * sizeof(SubContact<Dim>));
-  if (asks_for_newton(prepared.settings.damping, prepared.stages)) result.memory += memory_of_newton(state);
+  if (asks_for_newton(prepared.settings.statics, prepared.stages)) result.memory += memory_of_newton(state);
   result.candidates_allowed = static_cast<double>(most_candidates(model.parts.size()));
   std::size_t most = 0;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {

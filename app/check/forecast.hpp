@@ -1,5 +1,5 @@
-// What is expected of a run: for each stage its time step, duration and steps, and the numbers of the scene as it
-// begins. Estimates for people, within a factor of a few.
+// The forecast of a run: for each stage its time step, duration and steps, and the numbers of the scene at its start.
+// Estimates for people, within a factor of a few.
 #pragma once
 
 #include <optional>
@@ -11,15 +11,15 @@
 
 namespace voussoir {
 
-// How a number of steps is meant: how long many blocks take to rest nobody knows before, at which angle they fail
-// neither.
+// How a number of steps is meant: neither the time that many blocks need to reach equilibrium nor the angle at which
+// they fail is known before the run.
 enum class EstimateKind { about, at_least, at_most };
 
 struct StageForecast {
   std::string name;
   double time_step = 0;  // s; 0 when no contact determines it; of a stage that relaxes, fictitious
-  double duration = 0;   // s: expected; 0 when nothing tells
-  double steps = 0;      // 0 when nothing tells
+  double duration = 0;   // s: expected; 0 if unknown
+  double steps = 0;      // 0 if unknown
   EstimateKind kind = EstimateKind::about;
 };
 
@@ -28,12 +28,12 @@ struct Forecast {
   int touching = 0;                // of them
   int most_candidates = 0;         // of one block
   std::string crowded;             // the block that has them
-  double candidates_allowed = 0;   // pairs, beyond which a scene is refused
+  double candidates_allowed = 0;   // pairs; a scene with more is refused
   double memory = 0;               // bytes that a run asks for, at most
   double step_limit = 0;           // s: stability limit; infinite when no contact is near
-  double overlap = 0;              // m: largest over the free bodies, each carrying its own weight; 0 without gravity
+  double overlap = 0;              // m: largest over the free bodies, each under its own weight; 0 without gravity
   double overlap_fraction = 0;     // the same over the body's smallest inscribed radius
-  std::optional<BondCount> bonds;  // as a stage would make them at the start, where one makes some
+  std::optional<BondCount> bonds;  // as a stage would make them at the start, if one makes some
   std::vector<StageForecast> stages;
 };
 
@@ -49,13 +49,13 @@ template <int Dim>
 double smallest_size(const Model<Dim>& model);
 
 // a stage that relaxes from its first step on stops every body
-bool relaxes(const StagePlan& stage, const DampingSettings& damping);
+bool relaxes(const StagePlan& stage, const StaticsSettings& statics);
 
-// s: how long gravity, waters and relief loads of a stage change: rest waits for the longest. Forces and motions change
-// in stages of kind run alone, whose duration is stated.
+// s: how long gravity, waters and relief loads of a stage change: equilibrium waits for the longest. Forces and motions
+// change only in stages of kind run, whose duration is stated.
 double ramp_of(const StagePlan& stage);
 
-// whether any stage comes to rest by Newton's method on the joints
-bool asks_for_newton(const DampingSettings& damping, const std::vector<StagePlan>& stages);
+// whether any stage uses the implicit static solver (Newton-Raphson)
+bool asks_for_newton(const StaticsSettings& statics, const std::vector<StagePlan>& stages);
 
 }  // namespace voussoir

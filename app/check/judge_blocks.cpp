@@ -27,7 +27,7 @@ bool is_held(const Model<Dim>& model, const Body<Dim>& body) {
   return true;
 }
 
-// in water, which may carry it
+// in water, whose buoyancy may carry it
 template <int Dim>
 bool is_wet(const State<Dim>& state, int body) {
   const auto acts = [&](Source source) {
@@ -91,14 +91,14 @@ void judge_ties(const Model<Dim>& model, const State<Dim>& state, std::vector<st
   }
   std::sort(alone.begin(), alone.end());
   if (alone.size() == 1)
-    warnings.push_back(fmt::format("block {} has no neighbour: it begins by falling", name_of(model, alone.front())));
+    warnings.push_back(fmt::format("block {} has no neighbour: it falls at the start", name_of(model, alone.front())));
   if (alone.size() > 1)
-    warnings.push_back(fmt::format("{} blocks have no neighbour, {} the first: they begin by falling", alone.size(),
+    warnings.push_back(fmt::format("{} blocks have no neighbour, {} the first: they fall at the start", alone.size(),
                                    name_of(model, alone.front())));
   if (together > 0)
     warnings.push_back(fmt::format(
-        "{} blocks, {} the first, are near one another, but no chain of near blocks ties them to a fixed one: they "
-        "begin by falling; fix what should hold them",
+        "{} blocks, {} the first, are near one another, but no chain of neighbours connects them to a fixed one: they "
+        "fall at the start; fix the blocks that should support them",
         together, name_of(model, first_group->front())));
 }
 
@@ -116,8 +116,8 @@ void judge_last_block(const Prepared<Dim>& prepared, std::vector<std::string>& w
     const bool after = std::any_of(model.bodies.begin(), model.bodies.end(), moves);
     if (before && !after)
       warnings.push_back(
-          fmt::format("stage.{} {} the last free block: nothing is left to move; keep one, or end before", stage.name,
-                      change.remove.empty() && change.excavate.empty() ? "fixes" : "removes"));
+          fmt::format("stage.{} {} the last free block: none is left to move; keep one, or end the run before",
+                      stage.name, change.remove.empty() && change.excavate.empty() ? "fixes" : "removes"));
     before = after;
   }
 }
@@ -126,17 +126,17 @@ template <int Dim>
 void judge_velocities(const Prepared<Dim>& prepared, const Model<Dim>& model, std::vector<std::string>& warnings) {
   if (prepared.stages.empty()) return;
   const StagePlan& first = prepared.stages.front();
-  if (!begins_relaxing(first, first.damping.value_or(prepared.settings.damping))) return;
+  if (!begins_relaxing(first, first.statics.value_or(prepared.settings.statics))) return;
   for (std::size_t b = 0; b < prepared.state.bodies.motions.size(); ++b) {
     const Motion<Dim>& motion = prepared.state.bodies.motions[b];
     if (!moves(model.bodies[b]) || (motion.velocity.isZero(0) && motion.angular_momentum.isZero(0))) continue;
     warnings.push_back(
-        fmt::format("block {} begins with a velocity (its own, or that of initial_velocity) that is lost: stage.{} "
-                    "comes to rest by "
+        fmt::format("block {} begins with a velocity (its own, or that of initial_velocity) that is lost: stage.{} is "
+                    "solved by "
                     "relaxation, which stops every block; let a stage of kind \"run\" come first, or state "
-                    "stage.{}.damping.statics = \"local\"",
+                    "stage.{}.statics = \"local\"",
                     name_of(model, static_cast<int>(b)), first.name, first.name));
-    return;  // one tells
+    return;  // one warning is enough
   }
 }
 

@@ -1,5 +1,5 @@
-// What looks wrong with the blocks before anything is run: none that will move, sizes far apart, blocks that nothing
-// holds, stages that leave none, velocities that are lost.
+// Warnings about blocks before a run: none that will move, very different sizes, blocks without support, stages that
+// leave no free block, velocities that are lost.
 #pragma once
 
 #include <string>
@@ -14,15 +14,15 @@ template <int Dim>
 void judge_bodies(const Prepared<Dim>& prepared, const Model<Dim>& model, const State<Dim>& state,
                   std::vector<std::string>& warnings);
 
-// blocks that no chain of near pairs ties to what is held
+// blocks that no chain of near pairs connects to a fixed one
 template <int Dim>
 void judge_ties(const Model<Dim>& model, const State<Dim>& state, std::vector<std::string>& warnings);
 
-// a stage that leaves nothing to move
+// a stage that leaves no block to move
 template <int Dim>
 void judge_last_block(const Prepared<Dim>& prepared, std::vector<std::string>& warnings);
 
-// initial velocities that the first stage forgets
+// initial velocities that the first stage sets to zero
 template <int Dim>
 void judge_velocities(const Prepared<Dim>& prepared, const Model<Dim>& model, std::vector<std::string>& warnings);
 

@@ -18,10 +18,10 @@ constexpr double large_overlap_fraction = 0.01;  // of the inscribed radius: blo
 constexpr double least_overlap_fraction = 1e-9;  // stiffer than rock can be: rounding becomes visible
 constexpr double large_overlap = 0.01;           // m: joints in rock close by a millimetre or so
 
-// piles and slopes begin with this many blocks; two on one another are a mechanism of their own
+// least number of blocks of a pile or slope; two on one another are a mechanism of their own
 constexpr std::size_t few_blocks = 3;
 
-// of the smaller inscribed radius: so deep inside another block is the middle of none that only touches it
+// of the smaller inscribed radius: a block that only touches another has its middle less deep inside it
 constexpr double deep_inside = 0.5;
 
 template <int Dim>
@@ -42,11 +42,11 @@ void judge_stated_overlaps(const ContactSettings& settings, const Model<Dim>& mo
         fmt::format("blocks {} and {} overlap by {:.2g} m at the start, {:.2g} of the smaller inscribed radius: check "
                     "their vertices, planes or box",
                     name_of(model, a), name_of(model, b), contact.geometry.overlap, contact.geometry.overlap / size));
-    return;  // one tells
+    return;  // one warning is enough
   }
 }
 
-// whether the middle of a part lies well inside another, as both stand before the first step
+// whether the middle of a part is well inside another before the first step
 template <int Dim>
 bool holds_middle(const Model<Dim>& model, int outer, int inner, double depth) {
   const Body<Dim>&a = model.bodies[model.parts[outer].body], &b = model.bodies[model.parts[inner].body];
@@ -62,13 +62,13 @@ void judge_places(const Model<Dim>& model, const State<Dim>& state, std::vector<
     const int a = contact.part_a, b = contact.part_b;
     const double depth = deep_inside * std::min(model.polytope(a).inscribed_radius, model.polytope(b).inscribed_radius);
     if (!holds_middle(model, a, b, depth) && !holds_middle(model, b, a, depth)) continue;
-    warnings.push_back(fmt::format("blocks {} and {} lie in one another: was one of them stated twice? remove it",
+    warnings.push_back(fmt::format("blocks {} and {} are inside one another: was one of them stated twice? remove it",
                                    name_of(model, model.parts[a].body), name_of(model, model.parts[b].body)));
-    return;  // one tells
+    return;  // one warning is enough
   }
 }
 
-// the properties with which a pair meets, or will meet once loaded: blocks that one joint cut apart do not overlap yet
+// the properties of a pair's contact, now or once loaded: blocks that one joint separates do not overlap yet
 template <int Dim>
 std::optional<int> properties_between(const Model<Dim>& model, const Contact<Dim>& contact) {
   if (contact.touching()) return contact.properties;
@@ -78,7 +78,7 @@ std::optional<int> properties_between(const Model<Dim>& model, const Contact<Dim
   return std::nullopt;
 }
 
-// blocks that may turn and rest on others that may, where one point carries each face
+// blocks that may rotate and rest on others that may, with one contact point per face
 template <int Dim>
 void judge_points(const Model<Dim>& model, const ContactSettings& settings, const State<Dim>& state,
                   std::vector<std::string>& warnings) {
@@ -101,9 +101,9 @@ void judge_points(const Model<Dim>& model, const ContactSettings& settings, cons
   for (const int p : properties)
     keys += fmt::format("{}joint_properties.{}.sub_contacts", keys.empty() ? "" : ", ", model.properties[p].name);
   warnings.push_back(
-      fmt::format("{} free blocks rest on one another on one point a face, which resists no spin, nor rocking as a "
-                  "face does: slopes "
-                  "and piles give way too early; set {}{} = 2 or more, or restrain what does not turn",
+      fmt::format("{} free blocks rest on one another with one contact point per face, which resists neither spin nor "
+                  "rocking: slopes "
+                  "and piles fail too early; set {}{} = 2 or more, or restrain blocks that do not rotate",
                   blocks.size(), integrable ? "contact.face = \"integrated\", or " : "", keys));
 }
 

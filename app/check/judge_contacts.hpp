@@ -1,5 +1,5 @@
-// What looks wrong with the contacts before anything is run: blocks in one another, points that carry too little,
-// overlaps that stiffness and weight do not explain.
+// Warnings about contacts before a run: blocks inside one another, contact points that resist no moment, overlaps out
+// of proportion to stiffness and weight.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ void judge_first_contacts(const ContactSettings& settings, const Model<Dim>& mod
 // Weight over stiffness: a wrong unit in density, gravity, stiffness or geometry shows here.
 void judge_overlaps(const ContactSettings& contact, const Forecast& forecast, std::vector<std::string>& warnings);
 
-// what else contacts by multipliers need for a force that has a potential
+// further settings that contacts by multipliers need for a force with a potential
 template <int Dim>
 void judge_multipliers(const ContactSettings& contact, const Model<Dim>& model, std::vector<std::string>& warnings);
 

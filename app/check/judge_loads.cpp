@@ -14,14 +14,14 @@
 namespace voussoir {
 namespace {
 
-// The largest change of a free block's water force as it moves by a way along a horizontal axis, of its weight.
+// The largest change of a free block's water force, over its weight, as it moves by a distance along a horizontal axis.
 struct WaterLeft {
   double most = 0;
   int body = 0;
 };
 
 template <int Dim>
-WaterLeft find_water_left(const Model<Dim>& model, const WaterValues& values, double way) {
+WaterLeft find_water_left(const Model<Dim>& model, const WaterValues& values, double distance) {
   WaterLeft left;
   WaterSurfaces<Dim> surfaces;
   find_surfaces(model, values, 1, surfaces);
@@ -31,7 +31,7 @@ WaterLeft find_water_left(const Model<Dim>& model, const WaterValues& values, do
     if (!is_free(body) || !(weight > 0)) continue;
     const Vector<Dim> here = water_load<Dim>(model, surfaces, b, {.centroid = body.reference}).force;
     for (int axis = 0; axis < Dim - 1; ++axis)
-      for (const double by : {way, -way}) {
+      for (const double by : {distance, -distance}) {
         const Standing<Dim> moved{.centroid = body.reference + by * Vector<Dim>::Unit(axis)};
         const double change = (water_load<Dim>(model, surfaces, b, moved).force - here).norm() / weight;
         if (change > left.most) left = {change, b};
@@ -40,10 +40,10 @@ WaterLeft find_water_left(const Model<Dim>& model, const WaterValues& values, do
   return left;
 }
 
-// A table stays in place while blocks move: in a search they may leave their water before they count as failed.
+// A water table stays in place while blocks move: in a search they may leave their water before they count as failed.
 template <int Dim>
 void judge_searches_in_water(const Prepared<Dim>& prepared, std::vector<std::string>& warnings) {
-  constexpr double may_leave = 5e-4;  // of the weight: some 0.03 degrees of friction
+  constexpr double may_leave = 5e-4;  // of the weight: about 0.03 degrees of friction
   const Model<Dim>& model = prepared.model;
   if (model.waters.empty()) return;
   WaterValues values = initial_water(model);
@@ -52,19 +52,20 @@ void judge_searches_in_water(const Prepared<Dim>& prepared, std::vector<std::str
       values[change.water] = change.to;
     const auto* search = std::get_if<ReducePlan>(&stage.plan);
     if (!search) continue;
-    const double way = failure_displacement_of(model, *search);
-    const WaterLeft left = find_water_left(model, values, way);
+    const double distance = failure_displacement_of(model, *search);
+    const WaterLeft left = find_water_left(model, values, distance);
     if (left.most <= may_leave) continue;
     warnings.push_back(
         fmt::format("stage.{}: before block {} has moved by {:.3g} m and counts as failed, the force of its water "
-                    "changes by {:.2g} % of its weight, for a table stays in place; that may be {:.2g} degrees of "
+                    "changes by {:.2g} % of its weight, since a table stays in place; that may be {:.2g} degrees of "
                     "friction: state failure_displacement = {:.1g} or less",
-                    stage.name, name_of(model, left.body), way, 100 * left.most, to_degrees(left.most),
-                    way * may_leave / left.most));
+                    stage.name, name_of(model, left.body), distance, 100 * left.most, to_degrees(left.most),
+                    distance * may_leave / left.most));
   }
 }
 
-// A stress that grows from a surface: one below all blocks presses none, one high above them is hardly meant.
+// A stress that grows with depth below a surface: below all blocks the surface gives no stress, high above them it is
+// hardly intended.
 template <int Dim>
 void judge_in_situ(const Prepared<Dim>& prepared, std::vector<std::string>& warnings) {
   constexpr double deep = 3000;  // m
@@ -80,7 +81,7 @@ void judge_in_situ(const Prepared<Dim>& prepared, std::vector<std::string>& warn
     for (const BoundaryPlan& plan : stage.change.boundary) {
       if (!plan.in_situ) continue;
       const double surface = plan.in_situ->surface;
-      const std::string begins = fmt::format("stage.{}.boundary: in_situ.surface = {:g} m lies ", stage.name, surface);
+      const std::string begins = fmt::format("stage.{}.boundary: in_situ.surface = {:g} m is ", stage.name, surface);
       if (surface <= low) warnings.push_back(begins + "below every block: there is no stress; elevations are in m");
       if (surface > high + deep)
         warnings.push_back(
@@ -99,7 +100,7 @@ double least_friction(const Vector<Dim>& normal, const InSituPlan& in_situ) {
   return std::atan2((traction - across * normal).norm(), across);
 }
 
-// Joints that slip as the stresses are put on, which then are not those that were asked for (Boon 2013, 5.4.1).
+// Joints that slip as the stresses are applied, so that the stated stresses are not reached (Boon 2013, 5.4.1).
 template <int Dim>
 void judge_generation(const Prepared<Dim>& prepared, std::vector<std::string>& warnings) {
   Model<Dim> model = prepared.model;
@@ -119,8 +120,8 @@ void judge_generation(const Prepared<Dim>& prepared, std::vector<std::string>& w
       }
     if (needed > 0)
       warnings.push_back(fmt::format(
-          "stage.{}: joint '{}' slips while in-situ stresses are put on, which it holds from a friction of "
-          "{:.1f} deg on, and has {:.1f}: state a higher friction_deg in this stage, and the true one in the "
+          "stage.{}: joint '{}' slips while in-situ stresses are applied: it needs a friction of {:.1f} deg "
+          "but has {:.1f}; state a higher friction_deg in this stage, and the true one in the "
           "next",
           stage.name, name, to_degrees(needed), to_degrees(stated)));
   }

@@ -1,4 +1,4 @@
-// What looks wrong with in-situ stresses, and with water in searches, before anything is run.
+// Warnings about in-situ stresses, and about water in searches, before a run.
 #pragma once
 
 #include <string>

@@ -16,7 +16,7 @@
 namespace voussoir {
 namespace {
 
-// thresholds of warnings: where experience says "look again", not where anything breaks
+// thresholds of warnings, from experience; values beyond them are unusual, not invalid
 constexpr double many_steps = 1e6;  // hours
 constexpr double few_steps = 10;
 constexpr double many_frames = 1e4;    // files
@@ -27,7 +27,7 @@ constexpr double large_dashpot_error = 0.041;
 constexpr double settlement_margin = 10;      // failure displacement over elastic settlement
 constexpr double small_step_fraction = 1e-3;  // of the stable time step, when stated
 
-// of a stage that seeks rest
+// of a stage that seeks equilibrium
 std::optional<long long> step_limit_of(const StagePlan& stage) {
   if (const auto* plan = std::get_if<SettlePlan>(&stage.plan)) return plan->step_limit;
   if (const auto* plan = std::get_if<ReducePlan>(&stage.plan)) return plan->step_limit;
@@ -42,8 +42,8 @@ void judge_limits(const StagePlan& stage, const Settings& settings, const StageF
   const std::string where = "stage." + stage.name;
   if (settings.equilibrium.window > *limit)
     warnings.push_back(
-        fmt::format("{}.step_limit = {}: equilibrium.window asks for {} steps at rest in a row, which no "
-                    "run of so few steps has; raise step_limit or lower the window",
+        fmt::format("{}.step_limit = {}: equilibrium.window asks for {} successive steps in equilibrium, more than "
+                    "the limit allows; raise step_limit or lower the window",
                     where, *limit, settings.equilibrium.window));
   const auto* reduce = std::get_if<ReducePlan>(&stage.plan);
   const bool trials = reduce && reduce->method != ReductionMethod::rate;
@@ -54,18 +54,19 @@ void judge_limits(const StagePlan& stage, const Settings& settings, const StageF
                     "lower ramp_steps",
                     where, *limit, reduce->ramp_steps));
   const double ramp = ramp_of(stage);
-  // Newton's method puts ramps on in increments, whatever their time
+  // Newton's method applies ramps in increments, whatever their duration
   const double steps =
-      forecast.time_step > 0 && settings.damping.statics != Statics::newton ? ramp / forecast.time_step : 0;
+      forecast.time_step > 0 && settings.statics.method != Statics::newton ? ramp / forecast.time_step : 0;
   if (steps > most)
     warnings.push_back(
         fmt::format("{}.step_limit = {}: its longest ramp, {:g} s, takes about {:.2g} steps of {:.2g} s and is not "
                     "reached; shorten "
-                    "the ramp (gravity_ramp_s, duration_s of water and let_off), or raise step_limit",
+                    "the ramp (gravity_ramp_s, duration_s of water and excavation_forces), or raise step_limit",
                     where, *limit, ramp, steps, forecast.time_step));
 }
 
-// A column of n blocks swings (2 n + 1)/π times as slowly as one of them, and an assembly as a column of its height.
+// A column of n blocks oscillates (2 n + 1)/π times as slowly as one of them, and an assembly like a column of its
+// height.
 template <int Dim>
 double slowest_swing(const Model<Dim>& model, double period) {
   const Vector<Dim> down = model.gravity / model.gravity.norm();
@@ -83,7 +84,7 @@ double slowest_swing(const Model<Dim>& model, double period) {
   return period * std::max(1.0, (2 * layers + 1) / std::numbers::pi);
 }
 
-// the keys that make a stage long or short
+// the keys that determine the duration of a stage
 struct DurationKeys {
   std::string operator()(const SettlePlan&) const { return "gravity_ramp_s"; }
   std::string operator()(const RunPlan&) const { return "duration_s"; }
@@ -115,7 +116,7 @@ void judge_steps(const StagePlan& stage, const StageForecast& forecast, std::vec
                                    forecast.steps, forecast.time_step, key, units));
 }
 
-// What the times that a stage states mean beside its own times. `swing`: s, the slowest that the stage knows
+// The times that a stage states against its own periods. `swing`: s, the longest period of the stage
 void judge_times(const StagePlan& stage, const StageForecast& forecast, double swing, const OutputPlan& output,
                  std::vector<std::string>& warnings) {
   const auto warn = [&](const std::string& key, double value, const std::string& what) {
@@ -128,14 +129,15 @@ void judge_times(const StagePlan& stage, const StageForecast& forecast, double s
     ramp = plan->gravity.ramp;
     if (plan->time_limit < forecast.duration)
       warn(where + ".time_limit_s", plan->time_limit,
-           fmt::format("rest is expected after about {:.2g} s", forecast.duration));
+           fmt::format("equilibrium is expected after about {:.2g} s", forecast.duration));
   }
   if (ramp > 0 && ramp < swing)
     warn(where + ".gravity_ramp_s", ramp,
-         fmt::format("shorter than one swing of the blocks on their joints, {:.2g} s, it acts as a blow", swing));
+         fmt::format("shorter than a period of the blocks on their joints, {:.2g} s, it acts as an impact", swing));
   for (const WaterPlan& water : stage.water)
     if (water.ramp > 0 && water.ramp < swing)
-      warn(where + ".water", water.ramp, fmt::format("shorter than one swing, {:.2g} s, it acts as a blow", swing));
+      warn(where + ".water", water.ramp,
+           fmt::format("shorter than a period of the blocks, {:.2g} s, it acts as an impact", swing));
   if (output.history_interval > 0 && forecast.duration / output.history_interval > many_rows &&
       forecast.steps > many_rows)
     warn("output.history_interval_s", output.history_interval,
@@ -159,12 +161,13 @@ void judge_stage(const StagePlan& stage, const Settings& settings, double overla
                                    where, time.fraction, fraction, undamped ? ", the most without damping" : ""));
   const bool seeks_rest = !std::holds_alternative<RunPlan>(stage.plan);
   if (!seeks_rest && !time.step && damping.viscous_ratio > 0 && dashpot_error * time.fraction > large_dashpot_error)
-    warnings.push_back(fmt::format(
-        "{}: dashpots (damping.viscous_ratio = {}) at time.fraction = {} put the restitution of impacts some {:.2g} % "
-        "off, in proportion to the fraction; 0.02 leaves 1 %",
-        where, damping.viscous_ratio, time.fraction, 100 * dashpot_error * time.fraction));
-  if (seeks_rest && undamped && !begins_relaxing(stage, damping))
-    warnings.push_back(where + " waits for rest but nothing damps: give it damping.local = 0.7");
+    warnings.push_back(
+        fmt::format("{}: dashpots (damping.viscous_ratio = {}) at time.fraction = {} change the restitution of impacts "
+                    "by about {:.2g} %, "
+                    "in proportion to the fraction; 0.02 leaves 1 %",
+                    where, damping.viscous_ratio, time.fraction, 100 * dashpot_error * time.fraction));
+  if (seeks_rest && undamped && !begins_relaxing(stage, settings.statics))
+    warnings.push_back(where + " seeks equilibrium without damping: state damping.local = 0.7");
   if (const auto* plan = std::get_if<ReducePlan>(&stage.plan);
       plan && smallest > 0 && plan->failure_displacement > smallest)
     warnings.push_back(
@@ -175,7 +178,7 @@ void judge_stage(const StagePlan& stage, const Settings& settings, double overla
       plan && plan->failure_displacement > 0 && plan->failure_displacement < settlement_margin * overlap)
     warnings.push_back(fmt::format(
         "{}.failure_displacement = {:.2g} m is less than {} times the elastic settlement of about {:.2g} m: "
-        "settling may pass as failure",
+        "settlement may count as failure",
         where, plan->failure_displacement, settlement_margin, overlap));
 }
 
@@ -187,7 +190,7 @@ void judge_stated_step(const TimeSettings& time, double limit, std::vector<std::
         "it out",
         *time.step, limit));
   if (*time.step < small_step_fraction * limit)
-    warnings.push_back(fmt::format("time.step_s = {:.3g} s is tiny beside the stability limit of {:.2g} s; is it in s?",
+    warnings.push_back(fmt::format("time.step_s = {:.3g} s is far below the stability limit of {:.2g} s; is it in s?",
                                    *time.step, limit));
 }
 
@@ -211,12 +214,12 @@ template <int Dim>
 void judge_durations(const Prepared<Dim>& prepared, const Model<Dim>& model, const Forecast& forecast,
                      std::vector<std::string>& warnings) {
   const double g = model.gravity.norm();
-  // relaxation, whose inertia is not the blocks', knows no slower swing than a block's
+  // relaxation, whose inertia is not the blocks', has no longer period than that of one block
   const double period = g > 0 ? 2 * std::numbers::pi * std::sqrt(forecast.overlap / g) : 0;
   const double swing = g > 0 ? slowest_swing(model, period) : 0;
   for (std::size_t k = 0; k < prepared.stages.size(); ++k) {
     const StagePlan& stage = prepared.stages[k];
-    const bool relaxed = relaxes(stage, stage.damping.value_or(prepared.settings.damping));
+    const bool relaxed = relaxes(stage, stage.statics.value_or(prepared.settings.statics));
     judge_steps(stage, forecast.stages[k], warnings);
     judge_limits(stage, settings_of(stage, prepared.settings), forecast.stages[k], warnings);
     judge_times(stage, forecast.stages[k], relaxed ? period : swing, prepared.output, warnings);

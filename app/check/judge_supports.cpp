@@ -15,7 +15,7 @@
 namespace voussoir {
 namespace {
 
-// of a bolt's length: numbers in a scene are written with so many digits
+// of a bolt's length: the precision of numbers in a scene
 constexpr double same_place = 1e-6;
 
 // A bolt's straight line without its ends: unit direction and the point nearest to the origin, rounded so that bolts on
@@ -29,7 +29,7 @@ std::array<long long, 2 * Dim> line_of(const Bolt<Dim>& bolt, double grid) {
     break;
   }
   const Vector<Dim> foot = bolt.collar - bolt.collar.dot(along) * along;
-  // numbers on a grid are no border between two cells
+  // the offset keeps numbers on a grid away from the border between two cells
   const auto cell = [&](double x) { return std::llround(x / grid + 0.3); };
   std::array<long long, 2 * Dim> key;
   for (int k = 0; k < Dim; ++k) {
@@ -39,7 +39,7 @@ std::array<long long, 2 * Dim> line_of(const Bolt<Dim>& bolt, double grid) {
   return key;
 }
 
-// those that share a length with one before them
+// those that overlap with one before them
 template <int Dim>
 std::vector<int> bolts_on_others(const Model<Dim>& model) {
   double longest = 0;
@@ -71,7 +71,7 @@ std::vector<int> bolts_on_others(const Model<Dim>& model) {
   return again;
 }
 
-// bolts that lie in the plane of a joint, with the first such joint; of a very large scene those that are quick to find
+// bolts in the plane of a joint, with the first such joint; in a very large scene only the first bolts are tested
 template <int Dim>
 std::vector<std::pair<int, int>> bolts_in_joints(const Model<Dim>& model) {
   constexpr std::size_t most_pairs = 20'000'000;
@@ -117,32 +117,32 @@ void judge_bolts(const Model<Dim>& model, const State<Dim>& state, std::vector<s
   for (std::size_t p = 0; p < counts.size(); ++p) {
     const Count& count = counts[p];
     const std::string& name = model.bolt_properties[p].name;
-    // with nodes so far apart a bar is an eighth of its square, 3 %, too soft over a joint
+    // at this node spacing a bar is an eighth of its square, 3 %, too soft across a joint
     constexpr double coarse = 0.5;
     const BoltProperties& properties = model.bolt_properties[p];
     if (properties.node_spacing && *properties.node_spacing > coarse * transfer_length(properties))
       warnings.push_back(fmt::format(
-          "bolts.{}: node_spacing, {:g} m, is more than half of the {:.2g} m over which the bar takes up its "
-          "force: what its bond gives shows too little; lower it, or leave it out",
+          "bolts.{}: node_spacing, {:g} m, is more than half of the {:.2g} m over which the bond builds up the "
+          "bar force: the slip of the bond is underestimated; lower it, or leave it out",
           name, *properties.node_spacing, transfer_length(properties)));
     if (count.idle > 0)
       warnings.push_back(
-          fmt::format("bolts.{}: {} of {} cross no joint of the blocks as they are cut and would hold "
-                      "nothing: check where they lie, and that lengths are in m",
+          fmt::format("bolts.{}: {} of {} cross no joint of the blocks as they are cut and would support "
+                      "nothing: check their positions, and that lengths are in m",
                       name, count.idle, count.all));
     if (count.in_the_open > 0)
       warnings.push_back(
-          fmt::format("bolts.{}: {} of {} end outside of all blocks: check where they lie, and that "
+          fmt::format("bolts.{}: {} of {} end outside of all blocks: check their positions, and that "
                       "lengths are in m",
                       name, count.in_the_open, count.all));
     if (count.again > 0)
       warnings.push_back(
-          fmt::format("bolts.{}: {} of {} lie on top of another bolt: check from, to and repeat, or the fan's angles "
+          fmt::format("bolts.{}: {} of {} overlap another bolt: check from, to and repeat, or the fan's angles "
                       "and spacing_deg",
                       name, count.again, count.all));
     if (count.in_joint > 0)
       warnings.push_back(
-          fmt::format("bolts.{}: {} of {} lie in a joint ('{}'), whose sides they do not hold together: move or turn "
+          fmt::format("bolts.{}: {} of {} are in the plane of a joint ('{}') and do not tie its sides: move or turn "
                       "them",
                       name, count.in_joint, count.all, count.joint));
   }
@@ -173,7 +173,7 @@ void judge_linings(const Model<Dim>& model, const State<Dim>& state, std::vector
       if (const double thickness = lining.properties.thickness; spacing < least_slenderness * thickness)
         warnings.push_back(
             fmt::format("linings.{}.nodes: beams of {:.3g} m are much shorter than the lining is thick, {:.3g} m: they "
-                        "make it no truer and set a small time step: state {:.0f} or fewer",
+                        "add no accuracy and reduce the time step: state {:.0f} or fewer",
                         name, spacing, thickness, std::floor(beams / (least_slenderness * thickness))));
       if (outline < least_on_side * spacing * static_cast<double>(lining.sides.size()))
         warnings.push_back(fmt::format(
@@ -186,7 +186,7 @@ void judge_linings(const Model<Dim>& model, const State<Dim>& state, std::vector
         warnings.push_back(
             fmt::format("linings.{}.nodes: beams of {:.3g} m, but the blocks as they are cut are {:.3g} m wide along "
                         "the outline: state "
-                        "at least {:.0f} nodes, so that each block is met by two",
+                        "at least {:.0f} nodes, so that each block touches two",
                         name, spacing, stretch, least_on_stretch * beams / stretch));
     }
 }

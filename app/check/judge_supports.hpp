@@ -1,4 +1,4 @@
-// What looks wrong with a scene's bolts and linings before anything is run.
+// Warnings about a scene's bolts and linings before a run.
 #pragma once
 
 #include <string>
@@ -9,11 +9,11 @@
 
 namespace voussoir {
 
-// bolts that would hold nothing, end in the open, or lie where others or a joint do
+// bolts that would support nothing, end outside of all blocks, overlap others or are in the plane of a joint
 template <int Dim>
 void judge_bolts(const Model<Dim>& model, const State<Dim>& state, std::vector<std::string>& warnings);
 
-// linings whose nodes are too far apart, for their outline or for the joints that cross it, or too near for beams
+// linings whose nodes are too far apart for their outline or the joints that cross it, or too close for beams
 template <int Dim>
 void judge_linings(const Model<Dim>& model, const State<Dim>& state, std::vector<std::string>& warnings);
 

@@ -1,4 +1,4 @@
-// Repairs that name the mistake in a scene or in a table that it names.
+// Repairs that name the mistake in a scene or in one of its tables.
 #include "app/testing/checked_scene.hpp"
 
 namespace voussoir {
@@ -37,7 +37,7 @@ TEST_F(Repair, OfTablesNamesTheMistake) {
   refused_table(header + "\"30,5\",90,0,0,0\n", "write the decimals with a point");
   refused_table(utf_16(header + row), "is written in UTF-16; save it as UTF-8");
   refused_table(utf_16(header + row).substr(2), "is written in UTF-16");
-  refused_table(header + "30,90,0,0\n", "has 4 cells where the header has 5; leave a cell empty but keep its comma");
+  refused_table(header + "30,90,0,0\n", "has 4 cells, but the header has 5; leave a cell empty but keep its comma");
 }
 
 TEST_F(Repair, OfScenesNamesTheMistake) {
@@ -49,13 +49,13 @@ TEST_F(Repair, OfScenesNamesTheMistake) {
   refused(utf_16("dimension = 3\n"), "is written in UTF-16; save it as UTF-8");
 }
 
-TEST_F(Repair, OfAFolderThatMustNotBeEnteredSaysSo) {
+TEST_F(Repair, OfAFolderWithoutPermissionNamesTheFolder) {
   if (::geteuid() == 0) GTEST_SKIP() << "root enters every folder";
   fs::create_directories(folder_ / "closed");
   write("closed/scene.toml",
         head_in_plane + rock_properties + box("ground", -5, -20, 20) + "fixed = true\n" + settle_stage);
   fs::permissions(folder_ / "closed", fs::perms::none);
-  expect_one_line(run("check closed/scene.toml"), 2, "those of the folders on the way to it");
+  expect_one_line(run("check closed/scene.toml"), 2, "those of the folders above it");
   fs::permissions(folder_ / "closed", fs::perms::owner_all);
 }
 

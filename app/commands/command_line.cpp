@@ -37,17 +37,17 @@
 namespace voussoir {
 namespace {
 
-// as help lists them
+// in the order of the help text
 constexpr AddCommand* commands[] = {add_run,        add_resume, add_view,   add_check, add_slice, add_limit,
                                     add_joint_test, add_import, add_export, add_study, add_docs};
 
-// memory was asked for and not given: this must not ask again
+// an allocation has failed: this must not allocate again
 int not_enough_memory() {
   std::fputs("voussoir: not enough memory; a run that was under way can be resumed from its last checkpoint\n", stderr);
   return static_cast<int>(ExitCode::no_memory);
 }
 
-// an outside library may forbid exceptions where it asks for memory
+// an external library may forbid exceptions when it allocates memory
 [[noreturn]] void end_without_handler() {
   try {
     if (const std::exception_ptr error = std::current_exception()) std::rethrow_exception(error);
@@ -85,11 +85,11 @@ ExitCode exit_code(OutputError::Kind kind) {
   return ExitCode::output;
 }
 
-// every failure is one line that says what to do, and a code that a script can ask for
+// every failure is one line that states the repair, and an exit code for scripts
 int guarded(const Action& action) {
   try {
     const ExitCode code = action();
-    // what is still in the buffer counts as well: a pipe or a file may refuse it
+    // the rest of the buffer counts as well: a pipe or a file may refuse it
     if (std::fflush(stdout) != 0 || std::ferror(stdout)) throw output_error("standard output", errno);
     return static_cast<int>(code);
   } catch (const SceneError& error) {
@@ -111,7 +111,7 @@ int guarded(const Action& action) {
     tell("voussoir: {}\n", error.what());
     return static_cast<int>(exit_code(output_error(error.path1(), error.code().value()).kind));
   } catch (const std::system_error& error) {
-    // fmt's word for a stream that takes no more
+    // fmt's error for a stream that refuses to write
     const OutputError refused = output_error("standard output", error.code().value());
     tell("voussoir: {}\n", refused.what());
     return static_cast<int>(exit_code(refused.kind));
@@ -136,9 +136,9 @@ int parse_and_act(int argument_count, char** arguments) {
   try {
     program.parse(argument_count, arguments);
   } catch (const CLI::ParseError& error) {
-    // help and version are no errors; anything else is bad input, whatever number the parser has for it
+    // help and version are no errors; anything else is bad input, whatever code the parser has for it
     if (error.get_exit_code() != 0) {
-      tell("voussoir: {}; 'voussoir --help' and 'voussoir <command> --help' list what there is\n", error.what());
+      tell("voussoir: {}; 'voussoir --help' and 'voussoir <command> --help' list commands and options\n", error.what());
       return static_cast<int>(ExitCode::bad_input);
     }
     program.exit(error);

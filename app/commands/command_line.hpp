@@ -1,4 +1,4 @@
-// The program's front: arguments in, exit code out, every error as one line on stderr.
+// The command line: arguments in, exit code out, every error as one line on stderr.
 #pragma once
 
 namespace voussoir {

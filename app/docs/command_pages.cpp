@@ -23,7 +23,7 @@ std::vector<const CLI::Option*> arguments_of(const CLI::App& command, bool posit
 // The parser writes a type as NAME, and with a check that describes itself as NAME:check.
 struct Type {
   std::string name;     // empty: a flag
-  std::string shown;    // what its value may be, as help has it
+  std::string shown;    // the allowed values, as in the help text
   std::string choices;  // of a fixed list: its words, separated by blanks
 };
 
@@ -152,7 +152,8 @@ std::string manual_page(const CLI::App& program) {
   page +=
       ".SH DESCRIPTION\nA scene is a file (TOML) that states blocks or the joints that cut them, their properties, "
       "loads "
-      "and stages.\n.B voussoir docs\nlists all its keys,\n.B voussoir check\nsays what a scene activates,\n.B "
+      "and stages.\n.B voussoir docs\nlists all its keys,\n.B voussoir check\nreports the features that a scene "
+      "uses,\n.B "
       "voussoir "
       "run\nruns it and writes results.json, history.csv and files for ParaView.\n";
   page += ".SH OPTIONS\n";
@@ -163,7 +164,7 @@ std::string manual_page(const CLI::App& program) {
   page +=
       ".SH ENVIRONMENT\n.TP\n.B VOUSSOIR_TRAPS\n1: the first number that is not finite ends the program by SIGFPE.\n";
   page +=
-      ".SH EXAMPLES\nScenes and a tutorial from a field table to a factor of safety lie in "
+      ".SH EXAMPLES\nScenes and a tutorial from a field table to a factor of safety are in "
       "/usr/share/doc/voussoir/examples.\n";
   return page;
 }

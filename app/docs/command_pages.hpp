@@ -1,4 +1,4 @@
-// The program's own arguments as pages for others: whatever the parser knows is in them, and nothing else.
+// The program's arguments as a manual page and a completion script, made from the parser alone.
 #pragma once
 
 #include <string>

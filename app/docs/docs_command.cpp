@@ -20,38 +20,38 @@ struct Meaning {
 };
 
 constexpr Meaning column_meanings[] = {
-    {"time", "simulated time since the first stage began; in stages that come to rest by relaxation it is fictitious"},
+    {"time", "simulated time since the first stage began; in stages solved by relaxation it is fictitious"},
     {"stage", "number of the stage, from 1"},
-    {"trial",
-     "where some stage searches by trials: the number of one that is taken back; 0: on the path to the answer"},
+    {"trial", "if some stage searches by trials: the number of a trial that is rejected; 0: on the path to the result"},
     {"friction", "friction angle in force, of each of the joint properties whose friction some stage changes"},
-    {"water", "present level of each water that some stage changes, as a monitor of its level has it"},
+    {"water", "present level of each water that some stage changes, in the columns of a monitor of its level"},
     {"strength_factor",
-     "where some stage searches a factor of safety: what the strength of the joint properties that are searched is "
-     "divided by"},
+     "if some stage searches a factor of safety: the factor that divides the strength of the searched joint "
+     "properties"},
 };
 
 constexpr Meaning quantity_meanings[] = {
     {"displacement", "of the block's centroid since the first stage began, along the world's axes"},
-    {"velocity", "of the centroid, along the world's axes; where a stage relaxes, fictitious"},
+    {"velocity", "of the centroid, along the world's axes; fictitious in a stage that relaxes"},
     {"rotation",
      "since the first stage began: the rotation vector about the world's axes; in 2-D one column, counter-clockwise"},
     {"angular_velocity", "about the world's axes; in 2-D one column"},
     {"contact_force",
-     "of all touching contacts of the joint: the sums of normal force (compression positive), of the sizes of shear "
+     "of all touching contacts of the joint: the sums of normal force (compression positive), of the magnitudes of "
+     "shear "
      "force and of area, "
      "their number, the largest mobilised friction angle, and the angle between the joint's own normal and that of the "
-     "contact that carries most"},
-    {"whole_bonds", "how many bonds of the joint are whole, each sub-contact that carries one counted"},
+     "contact with the largest force"},
+    {"whole_bonds", "number of intact bonds of the joint; every bonded sub-contact counts"},
     {"level",
-     "elevation of the water: of a table in the plane a column for each of its points, m_level_1_m and so on, of a "
+     "elevation of the water: for a table in 2-D a column for each of its points, m_level_1_m and so on, for a "
      "plane "
-     "at the middle of the scene; of a constant pressure m_pressure_Pa instead"},
+     "at the middle of the scene; for a constant pressure m_pressure_Pa instead"},
     {"bolt_force",
-     "of one bolt: the largest axial force of the springs of all bolts of the name and the mean, tension positive; how "
-     "many springs have yielded and broken"},
+     "largest and mean axial force of the springs of all bolts of the name, tension positive; numbers of springs that "
+     "have yielded and broken"},
     {"convergence",
-     "how far the point of the wall has moved towards the opening's centre with its block; of several points a column "
+     "displacement of the wall's point, with its block, towards the opening's centre; for several points a column "
      "each, m_convergence_1_m and so on, or their sum or mean"},
     {"", "sum of the forces of this source on the block"},
 };
@@ -76,7 +76,7 @@ std::string history_documentation() {
 # history.csv
 
 `voussoir run` writes one row at each output.history_interval_s, or about 200 rows a stage, and one at the end of each stage; a
-search for the critical friction or the factor of safety writes one at the end of each trial. A cell is empty where its number is not finite.
+search for the critical friction or the factor of safety writes one at the end of each trial. A cell is empty if its number is not finite.
 
 | column | meaning |
 |---|---|
@@ -110,8 +110,8 @@ void add_docs(CLI::App& program, Action& action) {
   const auto pages = std::make_shared<Pages>();
   CLI::App* command =
       program.add_subcommand("docs", "every key of scenes and studies and every column of history.csv, as Markdown");
-  CLI::Option* manual = command->add_flag("--man", pages->manual, "instead, the page that man voussoir shows (troff)");
-  command->add_flag("--completion", pages->completion, "instead, what bash sources to complete the program's arguments")
+  CLI::Option* manual = command->add_flag("--man", pages->manual, "print the manual page instead (troff)");
+  command->add_flag("--completion", pages->completion, "print the completion script for bash instead")
       ->excludes(manual);
   command->callback([pages, &program, &action] {
     action = [pages, &program] {

@@ -5,8 +5,8 @@
 
 namespace voussoir {
 
-// every key a scene and a study may hold and every column of history.csv, as Markdown; or pages made of the parser: all
-// commands have been added to `program` once it acts
+// every key of scenes and studies and every column of history.csv, as Markdown; or pages made from the parser: all
+// commands must have been added to `program` before it runs
 void add_docs(CLI::App& program, Action& action);
 
 }  // namespace voussoir

@@ -23,7 +23,7 @@ TEST_F(Program, DocsHoldEveryColumnOfTheHistoryWithItsMeaning) {
   for (const std::string& line : lines_of(docs.substr(begin)))
     EXPECT_EQ(line.find("|  |"), std::string::npos) << "a column without a meaning: " << line;
   for (const char* part : {"| `trial` |", "| `friction_rock_deg` |", "`m_normal_force_N`", "`m_mobilised_friction_deg`",
-                           "`m_angular_velocity_x_rad_per_s`", "from 15 deg on"})
+                           "`m_angular_velocity_x_rad_per_s`", "critical angles above 15 deg"})
     EXPECT_NE(docs.find(part), std::string::npos) << part;
 }
 

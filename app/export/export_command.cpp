@@ -24,15 +24,16 @@ ExitCode export_command(const ExportArguments& arguments) {
   const LoadedScene loaded = load_scene(arguments.scene.scene, arguments.scene.overrides);
   tell_remarks(*loaded.stated);
   if (loaded.dimension == 2)
-    throw BadInput("3DEC and YADE know blocks in space but the scene has dimension = 2; export a scene in space");
+    throw BadInput("3DEC and YADE need blocks in space but the scene has dimension = 2; export a scene in space");
   const bool three_dec = arguments.format == "3dec";
   const ExportedScene scene =
       exported(*loaded.stated, std::get<Prepared<3>>(loaded.prepared), three_dec ? "3DEC" : "YADE");
   const std::string text = three_dec ? three_dec_text(scene) : yade_text(scene);
   claim_file(arguments.out, "export", loaded.files, arguments.overwrite);
   write_file(arguments.out, text);
-  fmt::print("{} blocks, {} joints: {}\nnot run in {}, nor verified by it; its head lists what was left out\n",
-             scene.model->bodies.size(), scene.joints.size(), arguments.out.string(), three_dec ? "3DEC" : "YADE");
+  fmt::print(
+      "{} blocks, {} joints: {}\nneither run nor verified in {}; its head lists the features that were left out\n",
+      scene.model->bodies.size(), scene.joints.size(), arguments.out.string(), three_dec ? "3DEC" : "YADE");
   return ExitCode::done;
 }
 
@@ -41,7 +42,7 @@ ExitCode export_command(const ExportArguments& arguments) {
 void add_export(CLI::App& program, Action& action) {
   const auto [command, arguments] = add_command(
       program, action, "export",
-      "blocks, joints and properties of a scene in space as text for another program, which is not run here",
+      "write blocks, joints and properties of a scene in space as text for 3DEC or YADE, which is not run here",
       export_command);
   add_scene(command, arguments.scene);
   command

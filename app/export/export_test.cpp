@@ -60,7 +60,7 @@ over = "mean"
 quantities = ["displacement"]
 )";
 
-// what a text says of a block
+// a block as the text describes it
 struct ReadBlock {
   double volume = 0;
   Vector<3> centroid = Vector<3>::Zero();
@@ -87,7 +87,7 @@ std::vector<ReadBlock> read_three_dec(const std::string& text) {
     }
     if (line.starts_with("block create polyhedron")) blocks.emplace_back();
     const bool face = line.starts_with("  face ");
-    EXPECT_EQ(face, goes_on) << "faces stand on lines that the one before continues with &: " << line;
+    EXPECT_EQ(face, goes_on) << "a face is on a line that the one before continues with &: " << line;
     goes_on = line.ends_with("&");
     if (!face) continue;
     std::istringstream words(line.substr(7));
@@ -173,7 +173,7 @@ std::vector<ReadBlock> read_sliced(const fs::path& folder) {
   return blocks;
 }
 
-// every plane of the one is one of the other; coordinates of 2000 m are rounded to 2.3e-13 m
+// every plane of one list is in the other; coordinates of 2000 m are rounded to 2.3e-13 m
 void expect_planes(const ReadBlock& found, const ReadBlock& expected) {
   ASSERT_EQ(found.planes.size(), expected.planes.size());
   for (const auto& p : expected.planes) {
@@ -212,12 +212,11 @@ TEST_F(Export, ReadsBackAsTheBlocksThatWereCut) {
   EXPECT_GT(fixed, 0);
   EXPECT_LT(fixed, 8);
   for (const char* part :
-       {"; wedges & a 'plate'", "NOT run in 3DEC", "Units: m, kg, s, N, Pa", "- what the stages do (settle)",
-        "- 1 monitors", "model gravity 0 0 -9.81", "block contact jmodel assign mohr", "stiffness-normal 1000000000 ",
-        "friction 35", "cohesion 10000 ", "; joint C: dip 10 dip-direction 20 origin ", "friction 20",
-        " range plane normal "})
+       {"; wedges & a 'plate'", "NOT run in 3DEC", "Units: m, kg, s, N, Pa", "- the stages (settle)", "- 1 monitors",
+        "model gravity 0 0 -9.81", "block contact jmodel assign mohr", "stiffness-normal 1000000000 ", "friction 35",
+        "cohesion 10000 ", "; joint C: dip 10 dip-direction 20 origin ", "friction 20", " range plane normal "})
     EXPECT_NE(data.find(part), std::string::npos) << part;
-  EXPECT_EQ(data.find("range plane"), data.rfind("range plane")) << "one joint has other properties than most";
+  EXPECT_EQ(data.find("range plane"), data.rfind("range plane")) << "only one joint has other properties than most";
 
   // YADE has one stiffness and friction for all
   expect_one_line(run("export scene.toml --as yade --out y.py"), 2, "2 joint_properties (rock, clay)");
@@ -269,7 +268,7 @@ bool is_value(const std::string& word) {
          word.find_first_of("0123456789") != std::string::npos;
 }
 
-// the first word of a data file that is in no list; empty where there is none
+// the first word of a data file that is in no list; empty if all are
 std::string foreign_word(const std::string& data, const Keywords& keywords) {
   std::string command;
   for (std::string line : lines_of(data)) {
@@ -310,7 +309,7 @@ TEST_F(Export, EveryWordIsOneOf3dec) {
                                  " group ", " stiffness-normal ", " friction ", " range ", " position-y ", " plane ",
                                  " origin ", " distance ", " jmodel ", " default ", " material-table "}) {
     std::string changed = data;
-    const std::size_t at = changed.rfind(word);  // comments stand before
+    const std::size_t at = changed.rfind(word);  // comments come before
     ASSERT_NE(at, std::string::npos) << word;
     changed[at + 2] = 'q';
     EXPECT_NE(foreign_word(changed, keywords), "") << word;
@@ -330,7 +329,7 @@ TEST_F(Export, EveryWordIsOneOf3dec) {
   EXPECT_NE(cubes.find("block contact material-table default property stiffness-normal "), std::string::npos);
 }
 
-TEST_F(Export, BlocksThatAreStatedHaveTheirNames) {
+TEST_F(Export, StatedBlocksKeepTheirNames) {
   write("scene.toml", read(scenes / "two_cubes.toml"));
   const std::string data = exported("--as 3dec");
   EXPECT_EQ(read_three_dec(data).size(), 2u);
@@ -338,7 +337,7 @@ TEST_F(Export, BlocksThatAreStatedHaveTheirNames) {
   EXPECT_EQ(read_yade(exported("--as yade")).size(), 2u);
 }
 
-TEST_F(Export, WhatCannotBeSaidIsRefusedInOneLine) {
+TEST_F(Export, UnsupportedFeaturesAreRefusedInOneLine) {
   write("scene.toml", rock);
   struct Case {
     std::string more, arguments, says;

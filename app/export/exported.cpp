@@ -12,19 +12,19 @@ namespace {
 void refuse_unspeakable(const Scene& scene, std::string_view program) {
   const auto first = [&](const auto& specs, const char* what) {
     if (!specs.empty())
-      refuse(
-          *specs.front().subject.node, specs.front().subject.path,
-          fmt::format("{} cannot be said in the text for {}, and without them it is another model; remove them from a "
-                      "copy of the scene",
-                      what, program));
+      refuse(*specs.front().subject.node, specs.front().subject.path,
+             fmt::format(
+                 "{} cannot be expressed in the text for {}, and without them the model differs; remove them from a "
+                 "copy of the scene",
+                 what, program));
   };
   first(scene.waters, "waters");
   first(scene.bolts, "bolts");
   for (const BlockSpec& block : scene.blocks)
     if (block.shape == BlockShape::potential)
-      refuse(
-          block.subject, "shape",
-          fmt::format("potential particles cannot be said in the text for {}; write shape = \"half_spaces\"", program));
+      refuse(block.subject, "shape",
+             fmt::format("potential particles cannot be expressed in the text for {}; write shape = \"half_spaces\"",
+                         program));
 }
 
 void refuse_laws(const Scene& scene, const ExportedScene& found, std::string_view program) {
@@ -39,7 +39,7 @@ void refuse_laws(const Scene& scene, const ExportedScene& found, std::string_vie
                                                                      : nullptr;
     if (key)
       refuse(spec.subject, key,
-             fmt::format("cannot be said in the text for {}, which knows constant stiffness per area and constant "
+             fmt::format("cannot be expressed in the text for {}, which has constant stiffness per area and constant "
                          "friction; give the joint these",
                          program));
   }
@@ -67,16 +67,16 @@ std::vector<std::string> left_out(const Scene& scene) {
   const auto add = [&](bool stated, const std::string& line) {
     if (stated) lines.push_back(line);
   };
-  add(true, fmt::format("what the stages do ({}): run, loads, excavation, searches", names_of(scene.stages)));
+  add(true, fmt::format("the stages ({}): run, loads, excavation, searches", names_of(scene.stages)));
   std::vector<std::string> dug;
   for (const StageSpec& stage : scene.stages)
     dug.insert(dug.end(), stage.plan.change.excavate.begin(), stage.plan.change.excavate.end());
-  add(!dug.empty(), fmt::format("that the rock of {} is taken out: it is still there", listed(dug)));
+  add(!dug.empty(), fmt::format("the excavation of {}: the rock is still there", listed(dug)));
   const bool moves = std::ranges::any_of(
       scene.blocks, [](const BlockSpec& b) { return b.motion.velocity || b.motion.angular_velocity; });
   add(moves || !scene.initial_velocity.empty(), "initial velocities");
   add(!scene.monitors.empty(), fmt::format("{} monitors", scene.monitors.size()));
-  add(true, "damping, time step, how contacts are found, when the model counts as at rest");
+  add(true, "damping, time step, contact detection, criterion of equilibrium");
   return lines;
 }
 
@@ -92,7 +92,7 @@ ExportedScene exported(const Scene& scene, const Prepared<3>& prepared, std::str
     found.joints.push_back(joint);
     faces_of_properties[prepared.model.joints[joint].properties] += faces;
   }
-  // faces that no joint made meet where blocks are stated one by one
+  // faces that no joint made touch if blocks are stated one by one
   const bool others = !prepared.model.properties.empty() && (!scene.blocks.empty() || faces_of_properties.empty());
   if (others) faces_of_properties.try_emplace(prepared.model.default_properties, 0);
   for (const auto& [properties, faces] : faces_of_properties)
@@ -108,12 +108,11 @@ std::string export_head(const ExportedScene& scene, std::string_view program, st
   std::vector<std::string> lines{
       fmt::format("{}", scene.title),
       fmt::format("Text for {}, written by voussoir {} ({}).", program, version(), commit()),
-      fmt::format("It was NOT run in {}: neither its syntax nor what comes of it was checked by that program.",
-                  program),
+      fmt::format("It was NOT run in {}: neither its syntax nor its results were checked by that program.", program),
       "Units: m, kg, s, N, Pa, angles in degrees where they are named so; x east, y north, z up.",
       fmt::format("{} blocks as they are before the first stage, {} joints between them.", scene.model->bodies.size(),
                   scene.joints.size()),
-      "Left out of what the scene states:"};
+      "Features of the scene that were left out:"};
   for (const std::string& line : scene.left_out)
     lines.push_back("- " + line);
   std::string text;

@@ -1,5 +1,5 @@
 // A scene in space as text for another program: its blocks as they are before the first stage, the joints between them,
-// their properties. Neither program was there to run what is written, and the texts say so.
+// their properties. Neither program was available to run the texts, and the texts state this.
 #pragma once
 
 #include <string>
@@ -11,20 +11,21 @@
 
 namespace voussoir {
 
-// what both programs' texts are made of
+// the contents of both programs' texts
 struct ExportedScene {
   const Model<3>* model = nullptr;
   std::string title;                  // of the scene, or its file
-  std::vector<int> joints;            // that cut blocks and let them part, ascending
-  std::vector<int> properties;        // that contacts have, the most common of the joints' first
-  std::vector<std::string> left_out;  // what the scene states besides and the text does not, one line each
+  std::vector<int> joints;            // that cut blocks and may open, ascending
+  std::vector<int> properties;        // of contacts, the most common of the joints' first
+  std::vector<std::string> left_out;  // features of the scene that the text leaves out, one line each
 };
 
-// Throws SceneError, in one line, at what no such text can say without being another model: water, bolts, potential
-// particles, joint laws other than linear with constant friction.
+// Throws SceneError, in one line, at features without which the model would differ and that no such text can express:
+// water, bolts, potential particles, joint laws other than linear with constant friction.
 ExportedScene exported(const Scene& scene, const Prepared<3>& prepared, std::string_view program);
 
-// first lines of the text, each behind `comment`: what wrote it, that it was not run, units, what was left out
+// first lines of the text, each after `comment`: the program that wrote it, that it was not run, units, features left
+// out
 std::string export_head(const ExportedScene& scene, std::string_view program, std::string_view comment);
 
 // a data file of 3DEC 7; blocks are polyhedra by their faces

@@ -10,7 +10,7 @@
 namespace voussoir {
 namespace {
 
-// of the smallest block's inscribed radius: what lies this near a joint's plane, or a block's centroid, is meant
+// of the smallest block's inscribed radius: the distance from a joint's plane, or a block's centroid, that is selected
 constexpr double nearness = 1e-3;
 
 double smallest_block(const Model<3>& model) {
@@ -24,7 +24,7 @@ std::string point_text(const Vector<3>& p) {
   return fmt::format("{},{},{}", p[0], p[1], p[2]);
 }
 
-// a name between quotes of the data file; what stands before '=' in a group's name is its slot
+// a name between quotes of the data file; the part before '=' in a group's name is its slot
 std::string quoted(std::string name) {
   std::ranges::replace(name, '\'', '_');
   std::ranges::replace(name, '=', '_');
@@ -47,7 +47,7 @@ std::string polyhedron(const Polytope<3>& part, const Vector<3>& place) {
   return text;
 }
 
-// blocks are chosen by where their centroid lies
+// blocks are selected by their centroid
 std::string range_of(const Vector<3>& centroid, double within) {
   std::string text = " range";
   for (int k = 0; k < 3; ++k)
@@ -55,7 +55,7 @@ std::string range_of(const Vector<3>& centroid, double within) {
   return text + "\n";
 }
 
-// what every contact has
+// properties of every contact
 std::string elastic_friction(const JointProperties& p) {
   return fmt::format("property stiffness-normal {} stiffness-shear {} friction {}", p.normal_stiffness,
                      p.shear_stiffness, to_degrees(p.friction));
@@ -66,7 +66,7 @@ std::string properties_text(const JointProperties& p) {
 }
 
 // Contacts that form later have the most common properties without their bond, as here. 3DEC has no stiffness of its
-// own for them, and in large strain does not cycle without.
+// own for them, and in large strain does not cycle without one.
 std::string later_contacts(const JointProperties& common) {
   return fmt::format(
       "; contacts that form later\nblock contact material-table default jmodel mohr\n"
@@ -87,9 +87,9 @@ std::string blocks_text(const Model<3>& model, double within) {
     const Body<3>& body = model.bodies[b];
     if (body.parts.size() > 1 && !body.fixed)
       throw BadInput(fmt::format(
-          "block {} is one body of {} convex parts, which the text for 3DEC cannot say of a block that moves; leave "
-          "out "
-          "what holds them together (part_of, construction joints, outlines, slicing.ends = \"healed\"), or fix it",
+          "block {} is one body of {} convex parts, which the text for 3DEC cannot express for a block that moves; "
+          "leave out "
+          "their connection (part_of, construction joints, outlines, slicing.ends = \"healed\"), or fix it",
           name_of(body, b), body.parts.size()));
     const Vector<3> place = model.origin + body.reference;
     text += fmt::format("; {}\n", name_of(body, b));
@@ -124,7 +124,7 @@ std::string joints_text(const ExportedScene& scene, double within) {
   return text;
 }
 
-// freedoms that a scene takes from blocks it does not fix
+// restrained degrees of freedom of blocks that are not fixed
 void add_restraints(ExportedScene& scene) {
   int restrained = 0;
   for (const Body<3>& body : scene.model->bodies)

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double rounding_radius = 0.1;  // r, of a block's inscribed radius: far from its corners
 
-// of the stiffness of a block on its largest face: YADE's examples take as much
+// of the critical step of a block on its largest face: as in YADE's examples
 constexpr double step_fraction = 0.1;
 
 std::string python_text(const std::string& name) {
@@ -31,7 +31,7 @@ const JointProperties& only_properties(const ExportedScene& scene) {
     for (const int p : scene.properties)
       names.push_back(model.properties[p].name);
     throw BadInput(
-        fmt::format("contacts have {} joint_properties ({}), and the text for YADE can say one stiffness and friction "
+        fmt::format("contacts have {} joint_properties ({}), and the text for YADE has one stiffness and friction "
                     "for all; give "
                     "all joints the same",
                     names.size(), listed(names)));
@@ -39,7 +39,7 @@ const JointProperties& only_properties(const ExportedScene& scene) {
   const JointProperties& p = model.properties[scene.properties.front()];
   if (p.tension > 0 || p.cohesion > 0)
     throw BadInput(
-        fmt::format("joint_properties.{} has tension or cohesion, which the text for YADE cannot say; remove "
+        fmt::format("joint_properties.{} has tension or cohesion, which the text for YADE cannot express; remove "
                     "them, or export for 3DEC",
                     p.name));
   return p;
@@ -72,13 +72,13 @@ std::string blocked(const Body<3>& body) {
   return text;
 }
 
-// name, material, centroid, planes seen from there, r, whether it is fixed, what is blocked
+// name, material, centroid, planes relative to it, r, whether it is fixed, blocked degrees of freedom
 std::string block_text(const Body<3>& body, std::size_t b, const Vector<3>& origin, const std::string& material) {
   const std::string name = body.name.empty() ? fmt::format("block-{}", b) : body.name;
   if (body.parts.size() > 1)
     throw BadInput(
-        fmt::format("block {} is one body of {} convex parts, which the text for YADE cannot say; leave out what holds "
-                    "them together "
+        fmt::format("block {} is one body of {} convex parts, which the text for YADE cannot express; leave out their "
+                    "connection "
                     "(part_of, construction joints, outlines, slicing.ends = \"healed\")",
                     name, body.parts.size()));
   const Vector<3> place = origin + body.reference;
@@ -138,8 +138,9 @@ std::string yade_text(const ExportedScene& scene) {
       "    NewtonIntegrator(damping=0, exactAsphericalRot=True, gravity=[{2}, {3}, {4}]),\n]\n",
       p.normal_stiffness, p.shear_stiffness, model.gravity[0], model.gravity[1], model.gravity[2]);
   text += materials_text + "names = {}\n" + functions + blocks;
-  return text + fmt::format("\n# a tenth of what the lightest block on its largest face would allow\nO.dt = {}\n",
-                            time_step(model, p.normal_stiffness));
+  return text +
+         fmt::format("\n# a tenth of the step that the lightest block on its largest face would allow\nO.dt = {}\n",
+                     time_step(model, p.normal_stiffness));
 }
 
 }  // namespace voussoir

@@ -48,8 +48,8 @@ struct Corner {
   double bulge = 0;
 };
 
-// The corners, and of every arc points of its own, so that its chords are short. A line that is not closed has no arc
-// behind its last corner.
+// The corners, and additional points on every arc, so that its chords are short. A line that is not closed has no arc
+// after its last corner.
 std::vector<Vector<3>> with_arcs(const std::vector<Corner>& corners, bool is_closed) {
   std::vector<Vector<3>> points;
   for (std::size_t k = 0; k < corners.size(); ++k) {
@@ -98,17 +98,17 @@ class DxfReader {
         entity();
       if (entity_.kind == "ENDSEC") section_.clear();
     }
-    if (entity_.kind != "EOF") throw FileFault(lines_.number(), 0, "the file ends without EOF; is it cut off?");
+    if (entity_.kind != "EOF") throw FileFault(lines_.number(), 0, "the file ends without EOF; is it truncated?");
     place_.tell(joints_);
     if (arcs_ > 0)
       joints_.remark(fmt::format("{} arcs of polylines were taken as chords of at most {:g} degrees", arcs_,
                                  to_degrees(chord_angle)));
     if (heights_ > 0)
-      joints_.remark(fmt::format(
-          "{} vertices of flat polylines state heights of their own, by up to {:.6g} m beside the "
-          "polyline's elevation, which was taken (first: line {}); draw them as 3D polylines if the heights "
-          "are meant",
-          heights_, largest_height_, first_height_));
+      joints_.remark(
+          fmt::format("{} vertices of flat polylines have their own heights, which differ by up to {:.6g} m from the "
+                      "polyline's elevation, which was used (first: line {}); draw them as 3D polylines if the heights "
+                      "are intended",
+                      heights_, largest_height_, first_height_));
     return joints_.finish();
   }
 
@@ -121,11 +121,11 @@ class DxfReader {
     if (words.size() != 1 || error != std::errc() || end != text.data() + text.size())
       throw FileFault(lines_.number(), 0,
                       shown(lines_.line()) +
-                          " stands where a group code must, a whole number; is it an ASCII DXF with no "
+                          " is in the place of a group code, a whole number; is it an ASCII DXF with no "
                           "line lost?");
     if (!lines_.next())
       throw FileFault(lines_.number(), 0,
-                      fmt::format("the file ends behind group code {}; is it cut off?", group_.code));
+                      fmt::format("the file ends after group code {}; is it truncated?", group_.code));
     std::string_view value = lines_.line();
     const std::size_t from = std::min(value.find_first_not_of(" \t"), value.size());
     value = value.substr(from, value.find_last_not_of(" \t") + 1 - from);
@@ -137,7 +137,7 @@ class DxfReader {
     if (!ahead_ && !next_group()) return false;
     if (group_.code != 0 && group_.code != 999)  // 999: a comment
       throw FileFault(group_.value.line - 1, 0,
-                      fmt::format("group code {} stands where 0 must begin something", group_.code));
+                      fmt::format("group code {} is in the place of a 0, which must begin an entity", group_.code));
     entity_ = {group_.code == 0 ? upper_case(group_.value.text) : "a comment", group_.value.line, {}};
     ahead_ = false;
     while (next_group()) {
@@ -161,9 +161,9 @@ class DxfReader {
     else if (entity_.number(62, 0) < 0)
       hidden_layers_[upper_case(name->text)] = "is switched off";
   }
-  // why the drawing does not show the entity; empty where it does
+  // why the drawing does not show the entity; empty if it does
   std::string hidden() const {
-    if (entity_.number(67, 0) == 1) return "an entity of the paper space (67 = 1), which is no model";
+    if (entity_.number(67, 0) == 1) return "an entity of the paper space (67 = 1), which is not part of the model";
     if (entity_.number(60, 0) == 1) return "an entity that is invisible (60 = 1)";
     const Word* name = entity_.find(8);
     const auto at = hidden_layers_.find(name ? upper_case(name->text) : "0");
@@ -211,11 +211,11 @@ class DxfReader {
       if (!next_entity() || (entity_.kind != "VERTEX" && entity_.kind != "SEQEND"))
         throw FileFault(
             lines_.number(), 0,
-            fmt::format("the POLYLINE of line {} must go on with VERTEX or SEQEND; is it cut off?", head.line));
+            fmt::format("the POLYLINE of line {} must continue with VERTEX or SEQEND; is it truncated?", head.line));
       if (entity_.kind == "SEQEND") break;
       if (!reason.empty()) continue;
       if (entity_.flag(control_point)) {
-        joints_.drop(entity_.line, "a control point of a spline (a VERTEX of flag 16), beside which its curve runs");
+        joints_.drop(entity_.line, "a control point of a spline (a VERTEX of flag 16), which is not on the curve");
         continue;
       }
       Corner corner{entity_.point(10), drawn_flat ? entity_.number(42, 0) : 0};
@@ -227,12 +227,12 @@ class DxfReader {
       return joints_.drop(head.line, "a POLYLINE that is a mesh; explode it into 3DFACE in the drawing");
     add(from, corners, head.flag(closed), drawn_flat ? axes_of(head) : Eigen::Matrix3d(Eigen::Matrix3d::Identity()));
   }
-  // of a flat polyline, whose vertices have no height of their own
+  // of a flat polyline, whose vertices have no individual height
   double elevation(const Entity& head, double height_of_vertex) {
-    const double height = head.number(30, 0), beside = std::abs(height_of_vertex - height);
-    if (beside > 0 && entity_.find(30)) {
+    const double height = head.number(30, 0), difference = std::abs(height_of_vertex - height);
+    if (difference > 0 && entity_.find(30)) {
       if (heights_++ == 0) first_height_ = entity_.line;
-      largest_height_ = std::max(largest_height_, beside * place_.metres());
+      largest_height_ = std::max(largest_height_, difference * place_.metres());
     }
     return height;
   }
@@ -256,7 +256,7 @@ class DxfReader {
   void add(const JointSource& from, std::vector<Corner> corners, bool is_closed, const Eigen::Matrix3d& axes) {
     const bool returns = corners.size() > 1 && corners.front().place == corners.back().place;
     if (!is_closed && !returns)
-      return joints_.drop(from.line, "a polyline that is open, a line and no face; close it if it bounds one");
+      return joints_.drop(from.line, "an open polyline, which bounds no face; close it if it should");
     if (returns) corners.pop_back();
     for (const Corner& corner : corners)
       arcs_ += corner.bulge != 0;

@@ -1,4 +1,4 @@
-// FracMan's fractures in ASCII. Sections stand between BEGIN and END; a fracture is a line "id corners set
+// FracMan's fractures in ASCII. Sections are between BEGIN and END; a fracture is a line "id corners set
 // properties…", its corners "number x y z", and a line "0 nx ny nz" with the normal.
 #include <fmt/format.h>
 
@@ -22,7 +22,8 @@ class FabReader {
   ImportedJoints read() {
     while (next()) {
       if (upper_case(words_[0].text) != "BEGIN" || words_.size() < 2)
-        refuse(words_[0], "found " + shown(words_[0].text) + " where a section must begin; is it an ASCII .fab?");
+        refuse(words_[0],
+               "found " + shown(words_[0].text) + " in place of the begin of a section; is it an ASCII .fab?");
       const std::string section = upper_case(words_[1].text);
       const int begun = lines_.number();
       while (next_inside(section, begun)) {
@@ -35,12 +36,13 @@ class FabReader {
     }
     if (stated_ > 0 && stated_ != read_)
       throw FileFault(stated_line_, 0,
-                      fmt::format("No_Fractures = {} but the file holds {}; is it cut off?", stated_, read_));
+                      fmt::format("No_Fractures = {} but the file has {}; is it truncated?", stated_, read_));
     if (turned_ > 0)
       joints_.remark(
-          fmt::format("{} stated normals are not those of their corners' planes, which were taken", turned_));
+          fmt::format("{} stated normals differ from those of their corners' planes, which were used", turned_));
     place_.tell(joints_);
-    joints_.remark("FracMan cuts fractures at the faces of its region: ends there are not where the joints end");
+    joints_.remark(
+        "FracMan cuts fractures at the faces of its region: edges there are not the true ends of the joints");
     return joints_.finish();
   }
 
@@ -58,16 +60,15 @@ class FabReader {
   bool next_inside(const std::string& section, int begun) {
     if (!next())
       throw FileFault(lines_.number(), 0,
-                      fmt::format("the file ends within BEGIN {} of line {}; is it cut off?", shown(section), begun));
+                      fmt::format("the file ends within BEGIN {} of line {}; is it truncated?", shown(section), begun));
     if (upper_case(words_[0].text) != "END") return true;
     if (words_.size() < 2 || upper_case(words_[1].text) != section)
-      refuse(words_[0], "ends another section than " + shown(section) + ", which is open; write END " + section);
+      refuse(words_[0], "ends a section other than " + shown(section) + ", which is open; write END " + section);
     return false;
   }
   void need(std::size_t words, const char* what) {
-    if (!next())
-      throw FileFault(lines_.number(), 0, fmt::format("the file ends where {} must follow; is it cut off?", what));
-    if (words_.size() < words) refuse(words_[0], fmt::format("{} must stand here, {} words", what, words));
+    if (!next()) throw FileFault(lines_.number(), 0, fmt::format("the file ends before {}; is it truncated?", what));
+    if (words_.size() < words) refuse(words_[0], fmt::format("{} must be here, {} words", what, words));
   }
   long long count(const Word& word, const std::string& what) const {
     constexpr double largest = 1e6;
@@ -77,8 +78,8 @@ class FabReader {
     return static_cast<long long>(number);
   }
 
-  // `key = value` with or without blanks, the key in upper case and the value without quotes; nothing where the line
-  // has no value
+  // `key = value` with or without blanks, the key in upper case and the value without quotes; nothing if the line has
+  // no value
   std::optional<std::pair<std::string, Word>> assignment() const {
     const std::string_view line = lines_.line();
     const std::size_t equals = line.find('=');
@@ -142,7 +143,7 @@ class FabReader {
     }
     need(4, "the normal of the fracture (0, x, y, z)");
     if (number_text(words_[0].text) != "0")
-      refuse(words_[0], "the normal of the fracture must stand here, a line that begins with 0");
+      refuse(words_[0], "the normal of the fracture must be here, a line that begins with 0");
     const Vector<3> normal = point();
     ++read_;
     if (const auto plane = fitted_plane(loop))

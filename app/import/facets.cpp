@@ -15,7 +15,7 @@ namespace voussoir {
 namespace {
 
 constexpr int written_digits = 6;  // of the program's numbers
-// Dip and dip direction are whole degrees there: further from the normal they are not its
+// Dip and dip direction are whole degrees there: a larger deviation from the normal is an error
 constexpr double another_rounded_plane = 3 * degree;
 
 using Triple = std::array<const char*, 3>;
@@ -45,8 +45,8 @@ struct Facet {
   std::vector<Vector<3>> corners;
 };
 
-// What a number of the file may have been before it was rounded: half a unit of its last digit, of which it has at
-// least those that the program writes.
+// The rounding error of a number of the file: half a unit of its last digit; it has at least the digits that the
+// program writes.
 double rounding_of(const Word& word, double number) {
   const std::string_view mantissa = word.text.substr(0, word.text.find_first_of("eE"));
   const auto digits = static_cast<int>(
@@ -55,12 +55,12 @@ double rounding_of(const Word& word, double number) {
   return 0.5 * std::pow(10.0, std::floor(std::log10(std::abs(number))) + 1 - std::max(digits, written_digits));
 }
 
-// what the centres of all facets are moved by, as far as rounding tells
+// the shift of the centres of all facets, within the bounds of rounding
 struct Between {
   double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
 
   double half_width() const { return (high - low) / 2; }
-  // a shift is a number that someone chose: the roundest
+  // a shift is a number that someone chose: the roundest within the bounds
   double roundest() const {
     if (low <= 0 && high >= 0) return 0;
     for (int power = 12; power > -7; --power) {
@@ -95,10 +95,10 @@ class FacetsReader {
         std::count_if(facets_.begin(), facets_.end(), [](const Facet& f) { return f.corners.empty(); });
     if (ellipses > 0)
       joints_.remark(
-          fmt::format("{} facets come without their polygon and are the ellipses of their extensions", ellipses));
+          fmt::format("{} facets have no polygon and were replaced by the ellipses of their extensions", ellipses));
     if (largest_rms_ > 0)
-      joints_.remark(
-          fmt::format("points lie beside the facets by at most {:.3g} m (root mean square of one)", largest_rms_));
+      joints_.remark(fmt::format(
+          "points deviate from the fitted planes by at most {:.3g} m (root mean square of one facet)", largest_rms_));
     return joints_.finish();
   }
 
@@ -118,7 +118,7 @@ class FacetsReader {
       if (names[k].text.empty()) continue;
       if (!places_.emplace(names[k].text, k).second)
         throw FileFault(names[k].line, names[k].column,
-                        "the column " + shown(names[k].text) + " stands twice; remove one");
+                        "the column " + shown(names[k].text) + " appears twice; remove one");
       columns_ = k + 1;
     }
     for (const Triple& names_of : {centre_columns, normal_columns})
@@ -141,7 +141,7 @@ class FacetsReader {
     if (cells_.size() < columns_)
       throw FileFault(
           lines_.number(), 0,
-          fmt::format("the row has {} cells, the header {}; is the line cut off?", cells_.size(), columns_));
+          fmt::format("the row has {} cells, the header {}; is the line truncated?", cells_.size(), columns_));
     Facet facet;
     facet.origin.line = lines_.number();
     const Word* index = find("Index");
@@ -183,7 +183,7 @@ class FacetsReader {
   static std::vector<Vector<3>> corners_of(const Word& cell) {
     const std::size_t open = cell.text.find("(("), close = cell.text.find("))");
     if (open == std::string_view::npos || close == std::string_view::npos || close < open)
-      throw FileFault(cell.line, cell.column, "PolygonZ must be POLYGON Z ((x y z, x y z, …)); is the line cut off?");
+      throw FileFault(cell.line, cell.column, "PolygonZ must be POLYGON Z ((x y z, x y z, …)); is the line truncated?");
     std::vector<Vector<3>> corners;
     for (std::size_t at = open + 2; at < close;) {
       const std::size_t end = std::min(cell.text.find(',', at), close);
@@ -208,7 +208,7 @@ class FacetsReader {
       if (between_[k].low > between_[k].high)
         throw FileFault(
             there.line, there.column,
-            fmt::format("{} lies beside {} by another shift than in the rows before; export each cloud by itself",
+            fmt::format("the shift from {1} to {0} differs from that of the rows before; export each cloud by itself",
                         global_centre_columns[k], centre_columns[k]));
     }
   }
@@ -222,8 +222,8 @@ class FacetsReader {
     }
     if (!shift.isZero(0))
       joints_.remark(
-          fmt::format("global shift {}, {}, {} m added: the roundest that the global centres allow, whose digits "
-                      "leave {:.2g} m",
+          fmt::format("global shift {}, {}, {} m added: the roundest that the global centres allow; their digits "
+                      "determine it within {:.2g} m",
                       shift[0], shift[1], shift[2], doubt));
     return shift;
   }

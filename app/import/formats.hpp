@@ -1,5 +1,5 @@
-// The formats that joints are imported from. Every reader takes the coordinates of its file to m, adds `shift` (m) and
-// throws FileFault.
+// The formats that joints are imported from. Every reader converts the coordinates of its file to m, adds `shift` (m)
+// and throws FileFault.
 #pragma once
 
 #include <string_view>
@@ -9,8 +9,8 @@
 namespace voussoir {
 
 // CloudCompare's table of facets (plugin qFacets): semicolons, one facet a row. Centres and polygons are local; global
-// centres, of which the file keeps six digits, tell by how much all of them lie beside their place. Without a PolygonZ
-// a facet is the ellipse of its two extensions.
+// centres, of which the file keeps six digits, give the shift between the two. Without a PolygonZ a facet is the
+// ellipse of its two extensions.
 ImportedJoints read_facets(std::string_view text, const Vector<3>& shift);
 
 // FracMan's fractures in ASCII (.fab): section FRACTURE; tessellated ones are dropped.
@@ -20,7 +20,7 @@ ImportedJoints read_fab(std::string_view text, const Vector<3>& shift);
 // arcs are chords, the layer is the set.
 ImportedJoints read_dxf(std::string_view text, const Vector<3>& shift);
 
-// GeoJSON in a plane: every stretch of a LineString or MultiLineString is a trace. The property `set` names its set.
+// GeoJSON in a plane: every segment of a LineString or MultiLineString is a trace. The property `set` names its set.
 ImportedJoints read_traces(std::string_view text, const Vector<3>& shift);
 
 }  // namespace voussoir

@@ -84,7 +84,7 @@ LowAndHigh extent_along(const ImportedJoints& found, int k) {
   return extent;
 }
 
-// What fitting a plane leaves of 0 prints as 0: a number below the rounding of the file's largest coordinate.
+// Residuals of fitted planes below the rounding of the file's largest coordinate are printed as 0.
 struct Rounded {
   double largest = 0;  // m
 
@@ -181,8 +181,9 @@ ExitCode import_command(const ImportArguments& arguments) {
   const ImportedJoints found = read(arguments);
   const std::string table = joint_table(found.joints, found.dimension);
   if (table.size() > largest_scene_file)
-    throw BadInput(fmt::format("{}: its joints make a table of more than {} MB, which no scene reads; divide the file",
-                               printable(arguments.file.string()), largest_scene_file >> 20));
+    throw BadInput(
+        fmt::format("{}: its joints make a table of more than {} MB, the largest that a scene reads; divide the file",
+                    printable(arguments.file.string()), largest_scene_file >> 20));
   const fs::path& out = arguments.out;
   const fs::path figure = fs::path(out).replace_filename(out.stem().string() + "_stereonet.svg");
   const bool has_stereonet = found.dimension == 3;
@@ -204,9 +205,10 @@ ExitCode import_command(const ImportArguments& arguments) {
 }  // namespace
 
 void add_import(CLI::App& program, Action& action) {
-  const auto [command, arguments] = add_command(
-      program, action, "import",
-      "joints of a scan, a drawing or a fracture network as a table that scenes read (joints_file)", import_command);
+  const auto [command, arguments] =
+      add_command(program, action, "import",
+                  "convert joints of a scan, a drawing or a fracture network into a table for scenes (joints_file)",
+                  import_command);
   command->add_option("file", arguments.file, "the file")->required()->check(plain_text())->type_name("FILE");
   command
       ->add_option(
@@ -215,7 +217,7 @@ void add_import(CLI::App& program, Action& action) {
           "and LWPOLYLINE of an ASCII DXF, its layers are sets; traces: GeoJSON lines in a plane")
       ->required()
       ->check(CLI::IsMember({"facets", "fab", "dxf", "traces"}));
-  command->add_option("--out", arguments.out, "the table, e.g. joints.csv beside the scene")
+  command->add_option("--out", arguments.out, "the table, e.g. joints.csv in the folder of the scene")
       ->required()
       ->check(plain_text())
       ->type_name("FILE");
@@ -226,7 +228,7 @@ void add_import(CLI::App& program, Action& action) {
       ->expected(3)
       ->allow_extra_args(false)
       ->check(finite(-largest_argument, largest_argument));
-  command->add_flag("--overwrite", arguments.overwrite, "replace the table; the file that is read is never replaced");
+  command->add_flag("--overwrite", arguments.overwrite, "replace the table; the input file is never replaced");
 }
 
 }  // namespace voussoir

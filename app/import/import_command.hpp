@@ -5,7 +5,7 @@
 
 namespace voussoir {
 
-// joints of another program's file as a table that scenes read, and a report on stdout
+// converts joints of another program's file into a table for scenes, with a report on stdout
 void add_import(CLI::App& program, Action& action);
 
 }  // namespace voussoir

@@ -1,4 +1,4 @@
-// `voussoir import`: joints of other programs' files as tables that cut blocks.
+// `voussoir import`: joints of other programs' files as tables for slicing.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -83,7 +83,7 @@ void expect_plane(const JointRow& joint, double dip, double direction, double sl
   EXPECT_NEAR(*joint.dip_direction_deg, direction, slack) << joint.name;
 }
 
-TEST(ImportFormats, FracturesAreWhereTheFileSays) {
+TEST(ImportFormats, FracturesAreWhereTheFileStates) {
   const ImportedJoints found = read_fab(sample("network.fab"), no_shift);
   ASSERT_EQ(found.joints.size(), 4u);
   const std::array<std::array<double, 2>, 4> planes{{{0, 0}, {4, 100}, {85, 95}, {88, 280}}};
@@ -107,7 +107,7 @@ TEST(ImportFormats, DrawingsAreFittedByPlanes) {
   EXPECT_EQ(found.joints[1].corners.size(), 3u);
   EXPECT_EQ(found.joints[0].set, "bedding");
   EXPECT_EQ(found.joints[2].set, "J-1");  // a layer J.1, whose point no name may hold
-  // every other corner of a hexagon is raised by 20 mm, so that all lie 10 mm cos 85 beside the mean plane
+  // every other corner of a hexagon is raised by 20 mm, so that all deviate by 10 mm cos 85 from the mean plane
   EXPECT_NEAR(*found.out_of_plane[2], 0.01 * std::cos(85 * degree), 2e-6);
   // drawn in the plane x = 7
   expect_plane(found.joints[3], 90, 90, 1e-9);
@@ -116,7 +116,7 @@ TEST(ImportFormats, DrawingsAreFittedByPlanes) {
   EXPECT_EQ(found.dropped.size(), 2u);
 }
 
-TEST(ImportFormats, TracesAreStretches) {
+TEST(ImportFormats, TracesAreSegments) {
   const ImportedJoints found = read_traces(sample("traces.geojson"), {10, 20, 0});
   ASSERT_EQ(found.joints.size(), 5u);
   EXPECT_NEAR(found.joints[0].extents[0], std::hypot(12, 0.5), 1e-12);
@@ -132,7 +132,8 @@ TEST(ImportFormats, TracesAreStretches) {
 TEST(ImportFormats, FacetsAreEllipsesOrTheirHulls) {
   const ImportedJoints found = read_facets(sample("facets.csv"), no_shift);
   ASSERT_EQ(found.joints.size(), 4u);
-  expect_plane(found.joints[0], 40.3, 129.6, 1e-3);  // of six digits, not of the whole degrees beside them
+  expect_plane(found.joints[0], 40.3, 129.6,
+               1e-3);  // from the normal's six digits, not from Dip and Dip dir. in whole degrees
   EXPECT_EQ(found.joints[0].set, "family-1");
   EXPECT_EQ(found.joints[0].corners.size(), 6u);  // of seven, one is a notch
   EXPECT_EQ(found.joints[1].shape, OutlineForm::ellipse);
@@ -150,7 +151,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text.replace(at, from.size(), to);
 }
 
-TEST(ImportFormats, WhatIsNotTakenAsItStandsIsTold) {
+TEST(ImportFormats, ChangedDataAreReported) {
   const std::string drawing = sample("drawing.dxf");
   EXPECT_FALSE(remarks(read_dxf(drawing, no_shift), "$INSUNITS"));
   EXPECT_TRUE(
@@ -168,7 +169,7 @@ TEST(ImportFormats, WhatIsNotTakenAsItStandsIsTold) {
   EXPECT_TRUE(remarks(read_facets(sample("facets.csv"), no_shift), "2 outlines are not convex"));
 }
 
-// the least-squares plane against corners moved off a known plane by a pattern that has no moment about it
+// the least-squares plane of corners moved off a known plane by a pattern without a moment about it
 TEST(ImportFormats, FittedPlaneLeavesNoMoment) {
   const Vector<3> normal = Vector<3>(0.3, -0.5, 0.8).normalized();
   const PlaneAxes<3> axes = plane_axes(normal);
@@ -183,7 +184,7 @@ TEST(ImportFormats, FittedPlaneLeavesNoMoment) {
   EXPECT_FALSE(fitted_plane({{1, 2, 3}, {1, 2, 3}, {1, 2, 3}}));
 }
 
-TEST(ImportFormats, WorkGrowsWithTheFileAlone) {
+TEST(ImportFormats, WorkIsLinearInTheFileSize) {
   const auto work = [](int fractures) {
     const ImportedJoints found = read_fab(network(fractures), no_shift);
     EXPECT_EQ(found.joints.size(), static_cast<std::size_t>(fractures));
@@ -244,7 +245,7 @@ TEST_F(Import, GlobalShiftChangesNoBlock) {
   expect_same(volumes(blocks(scene_of(3, "[458000, 5210000, 900]", "[458010, 5210010, 910]"))), 1e-6);
 }
 
-TEST_F(Import, ReportSaysWhatWasDropped) {
+TEST_F(Import, ReportListsDroppedEntities) {
   const Ended ended = import("network.fab", "--as fab");
   EXPECT_NE(ended.out.find("dropped: 2\n"), std::string::npos) << ended.out;
   EXPECT_NE(ended.out.find("  1 for a tessellated fracture"), std::string::npos) << ended.out;
@@ -256,7 +257,8 @@ TEST_F(Import, ReportSaysWhatWasDropped) {
 TEST_F(Import, DamagedFilesAreRefusedInOneLine) {
   expect_one_line(import("facets_damaged.csv", "--as facets"), 2, "facets_damaged.csv:3: the row has 11 cells");
   expect_one_line(import("network_damaged.fab", "--as fab"), 2, "network_damaged.fab:25:5: number of the corner");
-  expect_one_line(import("drawing_damaged.dxf", "--as dxf"), 2, "drawing_damaged.dxf:21: '20.000000' stands where");
+  expect_one_line(import("drawing_damaged.dxf", "--as dxf"), 2,
+                  "drawing_damaged.dxf:21: '20.000000' is in the place of");
   expect_one_line(import("traces_damaged.geojson", "--as traces"), 2, "traces_damaged.geojson:7: is no JSON");
   EXPECT_TRUE(folder_is_empty());
   const auto traces = [&](const std::string& coordinates, const std::string& refusal) {
@@ -272,14 +274,14 @@ TEST_F(Import, DamagedFilesAreRefusedInOneLine) {
   traces("[[0, 0], [1e400, 0]]", "file.geojson:3: holds a number too large");
   traces("[[0, 0], [0, 0]]", "file.geojson:2: holds no joint that can be taken");
   EXPECT_TRUE(folder_is_empty());
-  // of another kind altogether
+  // a file of a different kind
   for (const char* format : {"facets", "fab", "dxf", "traces"})
     expect_one_line(run("import " + squares_ + "--out joints.csv --as " + format), 2, "two_squares.toml");
   expect_one_line(run("import none.fab --out joints.csv --as fab"), 2, "none.fab");
   expect_one_line(import("network.fab", "--as fab --shift=1,2"), 2, "--shift");
 }
 
-TEST_F(Import, EveryCutIsRefusedOrTold) {
+TEST_F(Import, EveryTruncationIsRefusedOrReported) {
   const auto ends_well = [](const std::string& text, const auto& read) {
     for (std::size_t length = 0; length < text.size(); length += 7) {
       try {
@@ -305,7 +307,7 @@ TEST_F(Import, ReplacesNothingUnasked) {
   EXPECT_EQ(read(folder_ / "own.fab"), sample("network.fab"));
 }
 
-TEST(ImportFormats, SaysWhichColumnsAreExchanged) {
+TEST(ImportFormats, NamesExchangedColumns) {
   std::string text = sample("facets.csv");
   text.replace(text.find("Dip dir."), 8, "Dip");
   text.replace(text.rfind(" Dip;", text.find('\n')), 5, " Dip dir.;");

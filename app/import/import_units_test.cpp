@@ -1,4 +1,4 @@
-// `voussoir import`: what a drawing does not show is no joint, and lengths are what the file says they are.
+// `voussoir import`: entities that a drawing hides are no joints, and lengths are in the unit that the file states.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -38,7 +38,7 @@ void expect_refusal(const Read& read, std::string_view text, const std::string& 
   SCOPED_TRACE(part);
   try {
     read(text, at_origin);
-    ADD_FAILURE() << "read without a complaint";
+    ADD_FAILURE() << "read without an error";
   } catch (const FileFault& fault) {
     EXPECT_NE(std::string(fault.what()).find(part), std::string::npos) << fault.what();
   }
@@ -102,10 +102,11 @@ TEST(ImportDrawing, TheFilesThatWereMisread) {
   ASSERT_EQ(circle.joints.size(), 1u);
   EXPECT_NEAR(area_of(circle.joints[0]), 4 * std::numbers::pi, 4 * std::numbers::pi * 5e-4);  // 120 chords
   const ImportedJoints flat = read_dxf(stored("flat_polyline_with_heights.dxf"), at_origin);
-  EXPECT_TRUE(tells(flat, "4 vertices of flat polylines state heights of their own, by up to 14 m"));
+  EXPECT_TRUE(tells(flat, "4 vertices of flat polylines have their own heights, which differ by up to 14 m"));
 }
 
-// Random drawings: whatever is hidden, in any of the ways, or bounds no face is counted by its reason and is no joint.
+// Random drawings: an entity that is hidden for any reason, or bounds no face, is counted by its reason and is no
+// joint.
 TEST(ImportDrawing, WhatIsHiddenOrOpenIsNoJoint) {
   shapes::Random random(11);
   const auto one_of = [&](int count) { return shapes::integer(random, 0, count - 1); };
@@ -134,9 +135,9 @@ TEST(ImportDrawing, WhatIsHiddenOrOpenIsNoJoint) {
         entities += old_polyline(common, square, !open, kind == 3 ? 16 : 0);
       if (reason.empty() && kind == 3) {
         expected["control point"] += square.size();
-        reason = open ? "is open" : "fewer than three corners";
+        reason = open ? "an open" : "fewer than three corners";
       }
-      if (reason.empty() && kind > 0 && open && !returns) reason = "is open";
+      if (reason.empty() && kind > 0 && open && !returns) reason = "an open";
       reason.empty() ? ++joints : ++expected[reason];
     }
     const std::string tables = layer_table("plain", 0, 7) + layer_table("ice", 1, 7) + layer_table("dark", 4, -3);
@@ -223,7 +224,7 @@ std::string fractures(const std::string& equals, const std::string& unit, const 
       equals, unit, more, set, name);
 }
 
-TEST(ImportFractures, BlanksAroundAnEqualsSignSayNothing) {
+TEST(ImportFractures, BlanksAroundAnEqualsSignChangeNothing) {
   const std::map<std::string, double> metres{{"Meter", 1},         {"metres", 1},   {"m", 1},     {"Feet", 0.3048},
                                              {"FOOT", 0.3048},     {"ft", 0.3048},  {"cm", 0.01}, {"Kilometers", 1000},
                                              {"\"Feet\"", 0.3048}, {"inch", 0.0254}};
@@ -343,7 +344,7 @@ TEST(ImportTraces, ReferenceSystemsAreKnownByNumber) {
         "unit is not known");
 }
 
-// all that EPSG lists as geographic in two dimensions is degrees, and no number stands in two groups
+// all systems that EPSG lists as geographic in two dimensions are in degrees, and no number is in two groups
 TEST(ImportTraces, NoSystemHasTwoUnits) {
   std::map<std::pair<std::string_view, long long>, int> seen;
   std::map<SystemKind, int> count;

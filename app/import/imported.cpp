@@ -20,7 +20,7 @@ constexpr std::size_t longest_name = 200;    // bytes
 constexpr double line_width = 1e-6;          // over its length: narrower points have no plane worth the name
 constexpr double nearly_straight = 1e-6;     // rad; such a corner would not outlive the rounding of coordinates
 constexpr double noticed_growth = 1e-6;      // of an area
-constexpr const char* on_a_line = "corners that lie on a line or in a point, which have no plane";
+constexpr const char* on_a_line = "corners on a line or in a point, which have no plane";
 
 double cross(const Vector<2>& a, const Vector<2>& b) {
   return a[0] * b[1] - a[1] * b[0];
@@ -80,7 +80,7 @@ JointRow row_of(const Vector<Dim>& normal, const Vector<Dim>& point) {
   return row;
 }
 
-// with '.' and '=' no --set could address it
+// with '.' or '=' no --set could address it
 std::string as_name(const std::string& text) {
   std::string name = one_line(text, longest_name);
   for (char& c : name)
@@ -164,7 +164,7 @@ void JointCollector::ellipse(const JointSource& origin, const StatedPlane& plane
 void JointCollector::trace(const JointSource& origin, const Vector<2>& from, const Vector<2>& to) {
   const Vector<2> along = to - from;
   const double length = along.norm();
-  if (!(length > 0)) return drop(origin.line, "a stretch without length");
+  if (!(length > 0)) return drop(origin.line, "a segment without length");
   const Vector<2> across = Vector<2>(-along[1], along[0]) / length;
   JointRow row = row_of<2>(across[1] < 0 ? Vector<2>(-across) : across, from + along / 2);
   row.shape = OutlineForm::rectangle;
@@ -174,8 +174,9 @@ void JointCollector::trace(const JointSource& origin, const Vector<2>& from, con
 
 void JointCollector::add(const JointSource& origin, JointRow row, std::optional<double> out_of_plane) {
   if (found_.joints.size() == most_table_joints)
-    throw FileFault(origin.line, 0,
-                    fmt::format("more than {} joints, which no scene holds; divide the file", most_table_joints));
+    throw FileFault(
+        origin.line, 0,
+        fmt::format("more than {} joints, the most that a scene can have; divide the file", most_table_joints));
   row.line = origin.line;
   row.name = free_name(as_name(origin.name));
   row.set = as_name(origin.set);
@@ -196,12 +197,11 @@ std::string JointCollector::free_name(const std::string& wanted) {
 ImportedJoints JointCollector::finish() {
   if (found_.joints.empty())
     throw FileFault(found_.dropped.empty() ? 1 : found_.dropped[0].line, 0,
-                    found_.dropped.empty()
-                        ? "holds no joint; is it a file of this kind?"
-                        : fmt::format("holds no joint that can be taken; {} dropped, the first for {}",
-                                      found_.dropped.size(), found_.dropped[0].reason));
+                    found_.dropped.empty() ? "has no joint; is it a file of this kind?"
+                                           : fmt::format("has no usable joint; {} dropped, the first for {}",
+                                                         found_.dropped.size(), found_.dropped[0].reason));
   if (not_convex_ > 0)
-    remark(fmt::format("{} outlines are not convex: their convex hulls were taken, up to {:.3g} % larger", not_convex_,
+    remark(fmt::format("{} outlines are not convex: their convex hulls were used, up to {:.3g} % larger", not_convex_,
                        100 * largest_growth_));
   return std::move(found_);
 }

@@ -1,4 +1,4 @@
-// What a file of joints from another program becomes: rows of our own table, and what its user must be told about them.
+// The joints of another program's file: rows of our own table, and remarks and warnings for the user.
 #pragma once
 
 #include <map>
@@ -22,14 +22,14 @@ struct Dropped {
 struct ImportedJoints {
   int dimension = 3;
   std::vector<JointRow> joints;
-  std::vector<std::optional<double>> out_of_plane;  // m, largest of a joint's corners; nothing where it states none
+  std::vector<std::optional<double>> out_of_plane;  // m, largest of a joint's corners; nothing if it has none
   std::vector<Dropped> dropped;
   std::vector<std::string> remarks;   // one line each
-  std::vector<std::string> warnings;  // likewise, of what may be read wrongly
+  std::vector<std::string> warnings;  // likewise, of data that may have been misinterpreted
   long long work = 0;                 // corners placed and names tried
 };
 
-// where in the file a joint comes from
+// the place of a joint in the file
 struct JointSource {
   int line = 0;
   std::string name, set;
@@ -39,13 +39,13 @@ struct StatedPlane {
   Vector<3> normal, centre;  // unit, m
 };
 
-// Gathers the joints of a file. Throws FileFault at more joints than a scene may hold, and at the end where there is
+// Collects the joints of a file. Throws FileFault at more joints than a scene may have, and at the end if there is
 // none.
 class JointCollector {
  public:
   explicit JointCollector(int dimension) { found_.dimension = dimension; }
 
-  // The convex outline of the corners in the stated plane, or in that of least squares; dropped where they make no
+  // The convex outline of the corners in the stated plane, or in that of least squares; dropped if they make no
   // face.
   void polygon(const JointSource& origin, const std::vector<Vector<3>>& corners,
                const std::optional<StatedPlane>& stated = std::nullopt);
@@ -67,12 +67,12 @@ class JointCollector {
 
   ImportedJoints found_;
   std::set<std::string> names_;
-  std::map<std::string, int> repeated_;  // how often a name was wanted
+  std::map<std::string, int> repeated_;  // how often a name was used
   long long not_convex_ = 0;
   double largest_growth_ = 0;  // of an area by its convex outline, a fraction
 };
 
-// upward unit normal of the plane of least squares through its centre; nothing where the points lie on a line
+// upward unit normal of the plane of least squares through its centre; nothing if the points are on a line
 std::optional<StatedPlane> fitted_plane(const std::vector<Vector<3>>& points);
 
 // a number that a scene takes for a coordinate, m

@@ -1,4 +1,4 @@
-// A unit of length and how long it is.
+// A unit of length and its length in metres.
 #pragma once
 
 #include <string_view>

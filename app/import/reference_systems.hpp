@@ -1,5 +1,5 @@
 // The reference systems of EPSG and ESRI by number: their kind and the unit of their axes. There is no range of numbers
-// for either; the table is the list of PROJ's database, made by reference_systems.sh.
+// for either; the table comes from PROJ's database, by reference_systems.sh.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +23,7 @@ struct SystemGroup {
 extern const SystemGroup system_groups[];
 extern const std::size_t system_group_count;
 
-// nothing where the table has no such number
+// nothing if the table has no such number
 const SystemGroup* reference_system(std::string_view authority, long long code);
 
 }  // namespace voussoir

@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-// counts the lines that a parser has read
+// counts the lines that the parser has read
 struct LineCounter {
   using iterator_category = std::input_iterator_tag;
   using value_type = char;
@@ -37,7 +37,7 @@ struct LineCounter {
 
 struct GeoJson {
   json root;
-  std::vector<int> lines;  // where each object of the list `features` begins
+  std::vector<int> lines;  // the line of each object of the list `features`
 };
 
 GeoJson parse(std::string_view text) {
@@ -50,17 +50,17 @@ GeoJson parse(std::string_view text) {
     return true;
   };
   try {
-    const WithoutTraps no_traps;  // a number too large is the library's to refuse
+    const WithoutTraps no_traps;  // the library refuses a number that is too large
     file.root = json::parse(LineCounter{text.data(), &line}, LineCounter{text.data() + text.size(), &line}, note_lines);
   } catch (const json::parse_error&) {
-    throw FileFault(line, 0, "is no JSON from here on; is the file cut off, or a bracket or comma lost?");
+    throw FileFault(line, 0, "is no JSON from here on; is the file truncated, or a bracket or comma lost?");
   } catch (const json::out_of_range&) {
-    throw FileFault(line, 0, "holds a number too large for any coordinate; is it in m?");
+    throw FileFault(line, 0, "has a number too large for a coordinate; is it in m?");
   }
   return file;
 }
 
-// a member of an object; nothing where there is none, or null
+// a member of an object; nothing if it is missing or null
 const json* member(const json& object, const char* name) {
   if (!object.is_object()) return nullptr;
   const auto at = object.find(name);
@@ -98,7 +98,7 @@ class TracesReader {
       feature(file);
     else
       geometry(file, {1, "trace-1", ""});
-    if (bent_ > 0) joints_.remark(fmt::format("{} lines are bent: each of their stretches is a joint", bent_));
+    if (bent_ > 0) joints_.remark(fmt::format("{} lines are bent: each of their segments is a joint", bent_));
     place_.tell(joints_);
     if (!system && may_be_degrees_)
       joints_.warn(
@@ -153,7 +153,7 @@ class TracesReader {
       before = next;
     }
   }
-  // a third coordinate is height above the plane, which a trace has none of
+  // a third coordinate is the height above the plane, which a trace does not have
   Vector<2> point(const json& numbers, const std::string& path) {
     if (!numbers.is_array() || numbers.size() < 2 || !numbers[0].is_number() || !numbers[1].is_number())
       refuse(path, "a point is a list of two numbers; write for example [12.5, 3]");
@@ -167,7 +167,7 @@ class TracesReader {
   }
   FilePlacement place_;
   const std::vector<int>& lines_;
-  int line_ = 1;  // of the feature in hand
+  int line_ = 1;  // of the current feature
   long long count_ = 0, bent_ = 0;
   bool may_be_degrees_ = true;  // every coordinate so far
   JointCollector joints_{2};
@@ -176,7 +176,7 @@ class TracesReader {
 }  // namespace
 
 ImportedJoints read_traces(std::string_view text, const Vector<3>& shift) {
-  for (LineReader lines(text); lines.next();) {  // refuses what is no plain text
+  for (LineReader lines(text); lines.next();) {  // refuses characters that are no plain text
   }
   const GeoJson file = parse(text);
   return TracesReader(shift, file.lines).read(file.root);

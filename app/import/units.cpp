@@ -50,7 +50,7 @@ bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
-// the last whole number behind the authority's name: EPSG:25832, urn:ogc:def:crs:EPSG:6.9:25832, …/ref/epsg/25832/proj4
+// the last whole number after the authority's name: EPSG:25832, urn:ogc:def:crs:EPSG:6.9:25832, …/ref/epsg/25832/proj4
 std::optional<long long> code_behind(std::string_view text) {
   std::optional<long long> code;
   for (std::size_t at = 0; at < text.size();) {
@@ -60,7 +60,7 @@ std::optional<long long> code_behind(std::string_view text) {
     const bool whole = !word.empty() && std::all_of(word.begin(), word.end(), is_digit) &&
                        std::from_chars(word.data(), word.data() + word.size(), number).ec == std::errc();
     if (whole) code = number;
-    // a system of plane and heights names the plane first
+    // a compound system of plane and heights names the plane first
     if (end < text.size() && (text[end] == ',' || text[end] == '+') && code) return code;
     at = end + 1;
   }
@@ -104,7 +104,7 @@ void FilePlacement::named_unit(const Word& name, std::string_view key) {
     if (!wanted.empty() && std::find(named.names.begin(), named.names.end(), wanted) != named.names.end())
       return state(named.unit, fmt::format("{} = {}", key, shown(name.text)));
   throw FileFault(name.line, name.column,
-                  fmt::format("{} = {}: no length that is known here; export the file in m", key, shown(name.text)));
+                  fmt::format("{} = {}: an unknown unit of length; export the file in m", key, shown(name.text)));
 }
 
 void FilePlacement::drawing_unit(const Word& code) {
@@ -112,26 +112,26 @@ void FilePlacement::drawing_unit(const Word& code) {
   if (number == no_drawing_unit) return;
   for (const NamedUnit& named : units)
     if (named.drawing_code == number) return state(named.unit, fmt::format("$INSUNITS {:g}", number));
-  throw FileFault(
-      code.line, code.column,
-      fmt::format("$INSUNITS = {}: no unit that is known here; write 6 and coordinates in m, or 0", shown(code.text)));
+  throw FileFault(code.line, code.column,
+                  fmt::format("$INSUNITS = {}: an unknown unit; write 6 and coordinates in m, or 0", shown(code.text)));
 }
 
 void FilePlacement::reference_system(std::string_view crs, int line) {
   const std::string text = upper_case(crs);
   for (const char* degrees : {"CRS84", "CRS83", "CRS27"})
     if (text.find(degrees) != std::string::npos) refuse_system(crs, line, in_degrees);
-  // of a system of plane and heights the first is the plane's
+  // of a compound system the first is the plane's
   const std::size_t at = std::min(text.find("EPSG"), text.find("ESRI"));
   const std::string_view authority = std::string_view(text).substr(std::min(at, text.size()), 4);
   if (const auto code = code_behind(std::string_view(text).substr(std::min(at, text.size()) + authority.size()))) {
     const std::string name = fmt::format("{}:{}", authority, *code);
     const SystemGroup* const found = voussoir::reference_system(authority, *code);
     if (!found)
-      refuse_system(crs, line,
-                    name +
-                        " is in no table known here, so that its unit is not known; name a projected system in m, or "
-                        "leave out crs if the coordinates are in m");
+      refuse_system(
+          crs, line,
+          name +
+              " is an unknown reference system, so that its unit is not known; name a projected system in m, or "
+              "leave out crs if the coordinates are in m");
     if (found->kind == SystemKind::geographic) refuse_system(crs, line, name + " " + in_degrees);
     if (found->kind == SystemKind::geocentric)
       refuse_system(crs, line,
@@ -152,10 +152,10 @@ Vector<3> FilePlacement::operator()(const Vector<3>& point, int line) const {
 
 void FilePlacement::tell(JointCollector& joints) const {
   if (stated_.empty())
-    joints.remark("the file states no unit of length: coordinates were taken as m, so look at the box");
+    joints.remark("the file states no unit of length: coordinates were taken as m; check the box");
   else if (unit_.metres != 1)
-    joints.remark(fmt::format("{}: coordinates in {} ({} m) were converted to m, so look at the box", stated_,
-                              unit_.name, unit_.metres));
+    joints.remark(fmt::format("{}: coordinates in {} ({} m) were converted to m; check the box", stated_, unit_.name,
+                              unit_.metres));
 }
 
 }  // namespace voussoir

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 struct JointTestArguments {
   SceneArguments scene;
   std::filesystem::path out;            // empty: results/<name of the scene's file>_joint_test
-  std::vector<std::string> properties;  // of these joint_properties; none: of all
+  std::vector<std::string> properties;  // names of joint_properties; none: all
   std::string path = "shear";           // normal, shear, stiffness, cyclic
   std::vector<double> stresses;         // Pa; none: 0.1, 0.5, 1, 2, 5 MPa
   double slip = 1e-3;                   // m
@@ -79,7 +79,7 @@ std::vector<JointProperties> chosen(const Scene& scene, const std::vector<std::s
   for (const JointProperties& p : names.empty() ? all : some)
     if (p.constant_stiffness)
       throw BadInput(
-          fmt::format("joint_properties.{}: its stiffness is in N/m and knows no stress; test joints whose "
+          fmt::format("joint_properties.{}: its stiffness is in N/m, which defines no stress; test joints whose "
                       "stiffness is per area, with --joint",
                       p.name));
   return names.empty() ? all : some;
@@ -100,7 +100,7 @@ std::string table(const std::vector<JointTest>& tests) {
 }
 
 // A text of a gnuplot script. Between apostrophes it could not begin with one; between double quotes these characters
-// mean something else.
+// have another meaning.
 std::string gnuplot_text(const std::string& text) {
   std::string quoted = "\"";
   for (const char character : text)
@@ -110,8 +110,8 @@ std::string gnuplot_text(const std::string& text) {
   return quoted + "\"";
 }
 
-// Columns that gnuplot finds in the first cell of a row: it takes the second quote for the end of the text, and a comma
-// behind it for the end of a column.
+// Columns that gnuplot finds in the first cell of a row: it takes the second quote as the end of the text, and a comma
+// after it as the end of a column.
 std::ptrdiff_t columns_of(const std::string& cell) {
   if (!cell.starts_with('"')) return 1;
   return 1 + std::count(cell.begin() + static_cast<std::ptrdiff_t>(cell.find('"', 1)), cell.end(), ',');
@@ -135,7 +135,7 @@ std::string figure(const std::vector<JointTest>& tests, bool normal) {
   return text + "\n";
 }
 
-// the figure is a help, the table is the result: without gnuplot one line says how to draw it
+// the table is the result, the figure an aid: without gnuplot one line names the script that draws it
 void draw(const fs::path& folder) {
   const std::string place = fs::absolute(folder).string();
   const bool quotable = place.find('\'') == std::string::npos;
@@ -177,8 +177,8 @@ ExitCode joint_test_command(const JointTestArguments& arguments) {
   }
   if (snapped > 0)
     tell(
-        "voussoir: warning: {} steps snap back: friction falls faster than the shear spring unloads, so that a stiffer "
-        "spring or a longer softening_slip_m is needed for a curve that a test could follow",
+        "voussoir: warning: snap-back in {} steps: friction falls faster than the shear spring unloads; a stiffer "
+        "spring or a longer softening_slip_m gives a curve that a test can follow",
         snapped);
   fmt::print("table and figure: {}\n", folder.string());
   return ExitCode::done;
@@ -187,28 +187,31 @@ ExitCode joint_test_command(const JointTestArguments& arguments) {
 }  // namespace
 
 void add_joint_test(CLI::App& program, Action& action) {
-  const auto [command, arguments] =
-      add_command(program, action, "joint-test",
-                  "take the joint laws of a scene along laboratory paths, without any block", joint_test_command);
+  const auto [command, arguments] = add_command(
+      program, action, "joint-test",
+      "drive the joint laws of a scene through laboratory test paths (compression, CNL, CNS)", joint_test_command);
   add_scene(command, arguments.scene);
   add_out(command, arguments.out, "folder of the results (default: results/<scene>_joint_test)");
   add_repeated(command, "--joint", arguments.properties, "name of joint_properties; may be repeated (default: all)")
       ->check(plain_text());
   command
       ->add_option("--path", arguments.path,
-                   "normal: compression and back; shear: at constant normal stress; stiffness: in surroundings of "
-                   "constant normal stiffness; cyclic: to slip, -slip and back (default: shear)")
+                   "normal: compression and unloading; shear: at constant normal stress (CNL); stiffness: at "
+                   "constant normal stiffness (CNS); cyclic: to slip, -slip and back (default: shear)")
       ->check(CLI::IsMember({"normal", "shear", "stiffness", "cyclic"}));
   add_repeated(command, "--stress", arguments.stresses,
                "normal stress in Pa; may be repeated (default: 0.1, 0.5, 1, 2, 5 MPa)")
       ->check(finite(least_positive, largest_argument));
-  command->add_option("--slip", arguments.slip, "in m (default: 1e-3)")
+  command->add_option("--slip", arguments.slip, "largest slip in m (default: 1e-3)")
       ->check(finite(least_positive, largest_argument));
-  command->add_option("--surroundings", arguments.surroundings, "of path stiffness, in Pa/m (default: 1e9)")
+  command
+      ->add_option("--surroundings", arguments.surroundings,
+                   "normal stiffness of the surroundings, for path stiffness, in Pa/m (default: 1e9)")
       ->check(finite(least_positive, largest_argument));
-  command->add_option("--dilation", arguments.dilation, "of path stiffness: rise over slip (default: 0.05)")
+  command->add_option("--dilation", arguments.dilation, "dilation over slip, for path stiffness (default: 0.05)")
       ->check(finite(0, 1));
-  command->add_option("--cycles", arguments.cycles, "of path cyclic (default: 2)")->check(CLI::Range(1, 1000));
+  command->add_option("--cycles", arguments.cycles, "number of cycles, for path cyclic (default: 2)")
+      ->check(CLI::Range(1, 1000));
   command->add_option("--steps", arguments.steps, "points along each leg of a path (default: 200)")
       ->check(CLI::Range(1, 1000000));
   command->add_flag("--bonded", arguments.bonded, "tension and cohesion are intact when shear begins");

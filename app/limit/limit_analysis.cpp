@@ -16,20 +16,19 @@ namespace voussoir {
 namespace {
 
 const char* const associated_flow_caveat =
-    "associated flow: joints open as they slip, so this is an upper bound on strength; where blocks topple it may be "
+    "associated flow: joints dilate as they slip, so this is an upper bound on strength; if blocks topple it may be "
     "several degrees unsafe (Goodman & Bray's slope: 33.4 for 38.15); confirm it with 'voussoir run'";
 const char* const self_stress_caveat =
-    "this answer may rest on normal forces between walls that the loads do not ask for: blocks that fall when run may "
-    "stand here by far; confirm it with 'voussoir run'";
-const char* const without_bound =
-    ", by normal forces without bound, of which nothing says that they are there; confirm it with 'voussoir run'";
+    "this result may depend on self-stress, normal forces between walls that the loads do not cause: blocks that fall "
+    "in a run may be far from failure here; confirm it with 'voussoir run'";
+const char* const without_bound = ", by unbounded normal forces, which need not exist; confirm it with 'voussoir run'";
 
 std::string block_name(const Model<2>& model, int body) {
   const std::string title = title_of(model, body);
   return model.bodies[body].name.empty() ? fmt::format("block {} ({})", body, title) : fmt::format("block '{}'", title);
 }
 
-// what cannot be carried by any face, however rough
+// blocks that no face can support, however rough
 std::vector<std::string> unsupported(const LimitAnalysis& analysis) {
   std::vector<bool> touched(analysis.model.bodies.size(), false);
   for (const Interface& face : analysis.interfaces)
@@ -37,12 +36,13 @@ std::vector<std::string> unsupported(const LimitAnalysis& analysis) {
   std::vector<std::string> warnings;
   for (std::size_t b = 0; b < touched.size(); ++b)
     if (analysis.model.bodies[b].present && !analysis.model.bodies[b].fixed && !touched[b])
-      warnings.push_back(fmt::format("{} lies face on face with no other; corners on faces carry nothing here",
-                                     block_name(analysis.model, static_cast<int>(b))));
+      warnings.push_back(fmt::format(
+          "no face of {} is in contact with a face of another block; a corner on a face transfers no force here",
+          block_name(analysis.model, static_cast<int>(b))));
   return warnings;
 }
 
-// what of the strength beside friction is left out
+// strengths other than friction that are left out
 void warn_of_strengths(const std::vector<JointProperties>& properties, bool cohesion,
                        std::vector<std::string>& warnings) {
   for (const JointProperties& p : properties) {
@@ -61,14 +61,14 @@ void warn_of_strengths(const std::vector<JointProperties>& properties, bool cohe
   }
 }
 
-// The stage whose applied forces are looked at: the first that states any.
+// The stage whose applied forces are analysed: the first that states any.
 const StagePlan* stage_of_forces(const std::vector<StagePlan>& stages) {
   const auto stage = std::ranges::find_if(stages, [](const StagePlan& s) { return !s.change.force.empty(); });
   return stage == stages.end() ? nullptr : &*stage;
 }
 
-// what a stage would change is not looked at, but for the forces of the stage `looked_at`, if any
-void warn_of_changes(const std::vector<StagePlan>& stages, const StagePlan* looked_at,
+// changes by stages are left out, except the forces of the stage `analysed`, if any
+void warn_of_changes(const std::vector<StagePlan>& stages, const StagePlan* analysed,
                      std::vector<std::string>& warnings) {
   for (const StagePlan& stage : stages) {
     const Change& change = stage.change;
@@ -78,21 +78,21 @@ void warn_of_changes(const std::vector<StagePlan>& stages, const StagePlan* look
           "stage '{}' changes blocks, loads, water or friction; limit analysis takes the scene as it is before "
           "its first stage",
           stage.name));
-    if (!change.force.empty() && &stage != looked_at)
+    if (!change.force.empty() && &stage != analysed)
       warnings.push_back(fmt::format("the applied forces of stage '{}' are left out{}", stage.name,
-                                     looked_at ? fmt::format("; those of stage '{}' are looked at", looked_at->name)
-                                               : ": '--load applied' asks for their factor"));
+                                     analysed ? fmt::format("; those of stage '{}' are analysed", analysed->name)
+                                              : ": '--load applied' finds their factor"));
   }
-  for (const ForcePlan& plan : looked_at ? looked_at->change.force : std::vector<ForcePlan>())
+  for (const ForcePlan& plan : analysed ? analysed->change.force : std::vector<ForcePlan>())
     if (!plan.factor.times.empty() || plan.factor.frequency > 0)
-      warnings.push_back(fmt::format("force '{}' has a factor of time; it counts at a factor of 1", plan.name));
+      warnings.push_back(fmt::format("force '{}' has a factor of time, which is taken as 1", plan.name));
 }
 
 Value bracketed(double low, double high, const std::string& unit) {
   return {0.5 * (low + high), unit, 0.5 * (high - low), "bisection over linear programs"};
 }
 
-// what both questions about strength have in common; `option` names the properties on the command line
+// the common part of both searches of strength; `option` names the properties on the command line
 template <class Find>
 CriticalStrength seek_strength(const LimitRequest& request, const Find& find, const char* option,
                                LimitAnalysis& analysis) {
@@ -123,19 +123,20 @@ void seek_factor_of_safety(const LimitRequest& request, LimitAnalysis& analysis)
     analysis.values.emplace_back("force_missing_beyond", Value{found.missing, "weight of a block", {}, ""});
   } else if (found.status == LimitStatus::found) {
     analysis.message = fmt::format(
-        "the blocks stand with 1/{:.1g} of the strength of these joints: no factor up to it is critical", found.stands);
+        "the blocks are stable with 1/{:.1g} of the strength of these joints: no factor up to it is critical",
+        found.stands);
   }
   if (found.status == LimitStatus::not_attained)
-    analysis.message = fmt::format("held at any strength above 0{}", without_bound);
+    analysis.message = fmt::format("stable at any strength above 0{}", without_bound);
   if (found.status == LimitStatus::carries_any)
-    analysis.message = "the blocks stand without any strength of these joints: no factor is critical";
+    analysis.message = "the blocks are stable without any strength of these joints: no factor is critical";
   if (found.status == LimitStatus::carries_nothing) {
     analysis.values.emplace_back("factor_not_enough",
                                  Value{found.collapses, "1", {}, "fails at the smallest factor tried"});
     analysis.values.emplace_back("force_missing", Value{found.missing, "weight of a block", {}, "at that factor"});
     analysis.message =
         "not even a thousand times the strength is enough: the mechanism overturns blocks or leaves them without "
-        "support; look at the figure, fix what should hold, or restrain the rotation that should not count";
+        "support; see the figure; fix blocks that should support, or restrain rotations that should not count";
   }
 }
 
@@ -148,49 +149,49 @@ void seek_friction(const LimitRequest& request, LimitAnalysis& analysis) {
     analysis.values.emplace_back("force_missing_below", Value{found.missing, "weight of a block", {}, ""});
   }
   if (found.status == LimitStatus::not_attained)
-    analysis.message = fmt::format("held at any friction above 0{}", without_bound);
+    analysis.message = fmt::format("stable at any friction above 0{}", without_bound);
   if (found.status == LimitStatus::carries_any) {
-    analysis.message = "the blocks stand without friction in these joints: no angle is critical";
+    analysis.message = "the blocks are stable without friction in these joints: no angle is critical";
     analysis.values.emplace_back("critical_friction",
-                                 Value{to_degrees(found.stands), "deg", {}, "stands at this angle"});
+                                 Value{to_degrees(found.stands), "deg", {}, "stable at this angle"});
   }
   if (found.status == LimitStatus::carries_nothing) {
     analysis.values.emplace_back("friction_not_enough",
                                  Value{to_degrees(found.collapses), "deg", {}, "fails at the largest angle tried"});
     analysis.values.emplace_back("force_missing", Value{found.missing, "weight of a block", {}, "at that angle"});
     analysis.message =
-        "no friction up to 89 degrees is enough: the mechanism overturns blocks or leaves them without support; look "
-        "at the figure, fix what should hold, or restrain the rotation that should not count";
+        "no friction up to 89 degrees is enough: the mechanism overturns blocks or leaves them without support; see "
+        "the figure; fix blocks that should support, or restrain rotations that should not count";
   }
 }
 
-// the load whose factor is sought, beside gravity or instead of it
+// the load whose factor is sought, in addition to gravity or instead of it
 struct LiveLoad {
-  std::string sought, if_any;  // if_any: what it means, or what to ask for, where any factor is carried
+  std::string sought, if_any;  // if_any: the reason, or the repair, if any factor is carried
   Loads loads;                 // none: gravity itself is sought
   bool beside_gravity = true;
 };
 
 LiveLoad pushed(const Model<2>& model, double direction, const char* side) {
   return {fmt::format("horizontal acceleration to the {} at collapse, as a fraction of gravity", side),
-          "it presses the blocks against what is fixed, or wedges them there",
+          "it presses the blocks against fixed ones, or wedges them there",
           loads_of_acceleration(model, {direction * model.gravity.norm(), 0})};
 }
 
 LiveLoad applied(const Model<2>& model, const StagePlan& stage) {
   Change forces;
   forces.force = stage.change.force;
-  return {fmt::format("multiple of the applied forces of stage '{}' at collapse, beside gravity", stage.name),
-          "they press the blocks against what is fixed, or wedge them there",
+  return {fmt::format("multiple of the applied forces of stage '{}' at collapse, in addition to gravity", stage.name),
+          "they press the blocks against fixed ones, or wedge them there",
           loads_of_applied_forces(apply(model, forces))};
 }
 
-LiveLoad live_load(LimitLoad load, const Model<2>& model, const StagePlan* looked_at) {
+LiveLoad live_load(LimitLoad load, const Model<2>& model, const StagePlan* analysed) {
   if (load == LimitLoad::left) return pushed(model, -1, "left");
   if (load == LimitLoad::right) return pushed(model, 1, "right");
-  if (load == LimitLoad::applied) return applied(model, *looked_at);
+  if (load == LimitLoad::applied) return applied(model, *analysed);
   return {"multiple of gravity at collapse",
-          "without cohesion any multiple of gravity is as good as another: ask for the critical friction, or --load "
+          "without cohesion a multiple of gravity changes nothing: seek the critical friction, or state --load "
           "left, right or applied",
           {},
           false};
@@ -217,26 +218,26 @@ void seek_factor(const LiveLoad& live, LimitAnalysis& analysis) {
   if (found.status == LimitStatus::found)
     analysis.values.emplace_back("collapse_factor", Value{found.factor, "1", {}, "linear program"});
   if (found.status == LimitStatus::carries_any)
-    analysis.message =
-        "carried up to a million times the blocks' weight: this load brings nothing to collapse; " + live.if_any;
+    analysis.message = "carried up to a million times the blocks' weight: this load causes no collapse; " + live.if_any;
   if (found.status == LimitStatus::carries_nothing)
     analysis.message =
-        "gravity alone is not carried, so there is no further load to look for; leave out --load to learn which "
-        "friction carries it";
+        "the blocks collapse under gravity alone, so no further load can be sought; leave out --load to find the "
+        "friction that they need";
 }
 
-void refuse_empty(const LimitAnalysis& analysis, const StagePlan* looked_at) {
+void refuse_empty(const LimitAnalysis& analysis, const StagePlan* analysed) {
   if (analysis.status == LimitStatus::nothing_free)
     throw BadInput("no block is free to move, so nothing can collapse; choose fewer blocks to fix or restrain");
   if (analysis.status != LimitStatus::no_load) return;
-  if (looked_at)
+  if (analysed)
     throw BadInput(
-        fmt::format("--load applied: the forces of stage '{}' are zero, cancel, or act on nothing that is free to "
+        fmt::format("--load applied: the forces of stage '{}' are zero, cancel, or act on no block that is free to "
                     "follow them; state forces on free blocks",
-                    looked_at->name));
+                    analysed->name));
   if (analysis.model.gravity.isZero(0))
     throw BadInput("gravity = 0: limit analysis needs a load; write for example gravity = [0, -9.81]");
-  throw BadInput("the load acts on nothing that is free to follow it; choose another --load, or restrain fewer blocks");
+  throw BadInput(
+      "the load acts on no block that is free to follow it; choose another --load, or restrain fewer blocks");
 }
 
 }  // namespace
@@ -245,19 +246,19 @@ LimitAnalysis analyse_limit(const LoadedScene& scene, const LimitRequest& reques
   const auto* prepared = std::get_if<Prepared<2>>(&scene.prepared);
   if (!prepared)
     throw BadInput(
-        "dimension = 3: limit analysis knows scenes in the plane only; state a section with dimension = 2, or use "
+        "dimension = 3: limit analysis needs a scene in the plane; state a section with dimension = 2, or use "
         "'voussoir run' with a stage of kind = \"reduce\"");
   if (prepared->model.particles)
     throw BadInput(
-        "the scene has potential particles: limit analysis knows blocks of half-spaces alone; leave out shape = "
+        "the scene has potential particles: limit analysis has blocks of half-spaces only; leave out shape = "
         "\"potential\", or use 'voussoir run' with a stage of kind = \"reduce\"");
   if (!prepared->model.bolts.empty())
     throw BadInput(
-        "the scene has bolts: limit analysis knows blocks and joints alone; remove [[bolts]] and install for the "
+        "the scene has bolts: limit analysis has blocks and joints only; remove [[bolts]] and install for the "
         "unsupported slope, or use 'voussoir run' with a stage of kind = \"reduce\"");
   if (!prepared->model.linings.empty())
     throw BadInput(
-        "the scene has linings: limit analysis knows blocks and joints alone; remove [[linings]] and install for the "
+        "the scene has linings: limit analysis has blocks and joints only; remove [[linings]] and install for the "
         "unsupported opening, or use 'voussoir run' with a stage of kind = \"reduce\"");
   LimitAnalysis analysis;
   analysis.caveats = {associated_flow_caveat};
@@ -268,20 +269,20 @@ LimitAnalysis analyse_limit(const LoadedScene& scene, const LimitRequest& reques
   if (!analysis.model.waters.empty()) analysis.water = water_loads_at_reference<2>(analysis.model);
   analysis.warnings = unsupported(analysis);
   warn_of_strengths(analysis.model.properties, request.cohesion, analysis.warnings);
-  const StagePlan* looked_at = request.load == LimitLoad::applied ? stage_of_forces(prepared->stages) : nullptr;
-  if (request.load == LimitLoad::applied && !looked_at)
+  const StagePlan* analysed = request.load == LimitLoad::applied ? stage_of_forces(prepared->stages) : nullptr;
+  if (request.load == LimitLoad::applied && !analysed)
     throw BadInput(
-        "--load applied: no stage applies a force; add [[stage.force]] with name, bodies and force, or ask for --load "
+        "--load applied: no stage applies a force; add [[stage.force]] with name, bodies and force, or state --load "
         "gravity, left or right");
-  warn_of_changes(prepared->stages, looked_at, analysis.warnings);
+  warn_of_changes(prepared->stages, analysed, analysis.warnings);
 
   if (request.load)
-    seek_factor(live_load(*request.load, analysis.model, looked_at), analysis);
+    seek_factor(live_load(*request.load, analysis.model, analysed), analysis);
   else
     request.factor ? seek_factor_of_safety(request, analysis) : seek_friction(request, analysis);
-  refuse_empty(analysis, looked_at);
+  refuse_empty(analysis, analysed);
   if (analysis.status == LimitStatus::solver_failed)
-    analysis.message = "GLPK found no answer to a linear program; blocks of very different size are the usual cause";
+    analysis.message = "GLPK did not solve a linear program; blocks of very different size are the usual cause";
   analysis.answered =
       analysis.status == LimitStatus::found || (!request.load && analysis.status == LimitStatus::carries_any);
   analysis.mechanism = describe_mechanism(analysis.model, analysis.state.velocities);

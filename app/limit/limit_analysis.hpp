@@ -1,4 +1,4 @@
-// Limit analysis of a scene: from the loaded scene to an answer in words and numbers, without files. Cases call it.
+// Limit analysis of a scene: from the loaded scene to values and messages, without files. Cases call it.
 #pragma once
 
 #include <optional>
@@ -28,9 +28,9 @@ struct LimitAnalysis {
   std::vector<Interface> interfaces;
   std::string sought;  // "critical friction angle of all joints", "factor of safety of all joints", …
   LimitStatus status = LimitStatus::found;
-  bool answered = false;             // a value was found, that no friction is needed included
-  std::string message;               // why none was, and what helps, or what the value means; else empty
-  std::vector<std::string> caveats;  // what to keep in mind about any result, and about this one
+  bool answered = false;  // a value was found, that no friction is needed included
+  std::string message;    // the reason and the repair if no value was found, or the meaning of the value; else empty
+  std::vector<std::string> caveats;  // limitations of any result, and of this one
   std::vector<std::pair<std::string, Value>> values;
   LimitState state;
   Evidence evidence;
@@ -38,7 +38,7 @@ struct LimitAnalysis {
   std::vector<std::string> warnings;
 };
 
-// Throws BadInput where there is nothing to analyse: a scene in space, no free block, no gravity, no applied force, an
+// Throws BadInput if there is nothing to analyse: a scene in space, no free block, no gravity, no applied force, an
 // unknown name.
 LimitAnalysis analyse_limit(const LoadedScene& scene, const LimitRequest& request = {});
 

@@ -54,7 +54,7 @@ fs::path results_folder(const LimitArguments& arguments) {
   return fs::path("results") / (arguments.scene.scene.stem().string() + "_limit");
 }
 
-// one labelled line; the label only where the block of lines begins
+// one labelled line; only the first line of a group has its label
 void line(const char* label, const std::string& text) {
   fmt::print("  {:<12}{}\n", label, text);
 }
@@ -76,10 +76,10 @@ void print_mechanism(const LimitAnalysis& analysis) {
                                   [](const Body<2>& body) { return body.present && !body.fixed; });
   if (mechanism.moving.empty()) return line("mechanism", "none");
   line("mechanism",
-       fmt::format("{} of {} free blocks move, {} of them turn; {:.3g} % of the kinetic energy is rotation",
+       fmt::format("{} of {} free blocks move, {} of them rotate; {:.3g} % of the kinetic energy is rotation",
                    mechanism.moving.size(), free, mechanism.turning, 100 * mechanism.rotation_fraction));
   line("", fmt::format("{:>6} {:>10} {:>10}  {:>9} {:>9} {:>9}  {}", "block", "x m", "y m", "speed", "turning",
-                       "rotation", "turns about m"));
+                       "rotation", "centre m"));
   for (const BlockMotion& motion : mechanism.moving) {
     const Body<2>& body = analysis.model.bodies[motion.body];
     const Vector<2> place = analysis.model.origin + body.reference;
@@ -89,7 +89,8 @@ void print_mechanism(const LimitAnalysis& analysis) {
                          place[1], motion.speed, motion.turning, 100 * motion.rotation_fraction, centre,
                          body.name.empty() ? "" : " " + body.name));
   }
-  line("", "speed of the centroid, turning of the farthest corner about it: of the fastest block their sum is 1");
+  line("",
+       "speed of the centroid, turning: speed of the farthest corner about it; their sum is 1 for the fastest block");
 }
 
 void print_analysis(const LimitAnalysis& analysis, const fs::path& folder) {
@@ -138,22 +139,22 @@ void add_limit(CLI::App& program, Action& action) {
                   limit_command);
   add_scene(command, arguments.scene);
   add_out(command, arguments.out, "folder of the results (default: results/<scene>_limit)");
-  CLI::Option* load =
-      command
-          ->add_option(
-              "--load", arguments.load,
-              "seek the factor of this load at the scene's friction: gravity; or, beside gravity, an acceleration to "
-              "the left or right, or the applied forces of the first stage that states any, factors of time taken as "
-              "1 (default: seek the critical friction under gravity)")
-          ->check(CLI::IsMember({"gravity", "left", "right", "applied"}));
+  CLI::Option* load = command
+                          ->add_option("--load", arguments.load,
+                                       "seek the factor of this load at the scene's friction: gravity; or, in addition "
+                                       "to gravity, an acceleration "
+                                       "to the left or right, or the applied forces of the first stage that states "
+                                       "any, with factors of time taken "
+                                       "as 1 (default: seek the critical friction under gravity)")
+                          ->check(CLI::IsMember({"gravity", "left", "right", "applied"}));
   add_repeated(command, "--friction", arguments.properties,
-               "name of joint_properties whose critical friction is sought, the others keep theirs; may be repeated "
+               "name of joint_properties whose critical friction is sought; the others keep theirs; may be repeated "
                "(default: all)")
       ->check(plain_text())
       ->excludes(load);
   CLI::Option* factor = command
                             ->add_flag("--factor", arguments.factor,
-                                       "seek the factor of safety: what tan φ and cohesion are divided by until the "
+                                       "seek the factor of safety: the factor that divides tan φ and cohesion when the "
                                        "blocks collapse under gravity")
                             ->excludes(load)
                             ->excludes("--friction");
@@ -162,7 +163,7 @@ void add_limit(CLI::App& program, Action& action) {
       ->check(plain_text())
       ->needs(factor);
   command->add_flag("--cohesion", arguments.cohesion,
-                    "count the cohesion that joint_properties state, as of bonds that are whole; tension is left out");
+                    "include the cohesion of joint_properties, as of intact bonds; tension is left out");
   add_overwrite(command, arguments.overwrite);
   command->add_flag("--quiet", arguments.quiet, "no warnings and no summary");
 }

@@ -13,11 +13,11 @@
 namespace voussoir {
 namespace {
 
-// ---- what both the figure and ParaView show ------------------------------------------------------------------------
+// ---- for both the figure and ParaView ------------------------------------------------------------------------------
 
-constexpr double drawn_motion = 0.08;  // of the picture's larger side: how far the fastest block is moved
+constexpr double drawn_motion = 0.08;  // of the picture's larger side: the drawn displacement of the fastest block
 constexpr double drawn_force = 0.12;   // of it: the length of the largest force
-constexpr double drawn_margin = 0.08;  // of it: what is seen around the free blocks
+constexpr double drawn_margin = 0.08;  // of it: the margin around the free blocks
 
 struct Frame {
   Vector<2> low, high;  // m, model coordinates
@@ -76,7 +76,7 @@ class Picture {
                        caption_height + (frame_.high[1] - p[1]) * scale_);
   }
   void polygon(const Polytope<2>& part, const Vector<2>& place, const Matrix<2>& turn, const char* style) {
-    // counter-clockwise about the part's own middle, which every corner sees in turn
+    // counter-clockwise about the part's middle
     std::vector<Vector<2>> corners(part.vertices);
     std::sort(corners.begin(), corners.end(), [&](const Vector<2>& a, const Vector<2>& b) {
       const Vector<2> p = a - part.centre, q = b - part.centre;
@@ -124,7 +124,7 @@ void draw_forces(const LimitAnalysis& analysis, const Frame& frame, Picture& pic
 
 void draw_mechanism(const LimitAnalysis& analysis, const Frame& frame, Picture& picture) {
   const double far = drawn_motion * frame.extent();
-  for (const bool moving : {false, true})  // what moves is drawn over what rests
+  for (const bool moving : {false, true})  // moving blocks are drawn over the others
     for (std::size_t b = 0; b < analysis.model.bodies.size(); ++b) {
       const Body<2>& body = analysis.model.bodies[b];
       if (!body.present || moves(analysis, static_cast<int>(b)) != moving) continue;
@@ -198,7 +198,7 @@ void write_limit_files(const LimitAnalysis& analysis, const std::filesystem::pat
   write_file(folder / "blocks.vtp", vtp(block_faces<2>(analysis.model, moved_along(analysis, 0), 0)));
   write_file(folder / "mechanism.vtp", vtp(block_faces<2>(analysis.model, moved_along(analysis, far), 0)));
   write_file(folder / "forces.vtp", vtp(force_points(analysis)));
-  write_results(folder, limit_json(analysis));  // last: where it is, the rest is complete
+  write_results(folder, limit_json(analysis));  // last: if it exists, all else is complete
 }
 
 }  // namespace voussoir

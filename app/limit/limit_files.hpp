@@ -1,4 +1,4 @@
-// What `voussoir limit` leaves behind: results.json, a figure, and files for ParaView.
+// The files of `voussoir limit`: results.json, a figure, and files for ParaView.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 namespace voussoir {
 
-// the answer with its evidence, the mechanism by block and the forces by interface, as JSON
+// the result with its proof, the mechanism by block and the forces by interface, as JSON
 std::string limit_json(const LimitAnalysis& analysis);
 
 // Two pictures side by side as SVG: the forces of the limit state at the ends of the interfaces, and the mechanism. The

@@ -1,4 +1,4 @@
-// `voussoir limit`: answers with their proofs and drawings, factors of safety and of loads.
+// `voussoir limit`: results with their proofs and drawings, factors of safety and of loads.
 #include <cmath>
 #include <numbers>
 
@@ -9,7 +9,7 @@ namespace {
 
 using namespace program;
 
-TEST_F(Program, LimitAnswersProvesAndDraws) {
+TEST_F(Program, LimitFindsProvesAndDraws) {
   const std::string slump = "'" + (fs::path(VOUSSOIR_SOURCE_DIR) / "cases/slump/scene.toml").string() + "' ";
   if (!is_built_in("glpk")) return expect_one_line(run("limit " + slump), 2, "-DVOUSSOIR_WITH_GLPK=ON");
   const Ended ended = run("limit " + slump + "--out out");
@@ -24,19 +24,19 @@ TEST_F(Program, LimitAnswersProvesAndDraws) {
   EXPECT_EQ(json["interfaces"].size(), 42u);
   expect_one_line(run("limit " + slump + "--out out"), 2, "--overwrite");
 
-  // a load's factor, and questions that have no answer
+  // a load's factor, and searches without a result
   const std::string weaker = slump + "--set joint_properties.rock.friction_deg=20 --overwrite --out out ";
   EXPECT_EQ(run("limit " + weaker + "--load left").code, 0);
   EXPECT_GT(results("out")["values"]["collapse_factor"]["value"], 0);
   const Ended any = run("limit " + squares_ + "--out any");
   EXPECT_EQ(any.code, 0);
-  EXPECT_NE(any.out.find("stand without friction"), std::string::npos) << any.out;
+  EXPECT_NE(any.out.find("are stable without friction"), std::string::npos) << any.out;
   EXPECT_EQ(results("any")["status"], "done");
   EXPECT_EQ(results("any")["values"]["critical_friction"]["value"], 0);
   const std::string changed = "--overwrite --out any --set stage.settle.friction_deg=10";
   expect_one_line(run("limit " + squares_ + changed), 0, "before its first stage");
 
-  // a block that leans out over its base topples however rough it is: other words, another value, another code
+  // a block that leans out over its base topples at any friction: another message, another value, another exit code
   write("leaning.toml",
         "dimension = 2\ngravity = [0, -10]\ndensity = 2000\n"
         "blocks = [{ name = \"base\", box = { min = [0, -1], max = [1, 0] }, fixed = true },\n"
@@ -54,7 +54,7 @@ TEST_F(Program, LimitAnswersProvesAndDraws) {
   EXPECT_FALSE(fs::exists(folder_ / "bad"));
 }
 
-// with friction alone the factor of safety is the ratio of the tangents; cohesion adds to it where it is asked for
+// with friction alone the factor of safety is the ratio of the tangents; cohesion adds to it if requested
 TEST_F(Program, LimitFindsTheFactorOfSafety) {
   if (!is_built_in("glpk")) GTEST_SKIP();
   const std::string slump = "'" + (fs::path(VOUSSOIR_SOURCE_DIR) / "cases/slump/scene.toml").string() +
@@ -70,7 +70,7 @@ TEST_F(Program, LimitFindsTheFactorOfSafety) {
   const double degree = std::numbers::pi / 180, friction = factor("");
   EXPECT_NEAR(friction, std::tan(30 * degree) / std::tan(15.335 * degree), 1e-3);
   EXPECT_EQ(factor("--joint rock"), friction);
-  EXPECT_EQ(factor("--set joint_properties.rock.cohesion=1e4"), friction) << "left out unless asked for";
+  EXPECT_EQ(factor("--set joint_properties.rock.cohesion=1e4"), friction) << "left out unless requested";
   EXPECT_GT(factor("--cohesion --set joint_properties.rock.cohesion=1e4"), friction * 1.01);
   expect_one_line(run("limit " + slump + "--factor --joint roc"), 2, "--joint roc: no joint_properties of this name");
   expect_one_line(run("limit " + slump + "--factor --load left"), 2, "--load");
@@ -78,7 +78,7 @@ TEST_F(Program, LimitFindsTheFactorOfSafety) {
   expect_one_line(run("limit " + slump + "--joint rock"), 2, "--factor");
 }
 
-// under water a block has its buoyant weight: it leaves friction's part of the factor, and raises that of cohesion
+// under water a block has its buoyant weight: this leaves friction's part of the factor and raises that of cohesion
 TEST_F(Program, LimitCountsWater) {
   if (!is_built_in("glpk")) GTEST_SKIP();
   write("plane.toml", R"(
@@ -121,13 +121,13 @@ TEST_F(Program, LimitFindsTheFactorOfAppliedForces) {
   EXPECT_NE(found.out.find("multiple of the applied forces of stage 'push'"), std::string::npos) << found.out;
   EXPECT_NEAR(results("found")["values"]["collapse_factor"]["value"].get<double>(), 75e3 / 4 / 1e4, 1e-9);
 
-  // what is left out, and what counts otherwise than in a run, is said
+  // forces that are left out, or treated otherwise than in a run, are reported
   expect_one_line(run("limit column.toml --load right --out right"), 0,
                   "forces of stage 'push' are left out: '--load applied'");
   EXPECT_NEAR(results("right")["values"]["collapse_factor"]["value"].get<double>(), 1.0 / 3, 1e-9);
   write("later.toml", column + push + "times_s = [0, 1]\nfactors = [0, 2]\n");
   expect_one_line(run("limit later.toml --load applied --out later"), 0,
-                  "'rope' has a factor of time; it counts at a factor of 1");
+                  "'rope' has a factor of time, which is taken as 1");
   EXPECT_NEAR(results("later")["values"]["collapse_factor"]["value"].get<double>(), 75e3 / 4 / 1e4, 1e-9);
   write("two.toml", column + push +
                         "[[stage]]\nname = \"more\"\nkind = \"settle\"\n[[stage.force]]\nname = \"rope\"\n"

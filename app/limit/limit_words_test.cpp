@@ -1,4 +1,4 @@
-// What 'voussoir limit' says of blocks between walls: sentences where no number is a result.
+// Messages of 'voussoir limit' about blocks between walls, if no number is a result.
 #include "app/testing/program.hpp"
 
 namespace voussoir {
@@ -8,7 +8,7 @@ using namespace program;
 
 class LimitWords : public Program {
  protected:
-  // a key of 1 m between two fixed walls that lean inwards by so many metres as they rise
+  // a key of 1 m between two fixed walls that lean inwards by this many metres over their height
   void write_slot(double inwards) const {
     write(
         "slot.toml",
@@ -26,7 +26,8 @@ class LimitWords : public Program {
   bool says(const Ended& ended, const std::string& words) const { return ended.out.find(words) != std::string::npos; }
 };
 
-constexpr const char* not_asked_for = "may rest on normal forces between walls that the loads do not ask for";
+constexpr const char* not_asked_for =
+    "may depend on self-stress, normal forces between walls that the loads do not cause";
 
 TEST_F(LimitWords, OfParallelWallsAreNoAngleAndNoFactor) {
   if (!is_built_in("glpk")) GTEST_SKIP();
@@ -34,9 +35,8 @@ TEST_F(LimitWords, OfParallelWallsAreNoAngleAndNoFactor) {
   for (const std::string option : {"", "--factor"}) {
     const Ended ended = limit(option);
     EXPECT_EQ(ended.code, 1) << ended.out << ended.err;
-    EXPECT_TRUE(says(ended, "above 0, by normal forces without bound, of which nothing says that they are there"))
-        << ended.out;
-    EXPECT_TRUE(says(ended, option.empty() ? "held at any friction" : "held at any strength")) << ended.out;
+    EXPECT_TRUE(says(ended, "above 0, by unbounded normal forces, which need not exist")) << ended.out;
+    EXPECT_TRUE(says(ended, option.empty() ? "stable at any friction" : "stable at any strength")) << ended.out;
     EXPECT_FALSE(says(ended, "inf")) << ended.out;
     EXPECT_EQ(results("out")["status"], "incomplete");
     EXPECT_TRUE(results("out")["values"].empty());
@@ -53,13 +53,13 @@ TEST_F(LimitWords, OfASlotThatOpensDownwardsAreACaveat) {
   EXPECT_TRUE(says(ended, not_asked_for)) << ended.out;
   EXPECT_NE(results("out")["caveat"].get<std::string>().find(not_asked_for), std::string::npos);
   EXPECT_TRUE(says(limit(), not_asked_for));
-  EXPECT_TRUE(says(limit("--load left"), "result")) << "whatever it is";
-  write_slot(-0.2);  // the walls hold the key without friction
+  EXPECT_TRUE(says(limit("--load left"), "result")) << "with any value";
+  write_slot(-0.2);  // the walls support the key without friction
   EXPECT_FALSE(says(limit(), not_asked_for));
   EXPECT_TRUE(says(limit(), "associated flow"));
 }
 
-// Where the strength that is needed is less than the search resolves there is no number either.
+// If the strength that is needed is less than the search resolves, there is no number either.
 TEST_F(LimitWords, OfNextToNoStrengthAreNoInfinity) {
   if (!is_built_in("glpk")) GTEST_SKIP();
   write("plane.toml",

@@ -14,11 +14,11 @@
 namespace voussoir {
 namespace {
 
-// What is wider than this part of the target is made finer, to this part: three things so large, and the bracket, stay
-// within it.
+// A contribution above this fraction of the target is refined to this fraction: three such contributions and the
+// bracket stay within the target.
 constexpr double share = 1.0 / 3;
 
-constexpr double most_at_once = 100;  // times finer in one round; an order that does not hold would ask for more
+constexpr double most_at_once = 100;  // times finer in one round; a wrong order would ask for more
 
 // the bracket's part of a bar, those of the variations' searches included
 double bracket_of(const Value& value) {
@@ -36,7 +36,7 @@ std::vector<const Value*> searched(const LoadedScene& scene, const Results& resu
   return values;
 }
 
-// what an answer costs with this so many times finer, over what it costs now
+// the cost of a result with this setting refined by a factor, over the present cost
 double cost_of(const std::string& name, double finer) {
   if (name == "normal stiffness") return std::sqrt(finer);
   if (name == "time step") return finer;
@@ -47,7 +47,7 @@ double cost_of(const std::string& name, double finer) {
 
 std::string bar_text(const std::string& name, const Value& value, const AccuracyTarget& target) {
   const bool known = value.covers == "budget";
-  return fmt::format("{} is known to ± {:.2g}{}{}, {:.2g} was asked", name,
+  return fmt::format("{} is known to ± {:.2g}{}{}, requested {:.2g}", name,
                      known ? *value.error_bar : bracket_of(value), value.unit == "1" ? "" : " " + value.unit,
                      known ? "" : " by brackets alone", target.allowed(value.value));
 }
@@ -65,7 +65,7 @@ bool brackets_too_wide(const LoadedScene& scene, const AccuracyTarget& target, c
 
 std::optional<Refinement> refinement(const LoadedScene& scene, const AccuracyTarget& target, int rounds,
                                      Results& results) {
-  // how many times too wide each thing is, at worst over the values
+  // factor by which each contribution exceeds its share, the largest over the values
   std::map<std::string, double> wide;
   std::string open;
   for (const Search& search : searches_of(scene)) {
@@ -87,7 +87,7 @@ std::optional<Refinement> refinement(const LoadedScene& scene, const AccuracyTar
   double widest = 0;
   for (const auto& [name, times] : wide)
     widest = std::max(widest, times);
-  const double from = std::min(1.0, widest / 1.5);  // many small things: the largest of them
+  const double from = std::min(1.0, widest / 1.5);  // if all contributions are small: the largest of them
 
   Refinement next;
   std::vector<std::string> finer, left;
@@ -104,7 +104,7 @@ std::optional<Refinement> refinement(const LoadedScene& scene, const AccuracyTar
            {set(search.path, search.angle() ? "tolerance_deg" : "tolerance_factor", tolerance / times)});
   }
   const Variations all = variations_of(scene);
-  std::map<std::string, double> times;  // by how much each variation is to be made finer
+  std::map<std::string, double> times;  // the factor by which each variation is refined
   std::vector<Variation> variations = all.alone;
   variations.insert(variations.end(), all.together.begin(), all.together.end());
   for (const Variation& v : variations) {

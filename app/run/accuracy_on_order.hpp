@@ -1,5 +1,5 @@
-// `[accuracy] error = "1 %"`: an answer whose error bar is wider is found again with what matters most in its budget
-// finer, until its bar is within what was asked, or nothing is left that could be refined.
+// `[accuracy] error = "1 %"`: a result whose error bar is wider is found again with the largest contributions of its
+// budget refined, until its bar is within the request, or nothing is left to refine.
 #pragma once
 
 #include <optional>
@@ -11,20 +11,20 @@
 
 namespace voussoir {
 
-// an answer is found so often at most
+// greatest number of rounds
 inline constexpr int most_rounds = 5;
 
 std::optional<AccuracyTarget> wanted_accuracy(const LoadedScene& scene);
 
-// Whether a bracket alone is so wide that a budget would be wasted on it.
+// Whether a search bracket by itself exceeds the target, so that a budget would be wasted.
 bool brackets_too_wide(const LoadedScene& scene, const AccuracyTarget& target, const Results& results);
 
-// What to make finer than in `scene`, of which `results` are the answer, and what a user reads of it; nothing where
-// every bar is within the target, or nothing can be refined: then the results say so.
+// The settings to refine in `scene`, whose results are `results`, and a summary for the user; nothing if every bar is
+// within the target, or if nothing can be refined: then the results report it.
 struct Refinement {
   std::vector<std::string> overrides;
   std::string summary;  // "normal stiffness 8 times, tolerance a third"
-  double cost = 1;      // of an answer, over the last one's: an estimate
+  double cost = 1;      // of a result, over the last one's: an estimate
 };
 std::optional<Refinement> refinement(const LoadedScene& scene, const AccuracyTarget& target, int rounds,
                                      Results& results);

@@ -1,4 +1,4 @@
-// Runs that begin at the end of another one: the bits of the whole run, and a reason where that cannot be.
+// Runs that begin at the end of another one: the bits of the complete run, or a refusal with its reason.
 #include <gtest/gtest.h>
 #include <sys/file.h>
 
@@ -12,10 +12,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// tunnel.toml: the stages stress, dig, support and slip; bolts `early` are put in before stress, `roof` after dig
+// tunnel.toml: the stages stress, dig, support and slip; bolts `early` are installed before stress, `roof` after dig
 class Begin : public program::Program {
  protected:
-  // all that a run found but its wall clock; what it began with and what it kept does not count
+  // all results except wall-clock time; the begin of the run and the states it kept do not count
   std::string found(const std::string& where) const {
     nlohmann::json json = results(where);
     json.erase("timing");
@@ -44,13 +44,13 @@ TEST_F(Begin, GivesTheBitsOfTheWholeRunFromTheEndOfEveryStage) {
     run_well("run " + tunnel_ + "--out from_" + stage + " --begin to_" + stage + " --threads 2");
     EXPECT_EQ(found("from_" + stage), found("whole")) << stage;
   }
-  // and a generation that itself began at the end of one
+  // and an initial state that itself began at the end of a run
   run_well("run " + tunnel_ + "--out again --begin to_stress --until support");
   run_well("run " + tunnel_ + "--out last --begin again");
   EXPECT_EQ(found("last"), found("whole"));
 }
 
-TEST_F(Begin, ManySupportsShareOneGeneration) {
+TEST_F(Begin, ManySupportVariantsStartFromOneInitialState) {
   run_well("run " + tunnel_ + "--out generation --until dig");
   const std::vector<std::string> supports{"--set bolts.roof.stiffness=3e7 ",
                                           "--set stage.slip.friction.rock.friction_deg=33 ",
@@ -97,11 +97,11 @@ TEST_F(Begin, RowsOfMonitorsThatTheOtherDidNotFollowAreEmptyUntilThere) {
   EXPECT_TRUE(begun[1].ends_with(",,,")) << begun[1];
   EXPECT_EQ(begun.back(), whole.back());
 
-  // where the blocks stood at the end of an earlier stage it does not tell
+  // the positions of the blocks at the end of an earlier stage are not stored
   write("stress.toml", scene_without("[[monitors]]\nname = \"crown\"\nquantities = [\"convergence\"]\nexcavation = "
                                      "\"tunnel\"\nangles_deg = [90, 0, 180]\nsince = \"stress\"\n"));
   run_well("run stress.toml --out no_stress --until dig");
-  expect_one_line(run("run " + tunnel_ + "--out bad --begin no_stress"), 2, "'stress', from which a monitor counts");
+  expect_one_line(run("run " + tunnel_ + "--out bad --begin no_stress"), 2, "'stress', from which a monitor measures");
 }
 
 TEST_F(Begin, AKilledRunContinuesWithoutTheFolderItBeganWith) {
@@ -120,7 +120,7 @@ TEST_F(Begin, AKilledRunContinuesWithoutTheFolderItBeganWith) {
   EXPECT_EQ(found("begun"), found("whole"));
 }
 
-TEST_F(Begin, AGenerationThatWasKilledKeepsItsEndToo) {
+TEST_F(Begin, AnInitialRunThatWasKilledKeepsItsEndToo) {
   run_well("run " + tunnel_ + "--out whole");
   const Launch launch{.arguments = {"run", (program::scenes / "tunnel.toml").string(), "--out",
                                     (folder_ / "generation").string(), "--until", "dig", "--checkpoint-steps", "20"}};
@@ -132,6 +132,38 @@ TEST_F(Begin, AGenerationThatWasKilledKeepsItsEndToo) {
   run_well("resume generation");
   run_well("run " + tunnel_ + "--out begun --begin generation");
   EXPECT_EQ(found("begun"), found("whole"));
+}
+
+// with the names that keys had before they were renamed
+std::string with_earlier_names(std::string text) {
+  for (const auto& [present, earlier] : {std::pair<std::string, std::string>{"excavation_forces", "let_off"},
+                                         std::pair<std::string, std::string>{"remaining", "share"}})
+    for (auto at = text.find(present); at != std::string::npos; at = text.find(present))
+      text.replace(at, present.size(), earlier);
+  return text;
+}
+
+// A folder of an earlier version holds a scene with the names of its time.
+TEST_F(Begin, FoldersOfScenesWithEarlierNamesOfKeysContinue) {
+  run_well("run " + tunnel_ + "--out whole");
+  write("earlier.toml", with_earlier_names(read(program::scenes / "tunnel.toml")));
+  const auto as_it_was_kept = [&] {
+    const std::string text = read(folder_ / "generation/scene.toml");
+    ASSERT_NE(text.find("excavation_forces"), std::string::npos);
+    write("generation/scene.toml", with_earlier_names(text));
+  };
+  const Launch launch{.arguments = {"run", (folder_ / "earlier.toml").string(), "--out",
+                                    (folder_ / "generation").string(), "--until", "dig", "--checkpoint-steps", "20"}};
+  Process process(VOUSSOIR_PROGRAM, launch, folder_ / "killed");
+  ASSERT_TRUE(wait_until([&] { return fs::exists(folder_ / "generation/checkpoint"); }));
+  process.send(SIGKILL);
+  ASSERT_EQ(process.wait().signal, SIGKILL) << "it was done before it was killed";
+  as_it_was_kept();
+  run_well("resume generation");
+  for (const std::string& scene : {tunnel_, std::string("earlier.toml ")}) {
+    run_well("run " + scene + "--out begun --begin generation --overwrite");
+    EXPECT_EQ(found("begun"), found("whole")) << scene;
+  }
 }
 
 TEST_F(Begin, AnotherSceneIsRefusedWithWhatDiffers) {
@@ -147,12 +179,12 @@ TEST_F(Begin, AnotherSceneIsRefusedWithWhatDiffers) {
   refused("--set joint_properties.rock.friction_deg=41", "joint_properties.rock.friction_deg = 41: is 40");
   refused("--set stage.stress.gravity_ramp_s=0.2", "stage.stress.gravity_ramp_s = 0.2: is 0.1");
   refused("--set stage.stress.zero_slip=true", "stage.stress.zero_slip = true: is not stated");
-  refused("--set stage.dig.let_off.share=0.4", "stage.dig.let_off.share = 0.4: is 0.5");
+  refused("--set stage.dig.excavation_forces.remaining=0.4", "stage.dig.excavation_forces.remaining = 0.4: is 0.5");
   refused("--set bolts.early.stiffness=2e7", "bolts.early.stiffness = 2e+07: is 1e+07");
   refused("--set equilibrium.unbalanced=1e-5", "equilibrium.unbalanced = 1e-05: is 1e-06");
   refused("--set excavations.tunnel.cylinder.radius=1.1", "excavations.tunnel.cylinder.radius = 1.1: is 1");
 
-  // without a stage that takes it out the tunnel is there from the start
+  // without a stage that excavates it the tunnel is open from the start
   const std::string text = read(program::scenes / "tunnel.toml");
   write("open.toml",
         text.substr(0, text.find("[[bolts]]\nname = \"roof\"")) +
@@ -171,11 +203,11 @@ TEST_F(Begin, AnotherSceneIsRefusedWithWhatDiffers) {
   EXPECT_FALSE(fs::exists(folder_ / "bad"));
 }
 
-TEST_F(Begin, AFolderThatCannotServeIsRefusedWithARepair) {
+TEST_F(Begin, AnUnsuitableFolderIsRefusedWithARepair) {
   const std::string begun = "run " + tunnel_ + "--out bad --begin generation";
   expect_one_line(run(begun), 2, "there is no such folder");
   fs::create_directory(folder_ / "generation");
-  expect_one_line(run(begun), 2, "holds no run");
+  expect_one_line(run(begun), 2, "contains no run");
   expect_one_line(run("run " + tunnel_ + "--out generation --until digg"), 2, "did you mean 'dig'");
   run_well("run " + tunnel_ + "--out generation");
   expect_one_line(run(begun), 2, "has not kept its end");
@@ -201,14 +233,14 @@ TEST_F(Begin, AFolderThatCannotServeIsRefusedWithARepair) {
   std::ofstream(folder_ / "generation/scene.toml", std::ios::app) << "[[stage]]\nname = \"more\"\nkind = \"settle\"\n";
   expect_one_line(run(begun), 2, "is not the scene that was run there");
 
-  // a goal that was not reached is no place to begin
+  // a run cannot begin at a goal that was not reached
   EXPECT_EQ(run("run " + tunnel_ + "--set stage.dig.step_limit=5 --out short --until dig").code, 1);
   expect_one_line(run("run " + tunnel_ + "--set stage.dig.step_limit=5 --out bad --quiet --begin short"), 2,
                   "did not reach its goal");
   EXPECT_FALSE(fs::exists(folder_ / "bad"));
 }
 
-TEST_F(Begin, AStudyMakesTheGenerationOnce) {
+TEST_F(Begin, AStudyMakesTheInitialStateOnce) {
   const std::string sweeps =
       "scene = \"tunnel.toml\"\nquantity = \"crown_convergence_1\"\n"
       "[[sweep]]\nname = \"bolts\"\nkey = \"bolts.roof.stiffness\"\nvalues = [1e6, 1e8]\n"
@@ -229,7 +261,7 @@ TEST_F(Begin, AStudyMakesTheGenerationOnce) {
     return std::distance(fs::directory_iterator(folder_ / where / "runs"), fs::directory_iterator());
   };
   EXPECT_EQ(folders("apart"), 4);
-  EXPECT_EQ(folders("shared"), 4 + 2) << "one generation for each density";
+  EXPECT_EQ(folders("shared"), 4 + 2) << "one initial state for each density";
   const Ended again = run("study shared.toml --out shared");
   EXPECT_NE(again.out.find("4 different runs, 4 of them kept from before"), std::string::npos) << again.out;
 

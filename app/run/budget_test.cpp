@@ -1,5 +1,5 @@
-// Error budgets as users meet them: what they vary, what the bar is made of, what a measured stiffness is, and where
-// there is none.
+// Error budgets as users see them: the variations, the parts of the bar, measured stiffness, and runs without a
+// budget.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -53,15 +53,15 @@ class Budget : public program::Program {
   }
 };
 
-// by itself or with others at once
+// by itself or together with others
 bool is_varied(const nlohmann::json& value, const std::string& name) {
   for (const auto& line : value["budget"])
     if (line["varied"].get<std::string>().find(name) != std::string::npos) return true;
   return false;
 }
 
-// the block slides where friction is as steep as the joint: the closed form
-TEST_F(Budget, CoversTheClosedFormAndSaysWhatItIsMadeOf) {
+// the block slides at the friction angle that equals the dip: the closed form
+TEST_F(Budget, CoversTheClosedFormAndListsItsParts) {
   write("plane.toml", incline + search);
   run_well("run plane.toml --budget --out b");
   const nlohmann::json angle = value("b", "critical_friction");
@@ -72,7 +72,7 @@ TEST_F(Budget, CoversTheClosedFormAndSaysWhatItIsMadeOf) {
   EXPECT_LT(bar, 1);
   for (const char* name : {"normal stiffness", "shear stiffness", "failure displacement", "ramp", "time step"})
     EXPECT_TRUE(is_varied(angle, name)) << name;
-  // the rule: each line with its order, the largest first
+  // the rule: each line by its order, the largest first
   double squares = bracket * bracket, before = 1e300;
   for (const auto& line : angle["budget"]) {
     const double left = line["left"], shift = line["shift"];
@@ -89,7 +89,7 @@ TEST_F(Budget, CoversTheClosedFormAndSaysWhatItIsMadeOf) {
   EXPECT_GE(bar * bar, squares * (1 - 1e-9));
   EXPECT_LE(bar * bar, (squares + 4 * bracket * bracket) * (1 + 1e-9)) << "and the brackets of the others";
   EXPECT_GT(results("b")["budget"]["contact_evaluations"], 0);
-  // asked for in the scene it is the same, and again over the folder too
+  // the same if the scene requests it, and if the folder is used again
   write("asks.toml", incline + search + "[accuracy]\nbudget = true\n");
   run_well("run asks.toml --out c --quiet");
   EXPECT_EQ(value("c", "critical_friction"), angle);
@@ -97,7 +97,7 @@ TEST_F(Budget, CoversTheClosedFormAndSaysWhatItIsMadeOf) {
   EXPECT_EQ(value("b", "critical_friction"), angle);
 }
 
-// the second search has the name of its stage; each is looked at near its own answer
+// the second search has the name of its stage; each is varied near its own result
 TEST_F(Budget, OfTwoSearchesCoversBoth) {
   std::string again = search;
   again.replace(again.find("\"critical\""), 10, "\"again\"");
@@ -111,10 +111,10 @@ TEST_F(Budget, OfTwoSearchesCoversBoth) {
   }
 }
 
-TEST_F(Budget, WithoutOneTheBarIsNamedForWhatItIs) {
+TEST_F(Budget, WithoutOneTheBarIsNamedSearchBracket) {
   write("plane.toml", incline + search);
   const Ended ended = run("run plane.toml --out b");
-  EXPECT_NE(ended.out.find("the bracket alone"), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("(search bracket only; --budget adds the model's errors)"), std::string::npos) << ended.out;
   const nlohmann::json angle = value("b", "critical_friction");
   EXPECT_EQ(angle["covers"], "bracket");
   EXPECT_FALSE(angle.contains("budget"));
@@ -122,8 +122,8 @@ TEST_F(Budget, WithoutOneTheBarIsNamedForWhatItIs) {
   EXPECT_FALSE(program::fs::exists(folder_ / "b/budget"));
 }
 
-// A settlement is the overlap: by a stiffness that was chosen all of it is an error, by a measured one it is the
-// answer.
+// A settlement is the overlap: with an assumed stiffness all of it is an error, with a measured one it is the
+// result.
 TEST_F(Budget, TakesAMeasuredStiffnessForPhysics) {
   run_well("run " + cubes_ + "--budget --out chosen --quiet");
   const nlohmann::json chosen = value("chosen", "top_displacement_z");
@@ -144,8 +144,8 @@ TEST_F(Budget, TakesAMeasuredStiffnessForPhysics) {
   EXPECT_TRUE(told);
 }
 
-// refined until its bar is as asked: by brackets first, which cost nothing to judge, then by what a budget says
-TEST_F(Budget, AnErrorThatIsAskedForIsReached) {
+// refined until its bar is as requested: by brackets first, whose widths are known without cost, then by a budget
+TEST_F(Budget, ARequestedErrorIsReached) {
   write("plane.toml", incline + search);
   run_well("run plane.toml --quiet --out b --set 'accuracy.error=\"0.02 deg\"'");
   const nlohmann::json angle = value("b", "critical_friction");
@@ -158,7 +158,7 @@ TEST_F(Budget, AnErrorThatIsAskedForIsReached) {
   EXPECT_NE(rounds[0]["told"].get<std::string>().find("by brackets alone"), std::string::npos) << rounds;
   EXPECT_EQ(rounds.back()["told"], "as asked");
   EXPECT_FALSE(rounds.back()["settings"].empty());
-  // one that is met at once takes one round, and what a scene leaves out is set
+  // a target that is met takes one round, and settings that the scene leaves out are set
   std::string loose = search;
   loose.erase(loose.find("tolerance_deg"), std::string("tolerance_deg = 0.1\n").size());
   write("loose.toml", incline + loose + "[accuracy]\nerror = \"5 %\"\n");
@@ -169,7 +169,7 @@ TEST_F(Budget, AnErrorThatIsAskedForIsReached) {
   EXPECT_EQ(value("d", "critical_friction")["covers"], "bracket");
 }
 
-TEST_F(Budget, AnErrorThatCannotBeAskedForIsRefused) {
+TEST_F(Budget, AnInvalidErrorRequestIsRefused) {
   write("plane.toml", incline + search);
   for (const char* text : {"", "3", "1 percent", "0 %", "-1 deg", "60 %", "nan %", "50 deg"})
     expect_one_line(run(fmt::format("run plane.toml --out b --set 'accuracy.error=\"{}\"'", text)), 2,
@@ -180,10 +180,10 @@ TEST_F(Budget, AnErrorThatCannotBeAskedForIsRefused) {
   std::string steps = search;
   steps.replace(steps.find("tolerance_deg = 0.1"), 19, "method = \"steps\"\nstep_deg = 1");
   write("steps.toml", incline + steps + asked);
-  expect_one_line(run("run steps.toml --out b"), 2, "which stage.critical has not");
+  expect_one_line(run("run steps.toml --out b"), 2, "which stage.critical does not state");
 }
 
-TEST_F(Budget, WhatItIsAskedForIsChecked) {
+TEST_F(Budget, ItsOptionsAreChecked) {
   write("plane.toml", incline + search + "[accuracy]\nbudget = 3\n");
   expect_one_line(run("run plane.toml --out b"), 2, "accuracy.budget");
   write("bare.toml", incline + search + "[accuracy]\n");

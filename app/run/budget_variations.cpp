@@ -13,7 +13,7 @@
 namespace voussoir {
 namespace {
 
-// a measured stiffness is varied by this, to be told as a sensitivity
+// a measured stiffness is varied by this factor and reported as a sensitivity
 constexpr double sensitivity_change = 1.1;
 
 constexpr int most_face_points = 64;  // of a face, along it
@@ -61,13 +61,13 @@ void add_stiffness(const std::shared_ptr<const Scene>& scene, bool searches, Var
         {"stiffness", "4 times", 4, 1, [scene](double f) { return stiffnesses(scene->properties, f, f); }});
     return;
   }
-  // Overlaps go with 1/kn: softer costs least. What a search is moved by more is the shear across its slide that
-  // springs have locked in, by a power of ks/kn below one, some half; softer in shear costs no shorter steps. Softer
-  // normal springs have some of both.
+  // Overlaps are proportional to 1/kn: softer costs least. A larger effect on a search is the locked-in shear across
+  // its sliding surface, with a power of ks/kn below one, about a half; lower shear stiffness costs no shorter steps.
+  // Softer normal springs have both effects.
   variations.push_back({"normal stiffness", "a quarter", 0.25, 0.75,
                         [scene](double f) { return stiffnesses(scene->properties, f, 1); }});
-  // by the ratio of both, which stiffer normal springs lower as well: they leave the way to the limit of friction as it
-  // is
+  // by the ratio of both, which stiffer normal springs lower as well: they leave the displacement to the limit of
+  // friction unchanged
   all.together.push_back({"shear stiffness", "a ninth", 9, 0.5,
                           [scene](double f) { return stiffnesses(scene->properties, 1, 1 / f); }, "normal stiffness"});
 }
@@ -89,8 +89,8 @@ Variations variations_of(const LoadedScene& loaded, const Prepared<Dim>& prepare
     failures.push_back({search.path, failure_displacement_of(prepared.model, search.plan)});
   }
   add_stiffness(scene, !failures.empty(), all);
-  // It must be long against what joints give and short against what changes the geometry, which move the answer in
-  // opposite ways: of which sort a shift is, and how much of it is left, is not known.
+  // It must be long against the elastic displacement of joints and short against a change of geometry, which shift the
+  // result in opposite directions: the kind of a shift, and the remaining error, are not known.
   if (!failures.empty())
     all.alone.push_back({"failure displacement", "half", 2, 0, [failures](double f) {
                            Overrides overrides;
@@ -135,7 +135,7 @@ double Variation::left_by(double shift) const {
 }
 
 double square_of(const BudgetLine& line) {
-  // of what an extrapolation leaves (Roache's grid convergence index, order known)
+  // on the error left by an extrapolation (Roache's grid convergence index, order known)
   constexpr double margin = 1.25;
   return line.sensitivity ? 0 : margin * margin * line.left * line.left;
 }

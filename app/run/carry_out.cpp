@@ -79,8 +79,8 @@ bool continue_run(const Prepared<Dim>& prepared, const std::string& scene_hash, 
   return simulate(prepared, progress, watcher);
 }
 
-// The budget of an answer, unless its bracket alone is wider than what is asked, and what to make finer for the next
-// one. False: a signal stopped it.
+// The budget of a result, unless its search bracket by itself is wider than requested, and the refinements for the next
+// round. False: a signal stopped it.
 bool judge_accuracy(const LoadedScene& stated, const LoadedScene& scene, RunJob& job, Results& results,
                     std::optional<Refinement>& next) {
   if (!wants_budget(scene) || results.outcome == Outcome::failed) return true;
@@ -105,7 +105,7 @@ bool judge_accuracy(const LoadedScene& stated, const LoadedScene& scene, RunJob&
   return true;
 }
 
-// begins or continues, and writes the results; nothing: a finer answer is to follow
+// begins or continues, and writes the results; nothing: a finer round follows
 template <int Dim>
 std::optional<ExitCode> carry_out_prepared(const LoadedScene& stated, const LoadedScene& scene,
                                            const Prepared<Dim>& prepared, RunJob& job) {
@@ -121,7 +121,7 @@ std::optional<ExitCode> carry_out_prepared(const LoadedScene& stated, const Load
     return ended_by(interruption());
   }
 
-  // results.json comes last: where it is, everything is
+  // results.json comes last: if it exists, everything is complete
   Results& results = progress.results;
   write_tables(job.folder, progress);
   std::optional<Refinement> next;
@@ -130,7 +130,7 @@ std::optional<ExitCode> carry_out_prepared(const LoadedScene& stated, const Load
     return ended_by(interruption());
   }
   if (next) {
-    // a checkpoint of this answer is none of the next
+    // a checkpoint of this round is none of the next
     remove_checkpoints(job.folder);
     write_options(job.folder, job.options);
     return std::nullopt;

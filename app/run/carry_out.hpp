@@ -1,5 +1,5 @@
-// A run in its folder, from its last checkpoint or from its begin to results.json, and again with a finer answer as
-// long as the scene asks for one.
+// A run in its folder, from its last checkpoint or from its begin to results.json, and again with refined settings as
+// long as the scene requests it.
 #pragma once
 
 #include <filesystem>

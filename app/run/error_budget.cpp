@@ -25,16 +25,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A search first looks through so many brackets of the answer's size, the answer's own among them: where nothing moves
+// A search first covers this number of brackets of the result's size, the result's own among them: if nothing shifts,
 // it ends with the same one.
 constexpr int brackets_below = 1, brackets_above = 2;
 
-// of a half bracket: what rounding moves an angle by is no shift
+// of a half bracket: a change within rounding is no shift
 constexpr double rounding = 1e-6;
 
-constexpr const char* from_afar = "_wide";  // of a search that begins as the answer's did
+constexpr const char* from_afar = "_wide";  // of a search over the range of the original one
 
-// overrides that let the searches of a scene look near what the answer found
+// overrides that let the searches of a scene look near the result
 std::vector<std::string> near(const LoadedScene& scene, const Results& results) {
   std::vector<std::string> overrides;
   for (const Search& search : searches_of(scene)) {
@@ -85,7 +85,7 @@ void combine(double other, Value& value) {
   value.covers = "budget";
 }
 
-// a promise of [accuracy] level that a budget does not bear out
+// an accuracy of [accuracy] level that a budget does not confirm
 void judge_level(const LoadedScene& scene, const std::string& name, const Value& value,
                  std::vector<std::string>& warnings) {
   const Node* accuracy = scene.stated->tree->find("accuracy");
@@ -94,8 +94,9 @@ void judge_level(const LoadedScene& scene, const std::string& name, const Value&
   const auto found = std::ranges::find(accuracy_levels, level->text);
   const double promised = accuracy_promises[found - accuracy_levels.begin()];
   if (*value.error_bar > promised * std::abs(value.value))
-    warnings.push_back(fmt::format("accuracy.level = \"{}\" promises {:g} %; the budget leaves {:.2g} % of {} open",
-                                   level->text, 100 * promised, 100 * *value.error_bar / std::abs(value.value), name));
+    warnings.push_back(
+        fmt::format("accuracy.level = \"{}\" promises {:g} %; the budget gives an error of {:.2g} % of {}", level->text,
+                    100 * promised, 100 * *value.error_bar / std::abs(value.value), name));
 }
 
 }  // namespace
@@ -129,21 +130,21 @@ BudgetRuns budget_runs(const LoadedScene& stated, int round, const std::vector<s
 
 namespace {
 
-// the budget's runs, in their folder beside the answer
+// the budget's runs, in a folder within that of the run
 struct BudgetedRuns {
   BudgetRuns of;
   fs::path folder;
   RunsOptions options;
-  std::vector<std::string> closer;    // overrides that let searches look near the answer
-  std::vector<std::string> searched;  // the values that searches found; without any all are looked at
-  std::string path;                   // the run that varies nothing but where its searches begin; may be empty
+  std::vector<std::string> closer;    // overrides that let searches look near the result
+  std::vector<std::string> searched;  // the values that searches found; without any all values are compared
+  std::string path;                   // the run that varies only the begin of its searches; may be empty
   long long evaluations = 0;
 
-  // the run of each variation that says something; nothing: interrupted
+  // the name of each variation's run; nothing: interrupted
   std::optional<std::vector<std::string>> carry_out(const std::vector<Variation>& variations) {
     std::vector<std::string> names;
     std::vector<StudyRun> runs, again;
-    // what a stiffness that was measured moves is far from the answer
+    // the variation of a measured stiffness shifts far from the result
     const std::vector<std::string> from_its_begin;
     for (const Variation& v : variations) {
       names.push_back(folder_of(v, of.name) + (v.sensitivity ? from_afar : ""));
@@ -151,7 +152,7 @@ struct BudgetedRuns {
           run_of(v, folder / "scene.toml", of.settings, v.sensitivity ? from_its_begin : closer, names.back()));
     }
     if (carry_out_runs(runs, options).interrupted) return {};
-    // a search that found nothing near begins where the answer's began
+    // a search that found nothing near the result is repeated over the original range
     for (std::size_t k = 0; k < variations.size(); ++k) {
       evaluations += found(names[k], "").contact_evaluations;
       const auto has = [&](const std::string& name) { return found(names[k], name).result.has_value(); };
@@ -173,16 +174,16 @@ struct BudgetedRuns {
     return fs::exists(at / "results.json") ? found_in(at, plan) : RunFound{.status = "no results"};
   }
 
-  // what monitors say at the end of a search depends on which of its trials was the last
+  // values of monitors at the end of a search depend on which of its trials was the last
   bool is_judged(const std::string& name) const { return searched.empty() || std::ranges::count(searched, name) > 0; }
 
-  // What a run is held against: a search that began near the answer came there by another path.
+  // The value that a run is compared with: a search that began near the result reached it by another path.
   double unvaried(const std::string& run, const std::string& name, const Value& answer) const {
     if (path.empty() || run.ends_with(from_afar)) return answer.value;
     return found(path, name).result->value;
   }
 
-  // whether a run has every value that is judged, and each is what it was
+  // whether a run has every value that is judged, and each is unchanged
   bool moved_nothing(const std::string& run, const Results& results) const {
     return std::ranges::all_of(results.values, [&](const auto& entry) {
       const auto& [name, value] = entry;
@@ -193,14 +194,14 @@ struct BudgetedRuns {
     });
   }
 
-  // Where runs that began near the answer moved, one that varies nothing else tells them what the path did. False:
+  // If runs that began near the result shifted, one that varies nothing else gives the effect of the path. False:
   // interrupted.
   bool try_path(const std::vector<std::string>& names, const Results& results) {
     const auto moved = [&](const std::string& run) {
       return !run.ends_with(from_afar) && !moved_nothing(run, results);
     };
     if (closer.empty() || std::ranges::none_of(names, moved)) return true;
-    const Variation nothing{"search", "begun near the answer", 1, 0, [](double) { return std::vector<std::string>(); }};
+    const Variation nothing{"search", "begun near the result", 1, 0, [](double) { return std::vector<std::string>(); }};
     const std::string run = folder_of(nothing, of.name);
     if (carry_out_runs({run_of(nothing, folder / "scene.toml", of.settings, closer, run)}, options).interrupted)
       return false;
@@ -217,7 +218,7 @@ bool add_budget(const LoadedScene& scene, const BudgetRuns& of, const fs::path& 
                 Results& results) {
   const bool searches = !searches_of(scene).empty();
   if (searches && std::ranges::none_of(results.values, [](const auto& v) { return v.second.error_bar.has_value(); }))
-    return true;  // nothing was found that could have a budget
+    return true;  // no value can have a budget
   const Variations all = variations_of(scene);
   const fs::path runs_folder = folder / "budget";
   fs::create_directories(runs_folder);
@@ -239,7 +240,7 @@ bool add_budget(const LoadedScene& scene, const BudgetRuns& of, const fs::path& 
     names.insert(names.end(), done->begin(), done->end());
     return runs.path.empty() ? runs.try_path(*done, results) : true;
   };
-  // whether the last of them, several at once, moved something; then it is left to what takes them apart
+  // whether the last of them, several together, shifted a value; then they are varied separately
   const auto take_back_moved = [&] {
     if (runs.moved_nothing(names.back(), results)) return false;
     variations.pop_back();
@@ -266,7 +267,7 @@ bool add_budget(const LoadedScene& scene, const BudgetRuns& of, const fs::path& 
       if (!then.result) {
         if (untold.insert(v.name).second)
           results.warnings.push_back(
-              fmt::format("the budget of {} knows nothing of {}, {}: {}", name, v.name, v.change, then.status));
+              fmt::format("the budget of {} leaves out {}, {}: {}", name, v.name, v.change, then.status));
         continue;
       }
       const double shift = then.result->value - runs.unvaried(names[k], name, value);
@@ -275,7 +276,7 @@ bool add_budget(const LoadedScene& scene, const BudgetRuns& of, const fs::path& 
     }
     if (!runs.path.empty()) {
       const double shift = runs.found(runs.path, name).result->value - value.value;
-      value.budget.push_back({"search", "begun near the answer", shift, shift, false});
+      value.budget.push_back({"search", "begun near the result", shift, shift, false});
     }
     if (!value.budget.empty()) combine(other, value);
     judge_level(scene, name, value, results.warnings);

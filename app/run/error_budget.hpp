@@ -1,14 +1,14 @@
-// The error budget of a run, `[accuracy] budget = true`: what the program chose, and the scene's author with it, is
-// varied one thing at a time (budget_variations.hpp), each in a run of its own beside the answer, and every value says
-// by how much it moved.
-// Searches look near the answer's bracket first, which costs a fraction of it; where they move, one that varies nothing
-// else tells what of it the other path did.
+// The error budget of a run, `[accuracy] budget = true`: numerical settings, of the program and of the scene, are
+// varied one at a time (budget_variations.hpp), each in an additional run, and every value lists its shifts.
+//
+// Searches look near the result's bracket first, which costs a fraction of a full search; if they shift, a run that
+// varies nothing else gives the part that is due to the other path.
 //
 //   bar² = bracket² + bracket of the others² + Σ (1.25 left)²
 //
-// (half brackets). `left` is what a shift says is still open: where an order p is known and the thing was refined by a
-// factor f, Richardson's shift f^p / (f^p - 1), with Roache's margin of 1.25 on it. A search that finds the answer's
-// own bracket has not moved.
+// (half brackets). `left` is the remaining error that follows from a shift: if an order p is known and the setting was
+// refined by a factor f, Richardson's shift f^p / (f^p - 1), with Roache's margin of 1.25. A search that finds the
+// result's own bracket has not shifted.
 #pragma once
 
 #include <filesystem>
@@ -21,18 +21,18 @@ namespace voussoir {
 
 bool wants_budget(const LoadedScene& scene);
 
-// the folders of its runs, below that of the answer, in all rounds in which the answer may be refined
+// the folders of its runs, within that of the run, in all rounds in which the result may be refined
 // (accuracy_on_order.hpp)
 std::vector<std::string> budget_folders(const LoadedScene& scene);
 
 struct BudgetRuns {
-  std::string name;                   // tells scene, program and round apart from all others
-  std::vector<std::string> settings;  // overrides of scene.toml that the answer was found with
+  std::string name;                   // identifies scene, program and round
+  std::vector<std::string> settings;  // overrides of scene.toml with which the result was found
 };
 BudgetRuns budget_runs(const LoadedScene& stated, int round, const std::vector<std::string>& settings);
 
-// Carries the runs out, or what is missing of them, in `folder`, where scene.toml stands, and gives the values their
-// budgets and bars. What cannot be varied is told in the warnings. False: a signal stopped it; what is done is kept.
+// Carries out the missing runs in `folder`, which contains scene.toml, and gives the values their budgets and bars.
+// Failed variations are reported in the warnings. False: a signal stopped it; completed runs are kept.
 bool add_budget(const LoadedScene& scene, const BudgetRuns& runs, const std::filesystem::path& folder, int threads,
                 bool quiet, Results& results);
 

@@ -16,7 +16,7 @@ namespace {
 
 struct ResumeArguments {
   std::filesystem::path folder;
-  std::optional<int> threads;  // as before where they are not stated
+  std::optional<int> threads;  // as before if not stated
   bool quiet = false;
 };
 
@@ -31,9 +31,9 @@ ExitCode resume_command(const ResumeArguments& arguments) {
   if (!std::filesystem::is_directory(folder, error))
     throw BadInput(fmt::format("'{}' is not a folder: name the folder of an interrupted run", folder.string()));
   if (!holds_results(folder) && !holds_unfinished_run(folder))
-    throw BadInput(fmt::format("'{}' holds no run: 'voussoir run' makes one", folder.string()));
+    throw BadInput(fmt::format("'{}' contains no run: 'voussoir run' makes one", folder.string()));
 
-  // a complete run may be kept where nothing can be written
+  // the folder of a complete run may be read-only
   if (holds_results(folder) && !holds_checkpoints(folder)) return already_complete(arguments);
   const FolderLock lock(folder);
   if (holds_results(folder)) {
@@ -50,7 +50,8 @@ ExitCode resume_command(const ResumeArguments& arguments) {
                     "'voussoir run'",
                     (folder / "scene.toml").string()));
   refuse_inputs(folder, resume_outputs(), scene.files);
-  if (!holds_checkpoints(folder) && options.rounds.empty()) options.origins.clear();  // nothing of theirs is left
+  if (!holds_checkpoints(folder) && options.rounds.empty())
+    options.origins.clear();  // no state of earlier processes is left
   if (add_origin(options.origins, this_origin())) write_options(folder, options);
   return carry_out(scene, {folder, options, arguments.quiet});
 }
@@ -59,7 +60,7 @@ ExitCode resume_command(const ResumeArguments& arguments) {
 
 void add_resume(CLI::App& program, Action& action) {
   const auto [command, arguments] =
-      add_command(program, action, "resume", "continue with a run that was interrupted", resume_command);
+      add_command(program, action, "resume", "continue an interrupted run", resume_command);
   command->add_option("folder", arguments.folder, "the folder of its results")
       ->required()
       ->check(plain_text())

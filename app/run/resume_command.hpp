@@ -5,8 +5,8 @@
 
 namespace voussoir {
 
-// continues with a run that was interrupted, from its last checkpoint or from its begin; a complete one is left as it
-// is
+// continues an interrupted run, from its last checkpoint or from its begin; a complete one is left
+// unchanged
 void add_resume(CLI::App& program, Action& action);
 
 }  // namespace voussoir

@@ -24,9 +24,9 @@ struct RunArguments {
   SceneArguments scene;
   fs::path out;  // empty: results/<name of the scene's file>
   int threads = 1;
-  std::optional<long long> checkpoint_steps;  // of RunOptions where they are stated
+  std::optional<long long> checkpoint_steps;  // of RunOptions if stated
   std::optional<double> checkpoint_seconds;
-  fs::path begin;       // folder of another run, at whose end this one begins; empty: at the start
+  fs::path begin;       // folder of another run, at whose end this one begins; empty: none
   std::string until;    // the stage after which it ends, its state kept; empty: the last
   bool keep = false;    // the state at the end
   bool budget = false;  // as if the scene stated accuracy.budget
@@ -56,14 +56,14 @@ LoadedScene scene_of(const RunArguments& arguments) {
   if (arguments.view) overrides.push_back("output.view=true");
   LoadedScene scene = load_scene(arguments.scene.scene, overrides, arguments.threads);
   if (wants_budget(scene) && !(arguments.until.empty() && arguments.begin.empty()))
-    throw BadInput(fmt::format(
-        "{}: a budget's runs go from the start to the last stage; leave it out, or --budget and accuracy.budget",
-        arguments.until.empty() ? "--begin" : "--until"));
+    throw BadInput(
+        fmt::format("{}: a budget's runs cover all stages; leave it out, or leave out --budget and accuracy.budget",
+                    arguments.until.empty() ? "--begin" : "--until"));
   end_with(arguments.until, scene);
   return scene;
 }
 
-// Where a run begins that does not begin at the start. `inputs` gains what is read for that, `options` who computed it.
+// The state at which a run begins if not at the start. `inputs` gains the files read for it, `options` its origins.
 std::optional<AnyProgress> begun_at(const fs::path& other, const LoadedScene& scene, std::vector<fs::path>& inputs,
                                     RunOptions& options) {
   if (other.empty()) return std::nullopt;
@@ -76,16 +76,16 @@ std::optional<AnyProgress> begun_at(const fs::path& other, const LoadedScene& sc
   return begun;
 }
 
-// The first checkpoint of a run that begins at another's end: from here on it needs that folder no more.
+// The first checkpoint of a run that begins at another's end: from here on it no longer needs that folder.
 void begin_in(const fs::path& folder, const std::string& scene_hash, const AnyProgress& begun) {
   std::visit([&](const auto& progress) { save_checkpoint(folder, progress, scene_hash); }, begun);
 }
 
 ExitCode run_command(const RunArguments& arguments) {
-  // nothing is written before the whole scene is known to be good
+  // nothing is written before the complete scene is known to be valid
   RunOptions options = options_of(arguments);
   LoadedScene scene = scene_of(arguments);
-  require_sane_size(scene.text, arguments.scene.scene.string() + " with all that it names");  // for it is read again
+  require_sane_size(scene.text, arguments.scene.scene.string() + " with all that it names");  // it is read again
   options.scene_hash = scene.hash;
   options.warnings = assess(scene).warnings;
   if (!arguments.quiet) tell_warnings(options.warnings);
@@ -95,7 +95,7 @@ ExitCode run_command(const RunArguments& arguments) {
   add_origin(options.origins, this_origin());
   if (!wants_budget(scene)) scene.stated.reset();
 
-  // the folder is ours alone, and says what is run before the first step
+  // the folder is locked, and records the run before the first step
   const fs::path folder = results_folder(arguments);
   Outputs outputs = run_outputs();
   if (wants_budget(scene)) outputs.folders = budget_folders(scene);
@@ -125,7 +125,7 @@ void add_run(CLI::App& program, Action& action) {
       ->check(finite(0, largest_argument));
   command
       ->add_option("--until", arguments.until,
-                   "end with this stage and keep its last state, so that other runs can begin there")
+                   "end after this stage and keep its last state, so that other runs can begin there")
       ->check(plain_text());
   command->add_flag("--keep", arguments.keep, "keep the state at the end, so that other runs can begin there");
   command
@@ -135,12 +135,13 @@ void add_run(CLI::App& program, Action& action) {
           "of the whole run")
       ->check(plain_text())
       ->type_name("FOLDER");
-  command->add_flag("--budget", arguments.budget,
-                    "vary what was chosen, one thing at a time, in runs beside the answer: every value then says what "
-                    "moves it, and its error bar covers that (accuracy.budget)");
+  command->add_flag(
+      "--budget", arguments.budget,
+      "error budget: vary numerical settings one at a time in additional runs; every value then lists their "
+      "effects, and its error bar covers them (accuracy.budget)");
   command->add_flag("--view", arguments.view,
-                    "write view.html, one page in which the blocks can be turned, with the frames that ParaView would "
-                    "get (output.view)");
+                    "write the interactive 3-D page view.html, with the frames that ParaView would get "
+                    "(output.view)");
   add_overwrite(command, arguments.overwrite);
   command->add_flag("--quiet", arguments.quiet, "no progress and no summary");
 }

@@ -1,4 +1,4 @@
-// What a run writes as it proceeds: tables, frames for ParaView and for the viewer, the viewer's page.
+// The files of a run in progress: tables, frames for ParaView and for the viewer, the viewer's page.
 #pragma once
 
 #include <filesystem>
@@ -10,8 +10,8 @@
 
 namespace voussoir {
 
-// The path to the answer, and the trials that were taken back; what the viewer shows has both. Those that the scene
-// does not ask for are not written.
+// The path to the result, and the trials that were rejected; the viewer shows both. Series that the scene does not
+// request are not written.
 struct WrittenSeries {
   std::optional<FrameSeries> frames, trials;
   std::optional<ViewSeries> view;
@@ -20,7 +20,7 @@ struct WrittenSeries {
 template <int Dim>
 void write_tables(const std::filesystem::path& folder, const Progress<Dim>& progress);
 
-// Cuts off what the run so far has written beyond `progress`, its checkpoint, and warns of what is lost.
+// Removes output beyond `progress`, the run's checkpoint, and warns of lost files.
 template <int Dim>
 WrittenSeries cut_back_to(const Prepared<Dim>& prepared, const Progress<Dim>& progress,
                           const std::filesystem::path& folder);

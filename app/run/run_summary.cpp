@@ -8,6 +8,7 @@
 
 #include "app/base/progress_line.hpp"
 #include "core/run/stable_state.hpp"
+#include "core/scene/stage_excavations.hpp"
 
 namespace voussoir {
 namespace {
@@ -18,8 +19,9 @@ std::string value_text(const Value& value) {
   if (!std::isfinite(value.value)) return "not a finite number" + unit;
   if (!value.error_bar || *value.error_bar <= 0) return fmt::format("{:.6g}{}", value.value, unit);
   const int places = std::clamp(1 - static_cast<int>(std::floor(std::log10(*value.error_bar))), 0, 15);
-  return fmt::format("{:.{}f} ± {:.{}f}{}, {}", value.value, places, *value.error_bar, places, unit,
-                     value.covers == "bracket" ? "the bracket alone" : "all that the budget varied");
+  return fmt::format("{:.{}f} ± {:.{}f}{} ({})", value.value, places, *value.error_bar, places, unit,
+                     value.covers == "bracket" ? "search bracket only; --budget adds the model's errors"
+                                               : "search bracket and budget");
 }
 
 void print_budget(const Value& value) {
@@ -27,17 +29,19 @@ void print_budget(const Value& value) {
   for (const BudgetLine& line : value.budget) {
     if (!line.sensitivity && !(std::abs(line.left) >= least_printed * value.error_bar.value_or(0) && line.left != 0))
       continue;
-    fmt::print("      {:+.2g}{} with {}, {}: {}\n", line.shift, value.unit == "1" ? "" : " " + value.unit, line.varied,
-               line.change, line.sensitivity ? "measured, no error" : fmt::format("{:+.2g} is left", line.left));
+    fmt::print(
+        "      {:+.2g}{} with {}, {}: {}\n", line.shift, value.unit == "1" ? "" : " " + value.unit, line.varied,
+        line.change,
+        line.sensitivity ? "measured: a sensitivity, no error" : fmt::format("remaining error {:+.2g}", line.left));
   }
 }
 
-// bodies that came to rest somewhere else than where their stage began
+// bodies whose position of equilibrium differs from that at the begin of the stage
 void print_moved(const std::vector<MovedBody>& moved) {
   constexpr std::size_t most_moved_shown = 10;
   for (std::size_t k = 0; k < std::min(moved.size(), most_moved_shown); ++k) {
     const MovedBody& m = moved[k];
-    fmt::print("  moved in stage {}: body {}{} by {:.3g} m, rests at ({:.4g}){}\n", m.stage, m.body,
+    fmt::print("  moved in stage {}: body {}{} by {:.3g} m, now in equilibrium at ({:.4g}){}\n", m.stage, m.body,
                m.name.empty() ? "" : " (" + m.name + ")", m.distance, fmt::join(m.place, ", "),
                m.left_all ? ", in other contacts" : "");
   }
@@ -71,7 +75,7 @@ void print_cost(const Results& results, const std::vector<AccuracyRound>& rounds
   for (std::size_t k = 0; k + 1 < rounds.size(); ++k)
     fmt::print("  round {}: {} contact evaluations; {}\n", k + 1, rounds[k].contact_evaluations, rounds[k].told);
   if (results.budget_evaluations > 0)
-    fmt::print("  error budget: {} contact evaluations, {:.2g} times the answer's\n", results.budget_evaluations,
+    fmt::print("  error budget: {} contact evaluations, {:.2g} times those of the run\n", results.budget_evaluations,
                static_cast<double>(results.budget_evaluations) / static_cast<double>(counters.contact_evaluations));
 }
 
@@ -84,12 +88,12 @@ void print_summary(const std::string& title, const Results& results, const std::
   print_values(results.values);
   print_stages(results.stages, results.at_last_stable_state);
   if (const auto& bonds = results.bonds)
-    fmt::print("  bonds: {} made, {} whole, {} broken, {} removed with their blocks; {} joints have not pressed yet\n",
-               bonds->made, bonds->whole, bonds->broken, bonds->removed, bonds->due);
+    fmt::print(
+        "  bonds: {} made, {} whole, {} broken, {} removed with their blocks; {} joints not yet in compression\n",
+        bonds->made, bonds->whole, bonds->broken, bonds->removed, bonds->due);
   print_moved(results.moved);
-  if (results.relief_left > 0)
-    fmt::print("  let_off: a share of {:g} of the forces by which excavated rock held the rest still acts\n",
-               results.relief_left);
+  if (results.forces_remaining > 0)
+    fmt::print("  excavation_forces: {} at the end\n", remaining_text(results.forces_remaining));
   print_cost(results, rounds);
   fmt::print("results: {}\n", folder.string());
 }

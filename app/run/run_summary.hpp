@@ -1,4 +1,4 @@
-// What `voussoir run` and `resume` print at the end.
+// The summary that `voussoir run` and `resume` print at the end.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 namespace voussoir {
 
-// `rounds`: answers that were found, of which the last one is printed
+// `rounds`: results that were found, of which the last one is printed
 void print_summary(const std::string& title, const Results& results, const std::vector<AccuracyRound>& rounds,
                    const std::filesystem::path& folder);
 

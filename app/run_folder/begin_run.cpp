@@ -25,7 +25,7 @@ void require_end_state(const fs::path& folder) {
     throw BadInput(fmt::format("--begin {0}: the run there has not ended; end it with 'voussoir resume {0}'", name));
   if (!holds_results(folder))
     throw BadInput(fmt::format(
-        "--begin {0}: the folder holds no run; make one with 'voussoir run … --until <stage> --out {0}'", name));
+        "--begin {0}: the folder contains no run; make one with 'voussoir run … --until <stage> --out {0}'", name));
   if (!holds_end_state(folder))
     throw BadInput(fmt::format(
         "--begin {}: the run there has not kept its end; run it once more with --until <stage> or --keep", name));

@@ -1,4 +1,5 @@
-// A run that begins at the end of another with the same blocks and first stages: many supports share one generation.
+// A run that begins at the end of another with the same blocks and first stages, e.g. support variants of one initial
+// state.
 #pragma once
 
 #include <filesystem>
@@ -13,13 +14,13 @@ namespace voussoir {
 
 using AnyProgress = std::variant<Progress<2>, Progress<3>>;
 
-// Where the run of the folder has left off, as progress of this scene (core/run/begin.hpp). `remarks` gains what is
-// doubtful. Throws BadInput where the folder holds no such end, SceneError where this scene is not the same up to
-// there, FolderInUse while the folder is being written.
+// The last state of the folder's run, as progress of this scene (core/run/begin.hpp). `remarks` gains doubts about it.
+// Throws BadInput if the folder has no such state, SceneError if this scene differs before it, FolderInUse while the
+// folder is being written.
 AnyProgress progress_at_end(const std::filesystem::path& folder, const LoadedScene& scene,
                             std::vector<std::string>& remarks);
 
-// what that reads in the folder
+// the files that it reads in the folder
 std::vector<std::filesystem::path> files_begun_with(const std::filesystem::path& folder);
 
 }  // namespace voussoir

@@ -17,16 +17,16 @@
 namespace voussoir {
 namespace {
 
-// the very file, even after another was built in its place
+// the file of this process, even after another was built in its place
 const char* const this_program = "/proc/self/exe";
 
 constexpr std::uintmax_t largest_program = 4ull << 30;  // bytes
 
-// between fork and exec: nothing that asks for memory or a lock
+// between fork and exec: no allocation and no lock
 [[noreturn]] void become_program(char* const* arguments, int input, int messages, pid_t parent) {
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);
-  if (::getppid() != parent) ::_exit(1);  // it died before it could be watched
+  if (::getppid() != parent) ::_exit(1);  // the parent died before it could be watched
   ::dup2(input, STDIN_FILENO);
   ::dup2(messages, STDOUT_FILENO);
   ::dup2(messages, STDERR_FILENO);
@@ -42,7 +42,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments, const std:
     pointers.push_back(const_cast<char*>(argument.c_str()));
   pointers.push_back(nullptr);
 
-  // a new file, whatever stood there: a link would lead elsewhere, a pipe would keep us waiting
+  // always a new file: a link would lead elsewhere, a pipe would block
   remove_file(messages);
   const int output = ::open(messages.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (output < 0) throw output_error(messages, errno);

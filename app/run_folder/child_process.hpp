@@ -1,4 +1,4 @@
-// This program, started once more beside itself: what crashes or hangs there does no harm here.
+// This program, started as a child process: a crash or hang there does no harm here.
 #pragma once
 
 #include <sys/types.h>
@@ -16,18 +16,18 @@ struct ChildEnd {
   int signal = 0;  // that ended it; then there is no code
 };
 
-// Does not hear the terminal's signals, which its parent passes on as it sees fit, and is asked to stop (SIGTERM) when
-// its parent dies, however that happens.
+// Does not receive the terminal's signals, which its parent may pass on, and receives SIGTERM when its parent dies for
+// any reason.
 class ChildProcess {
  public:
-  // what it prints goes to `messages`; throws OutputError when it cannot be started
+  // its output is written to `messages`; throws OutputError if it cannot be started
   ChildProcess(const std::vector<std::string>& arguments, const std::filesystem::path& messages);
-  // kills it, if it still continues
+  // kills it if it is still running
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  // does not wait; empty while it continues
+  // does not wait; empty while it is running
   std::optional<ChildEnd> ended();
   void send(int signal) const;
   double seconds() const;  // since it was started
@@ -37,7 +37,7 @@ class ChildProcess {
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
 };
 
-// Of the file that this process was started from. Throws BadInput where that cannot be read.
+// Of the file that this process was started from. Throws BadInput if that cannot be read.
 const std::string& program_digest();
 
 }  // namespace voussoir

@@ -36,8 +36,8 @@ std::string host() {
   return ::gethostname(name, sizeof name - 1) == 0 ? name : "unknown host";
 }
 
-// also a link that leads nowhere
-bool stands(const fs::path& path) {
+// also a dangling link
+bool entry_exists(const fs::path& path) {
   std::error_code error;
   return fs::exists(fs::symlink_status(path, error));
 }
@@ -54,7 +54,7 @@ BadInput no_lock(const fs::path& path) {
 }
 
 int open_lock(const fs::path& path) {
-  // a link would let us write to another file, a pipe would keep us waiting
+  // a link would let us write to another file, a pipe would block
   const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
   if (file < 0 && (errno == ELOOP || errno == EISDIR || errno == ENXIO)) throw no_lock(path);
   if (file < 0) throw output_error(path, errno);
@@ -72,7 +72,7 @@ std::string holder_of(int file) {
   return length > 0 ? one_line({text, static_cast<std::size_t>(length)}, 200) : "";
 }
 
-// ---- what an older command made
+// ---- files of an older command
 
 // a plain name, or one below folders; no list may lead out of its own folder
 bool is_safe(const std::string& name) {
@@ -81,9 +81,9 @@ bool is_safe(const std::string& name) {
          std::none_of(path.begin(), path.end(), [](const fs::path& part) { return part == ".." || part == "."; });
 }
 
-// nothing where there is no list, or one that cannot be understood: then nothing there is ours
+// nothing if there is no list, or one that cannot be read: then no file there is ours
 std::optional<Outputs> made_in(const fs::path& folder) {
-  if (!stands(folder / made_file)) return std::nullopt;
+  if (!entry_exists(folder / made_file)) return std::nullopt;
   try {
     const json list = json::parse(read_file(folder / made_file, largest_list));
     if (list.at("schema") != "voussoir.made" || list.at("schema_version") != 1) return std::nullopt;
@@ -106,11 +106,11 @@ void write_made(const fs::path& folder, const Outputs& outputs) {
   write_file(folder / made_file, list.dump(2) + "\n");
 }
 
-// the files under the names of these outputs that are there, relative to the folder
+// the existing files with the names of these outputs, relative to the folder
 std::vector<fs::path> standing(const fs::path& folder, const Outputs& outputs) {
   std::vector<fs::path> files;
   for (const std::string& name : outputs.files)
-    if (stands(folder / name)) files.emplace_back(name);
+    if (entry_exists(folder / name)) files.emplace_back(name);
   if (!outputs.frames) return files;
   const std::vector<fs::path> series = series_files(folder);
   files.insert(files.end(), series.begin(), series.end());
@@ -133,18 +133,18 @@ bool is_made(const std::optional<Outputs>& made, const fs::path& name) {
 
 BadInput folder_is_taken(const fs::path& folder) {
   return BadInput(
-      fmt::format("'{}' holds results: choose another folder with --out, or add --overwrite", folder.string()));
+      fmt::format("'{}' contains results: choose another folder with --out, or add --overwrite", folder.string()));
 }
 
-// what an older command left is complete, or can still be completed
+// whether results of an older command are complete, or can still be completed
 void refuse_results(const fs::path& folder, const Outputs& outputs, const std::optional<Outputs>& made) {
   const auto has = [&](const char* name) {
-    return stands(folder / name) && (holds(outputs.files, name) || is_made(made, name));
+    return entry_exists(folder / name) && (holds(outputs.files, name) || is_made(made, name));
   };
-  if (has("results.json") || (made && stands(folder / made->files.front()))) throw folder_is_taken(folder);
+  if (has("results.json") || (made && entry_exists(folder / made->files.front()))) throw folder_is_taken(folder);
   if (has("run.json"))
     throw BadInput(
-        fmt::format("'{0}' holds a run that was interrupted: continue with 'voussoir resume {0}', or add "
+        fmt::format("'{0}' contains an interrupted run: continue with 'voussoir resume {0}', or add "
                     "--overwrite to start again",
                     folder.string()));
 }
@@ -153,7 +153,7 @@ void require_free(const fs::path& folder, const Outputs& outputs, const std::vec
   refuse_inputs(folder, outputs, inputs);
   const std::optional<Outputs> made = made_in(folder);
   if (made && made->command == "study" && outputs.command != "study")
-    throw BadInput(fmt::format("'{}' holds a study: choose another folder with --out", folder.string()));
+    throw BadInput(fmt::format("'{}' contains a study: choose another folder with --out", folder.string()));
   const bool goes_on = made && outputs.goes_on && made->command == outputs.command;
   if (!overwrite && !goes_on) refuse_results(folder, outputs, made);
   for (const fs::path& name : standing(folder, outputs)) {
@@ -172,10 +172,10 @@ void require_free(const fs::path& folder, const Outputs& outputs, const std::vec
 void remove_files(const fs::path& folder, const Outputs& outputs, const std::vector<fs::path>& inputs) {
   for (const fs::path& name : standing(folder, outputs))
     if (!is_input(folder / name, inputs)) remove_file(folder / name);
-  if (outputs.frames) ::rmdir((folder / "frames").c_str());  // where nothing else is in it
+  if (outputs.frames) ::rmdir((folder / "frames").c_str());  // if it is empty
 }
 
-// a run of a study; what somebody else has put there stays, and with it the folder
+// a run of a study; files of others stay, and with them the folder
 void remove_run(const fs::path& folder, const std::vector<fs::path>& inputs) {
   std::error_code error;
   if (!fs::is_directory(fs::symlink_status(folder, error))) return;
@@ -200,10 +200,10 @@ void remove_older(const fs::path& folder, const Outputs& outputs, const std::vec
   remove_files(folder, outputs, inputs);
 }
 
-// before the lock is made: a folder that is refused stays as it was
+// before the lock is made: a refused folder is left unchanged
 const fs::path& checked(const fs::path& folder, const Outputs& outputs, const std::vector<fs::path>& inputs,
                         bool overwrite) {
-  if (!stands(folder / lock_file)) require_free(folder, outputs, inputs, overwrite);
+  if (!entry_exists(folder / lock_file)) require_free(folder, outputs, inputs, overwrite);
   return folder;
 }
 
@@ -211,7 +211,7 @@ const fs::path& checked(const fs::path& folder, const Outputs& outputs, const st
 
 std::optional<FileLock> FileLock::taken(const fs::path& path, bool shared, std::string& holder) {
   FileLock lock(open_lock(path));
-  // who only asks whether it is held (holder_of_lock) has it for a moment
+  // a process that only checks the lock (holder_of_lock) has it for a moment
   for (int k = 0; ::flock(lock.file_, (shared ? LOCK_SH : LOCK_EX) | LOCK_NB) != 0; ++k) {
     if (errno != EWOULDBLOCK) throw output_error(path, errno);
     if (k == most_tries) {
@@ -223,7 +223,7 @@ std::optional<FileLock> FileLock::taken(const fs::path& path, bool shared, std::
   }
   if (const std::string before = holder_of(lock.file_); !before.empty() && !before.starts_with(lock_begins))
     throw no_lock(path);
-  // for whom it may concern; the lock itself is the kernel's
+  // information for people; the lock itself is the kernel's
   const std::string name = fmt::format("{}{} on {}", lock_begins, ::getpid(), host());
   if (::ftruncate(lock.file_, 0) != 0 || ::pwrite(lock.file_, name.data(), name.size(), 0) < 0)
     throw output_error(path, errno);
@@ -258,7 +258,7 @@ FileLock locked(const fs::path& folder, bool shared) {
 }  // namespace
 
 FolderLock::FolderLock(const fs::path& folder) : lock_(locked(folder, false)) {
-  // nobody else writes here now
+  // no other process writes here now
   remove_unfinished_files(folder);
   remove_unfinished_files(folder / "frames");
 }
@@ -306,8 +306,8 @@ void claim_file(const fs::path& file, const std::string& command, const std::vec
   const fs::file_status status = fs::symlink_status(file, error);
   if (fs::is_directory(status)) throw BadInput(fmt::format("'{}' is a folder; name a file with --out", file.string()));
   if (fs::exists(status) && !overwrite)
-    throw BadInput(fmt::format(
-        "'{}' is there and would be replaced: choose another name with --out, or add --overwrite", file.string()));
+    throw BadInput(fmt::format("'{}' exists and would be replaced: choose another name with --out, or add --overwrite",
+                               file.string()));
   prepare_folder(folder);
 }
 

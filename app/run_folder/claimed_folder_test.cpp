@@ -1,4 +1,4 @@
-// What a command leaves in its folder, and what it takes away again: all that an older one made, and nothing else.
+// The files that a command leaves in its folder, and those that it removes: exactly the files of an older command.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -12,7 +12,7 @@ using namespace program;
 
 class Claimed : public Program {
  protected:
-  // every file but the program's own notes
+  // every file except the program's own records
   std::set<std::string> names(const std::string& where) const {
     std::set<std::string> all;
     for (const auto& entry : fs::recursive_directory_iterator(folder_ / where))
@@ -28,7 +28,7 @@ TEST_F(Claimed, OverwritingLeavesNoFileOfAnOlderCommand) {
   fs::create_directories(folder_ / "out/frames");
   write("out/notes.txt", "mine");
   write("out/frames/picture.png", "mine");
-  write("out/frames/blocks_7.vtp", "mine");  // not as we number them
+  write("out/frames/blocks_7.vtp", "mine");  // not numbered as the program does
   const Names mine{"notes.txt", "frames/picture.png", "frames/blocks_7.vtp"};
   const auto with_mine = [&](Names names) {
     names.insert(mine.begin(), mine.end());
@@ -63,8 +63,8 @@ TEST_F(Claimed, OverwritingReplacesOthersFilesOfTheSameNames) {
   EXPECT_EQ(read(folder_ / "data.csv"), "mine");
 }
 
-// slicing writes joints.csv; a scene in the same folder that reads it keeps it
-TEST_F(Claimed, WhatIsReadIsKeptEvenIfWeMadeIt) {
+// slicing writes joints.csv; a scene in the same folder that reads it protects it
+TEST_F(Claimed, InputsAreKeptEvenIfACommandMadeThem) {
   const std::string scene = read(scenes / "two_cubes.toml");
   write("scene.toml", scene);
   ASSERT_EQ(run("slice scene.toml --report --out out").code, 0);
@@ -85,14 +85,14 @@ TEST_F(Claimed, ARefusedFolderIsLeftAsItWas) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1) << "no lock, no list";
 }
 
-TEST_F(Claimed, WhatACommandThatWasKilledLeftIsNoResult) {
+TEST_F(Claimed, FilesOfAKilledCommandAreNoResults) {
   ASSERT_EQ(run("run " + cubes_ + "--out out --quiet").code, 0);
   for (const char* name : {"results.json", "run.json"})
     fs::remove(folder_ / "out" / name);
   EXPECT_EQ(run("run " + cubes_ + "--out out --quiet").code, 0);
 }
 
-// ---- names that were accepted come back ---------------------------------------------------------------------------
+// ---- accepted names are written correctly --------------------------------------------------------------------------
 
 const char* const odd_names[] = {"plain",          "two words", " blanks ",      "Gewölbe", "岩盤",
                                  "say \\\"so\\\"", "a, b; c",   "it's",          "-45°",    "+x",
@@ -118,7 +118,7 @@ TEST_F(Claimed, OddNamesComeBackFromEveryFile) {
     EXPECT_EQ(results("out")["state_hash"], first);
     EXPECT_EQ(results("out")["title"].get<std::string>().find("= 1+1"), 0u);
 
-    // as a table of joints, to the same bits
+    // as a table of joints, with the same bits
     ASSERT_EQ(run("slice scene.toml --report --overwrite --out sliced").code, 0);
     fs::copy_file(folder_ / "sliced/joints.csv", folder_ / "joints.csv", fs::copy_options::overwrite_existing);
     text.erase(text.find("[[joints]]"), text.find("[[joint_properties]]") - text.find("[[joints]]"));

@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char *variable = "GLIBC_TUNABLES", *capabilities = "glibc.cpu.hwcaps=";
 
-// what glibc (2.33 and later) chooses its fused functions by
+// the criterion by which glibc (2.33 and later) chooses its fused functions
 constexpr const char* without_fused = "-FMA,-FMA4";
 
 std::string tunables() {
@@ -28,7 +28,7 @@ bool is_portable() {
 }  // namespace
 
 std::string with_portable_math(const std::string& stated) {
-  // tunables stand behind colons; a name that comes twice would take the last alone
+  // tunables are separated by colons; of a name that appears twice only the last counts
   const std::size_t found = fmt::format(":{}", stated).rfind(fmt::format(":{}", capabilities));
   if (found == std::string::npos)
     return fmt::format("{}{}{}{}", stated, stated.empty() ? "" : ":", capabilities, without_fused);

@@ -1,4 +1,4 @@
-// Which program, and which functions of the C library, this process computes with.
+// The program, and the functions of the C library, that this process computes with.
 #pragma once
 
 #include <string>
@@ -9,12 +9,12 @@ namespace voussoir {
 
 Origin this_origin();
 
-// From now on the programs that this one starts take the functions of the C library that every x86-64 processor has,
-// not those with fused multiply-adds, whose last bits differ. Throws BadInput where the C library offers no such
+// From now on the programs that this one starts use the functions of the C library that every x86-64 processor has, not
+// those with fused multiply-adds, whose last bits differ. Throws BadInput if the C library offers no such
 // choice.
 void ask_for_portable_math();
 
-// GLIBC_TUNABLES as it stands and the same with that asked for
+// the present GLIBC_TUNABLES, and the same with this choice
 std::string with_portable_math(const std::string& tunables);
 
 }  // namespace voussoir

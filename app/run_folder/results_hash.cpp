@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr const char *results_file = "results.json", *history_file = "history.csv";
 constexpr std::uintmax_t largest_hashes = 1 << 16;     // bytes
-constexpr std::size_t most_history_columns = 100'000;  // as many monitors as anyone could have
+constexpr std::size_t most_history_columns = 100'000;  // more than any scene has
 
 bool file_stands(const fs::path& file) {
   std::error_code error;
@@ -87,7 +87,7 @@ CheckedResults check_results(const fs::path& folder, bool with_history) {
 
 std::string describe(const CheckedResults& checked) {
   const std::string file = one_line(checked.file.string(), 1000);
-  if (checked.state == ResultsState::changed) return fmt::format("'{}' is not what its run wrote", file);
+  if (checked.state == ResultsState::changed) return fmt::format("'{}' differs from the file that its run wrote", file);
   return file_stands(checked.file) ? fmt::format("'{}' is damaged", file) : fmt::format("'{}' is missing", file);
 }
 

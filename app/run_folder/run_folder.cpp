@@ -27,7 +27,7 @@ bool is_there(const fs::path& path) {
   return fs::exists(path, error);
 }
 
-// bytes of run.json; that its head suffices to tell a checkpoint's size
+// bytes: of run.json; of a checkpoint's head, which gives its size
 constexpr std::uintmax_t largest_options = 16 << 20, checkpoint_head = 4096;
 
 std::string content_of(const fs::path& path, std::uintmax_t most) {
@@ -38,7 +38,7 @@ std::string content_of(const fs::path& path, std::uintmax_t most) {
   }
 }
 
-// nothing is read, and no memory taken, for a file that cannot be a checkpoint
+// a file that cannot be a checkpoint is not read, and no memory is allocated for it
 std::string checkpoint_content(const fs::path& path) {
   try {
     std::uintmax_t size = 0;
@@ -185,7 +185,7 @@ Progress<Dim> last_progress(const fs::path& folder, const Prepared<Dim>& scene, 
       const std::string bytes = checkpoint_content(path);
       Progress<Dim> progress = read_checkpoint<Dim>(bytes, scene_hash);
       remark_build(path, bytes, remarks);
-      // what cannot be used must not displace what can when the next checkpoint is written
+      // an unusable checkpoint must not displace a usable one when the next is written
       if (!refusals.empty()) {
         move_file(path, folder / newest);
         remarks.push_back(fmt::format("{}; the one before it is used", refusals.front()));
@@ -199,7 +199,7 @@ Progress<Dim> last_progress(const fs::path& folder, const Prepared<Dim>& scene, 
   }
   if (!refusals.empty())
     throw BadInput(
-        fmt::format("no checkpoint can be used: {}; put back what was changed, or start again with 'voussoir "
+        fmt::format("no checkpoint can be used: {}; restore the changed files, or start again with 'voussoir "
                     "run --overwrite'",
                     fmt::join(refusals, "; ")));
   return initial_progress(scene);

@@ -1,12 +1,12 @@
-// The folder of a run: what a later `voussoir resume` needs.
+// The folder of a run: the files that a later `voussoir resume` needs.
 //
 //   .lock, .voussoir-made      app/run_folder/claimed_folder.hpp
-//   scene.toml, run.json       what is run and how, written before the first step
+//   scene.toml, run.json       the scene and the options, written before the first step
 //   checkpoint, checkpoint.previous
-//   end_state                  of a run that is asked for it: where another run can begin
+//   end_state                  on request: the state at which another run can begin
 //   (app/run_folder/begin_run.hpp) history.csv, frames/, blocks.pvd, contacts.pvd; with bolts also bolts.pvd and
-//   bolts.csv, with linings linings.pvd and lining.csv; view.bin, view.html where they are asked for; of a search also
-//   trial_blocks.pvd, trial_contacts.pvd results.json               comes last: where it is, the run is complete and
+//   bolts.csv, with linings linings.pvd and lining.csv; view.bin, view.html on request; of a search also
+//   trial_blocks.pvd, trial_contacts.pvd results.json               comes last: if it exists, the run is complete and
 //   the checkpoints are gone
 #pragma once
 
@@ -21,26 +21,26 @@
 
 namespace voussoir {
 
-// what is run, and how: the results depend on the scene alone
+// the scene and the options of a run: the results depend on the scene alone
 struct RunOptions {
   std::string scene_hash;  // LoadedScene::hash
   int threads = 1;
-  long long checkpoint_steps = 0;          // between checkpoints; 0: steps do not matter
-  double checkpoint_seconds = 300;         // wall clock between checkpoints; 0: time does not matter
+  long long checkpoint_steps = 0;          // between checkpoints; 0: not used
+  double checkpoint_seconds = 300;         // wall clock between checkpoints; 0: not used
   std::string until;                       // the stage after which the run ends; empty: the last
   bool keep = false;                       // the state at the end
-  std::vector<std::string> warnings;       // what looked implausible in the scene as it was given, with its lines
+  std::vector<std::string> warnings;       // warnings about the original scene, with its lines
   std::vector<AccuracyRound> rounds = {};  // that are done
-  std::vector<std::string> settings = {};  // overrides of scene.toml in the round under way
-  std::vector<Origin> origins = {};        // of all processes that had a part in it
+  std::vector<std::string> settings = {};  // overrides of scene.toml in the present round
+  std::vector<Origin> origins = {};        // of all processes that took part in it
 };
 
 // throws OutputError
 void write_options(const std::filesystem::path& folder, const RunOptions& options);
-// throws BadInput with the file's name when it cannot be understood
+// throws BadInput with the file's name if it cannot be read
 RunOptions read_options(const std::filesystem::path& folder);
 
-// what a run writes, and what of it a run that continues writes again
+// the files of a run, and those that a continued run writes again
 Outputs run_outputs();
 Outputs resume_outputs();
 
@@ -54,18 +54,18 @@ void remove_checkpoints(const std::filesystem::path& folder);
 template <int Dim>
 void save_checkpoint(const std::filesystem::path& folder, const Progress<Dim>& progress, const std::string& scene_hash);
 
-// the state where the last stage ended, for other runs to begin with
+// the state at the end of the last stage, at which other runs can begin
 template <int Dim>
 void save_end_state(const std::filesystem::path& folder, const Progress<Dim>& progress, const std::string& scene_hash);
 bool holds_end_state(const std::filesystem::path& folder);
-// throws BadInput with the file's name where it cannot be used
+// throws BadInput with the file's name if it cannot be used
 template <int Dim>
 Progress<Dim> read_end_state(const std::filesystem::path& folder, const std::string& scene_hash,
                              std::vector<std::string>& remarks);
 
-// What the newest good checkpoint holds, or the begin of the scene where there is none. `remarks` gains a line for each
-// checkpoint that was passed over, and then replaced by the one before it, or that another program wrote. Throws
-// BadInput when none of those there can be used, and OutputError.
+// The state of the newest valid checkpoint, or the begin of the scene if there is none. `remarks` gains a line for each
+// checkpoint that was skipped, and then replaced by the one before it, or that another program wrote. Throws BadInput
+// if there are checkpoints but none can be used, and OutputError.
 template <int Dim>
 Progress<Dim> last_progress(const std::filesystem::path& folder, const Prepared<Dim>& scene,
                             const std::string& scene_hash, std::vector<std::string>& remarks);

@@ -35,7 +35,7 @@ struct SliceArguments {
   bool overwrite = false;
 };
 
-// m: coordinates below this are zero but for the rounding of those they were computed from
+// m: coordinates below this are zero within the rounding of the numbers they were computed from
 template <int Dim>
 double zero_of(const Model<Dim>& model) {
   double largest = 0;
@@ -64,13 +64,13 @@ std::string block_table(const Model<Dim>& model) {
   return text;
 }
 
-// a name that a scene may give it
+// a name that is valid in a scene
 template <int Dim>
 std::string name_of(const Model<Dim>& model, std::size_t b) {
   return model.bodies[b].name.empty() ? fmt::format("block-{}", b) : model.bodies[b].name;
 }
 
-// calls `add` for every part of every block: name of the block, number and planes of the part, and where its frame lies
+// calls `add` for every part of every block: name of the block, number, planes and position of the part
 template <int Dim, class Add>
 void for_parts(const Model<Dim>& model, const Add& add) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
@@ -177,10 +177,11 @@ void add_slice(CLI::App& program, Action& action) {
   add_scene(command, arguments.scene);
   add_out(command, arguments.out, "folder of blocks.vtp and blocks.csv", true);
   command->add_flag("--report", arguments.report,
-                    "joint sets against what was stated, listed joints by their set: report.md, joints.csv, stereonet, "
+                    "report on joint sets, measured against stated, and on listed joints by their set: report.md, "
+                    "joints.csv, stereonet, "
                     "spacings, block "
                     "sizes");
-  command->add_flag("--view", arguments.view, "view.html, one page in which the blocks can be turned");
+  command->add_flag("--view", arguments.view, "write the interactive 3-D page view.html");
   command->add_flag("--planes", arguments.planes,
                     "the planes of the blocks: block_planes.csv, readable as blocks_file");
   command->add_flag("--stl", arguments.stl, "the blocks as blocks.stl (ASCII; 3-D)");

@@ -22,16 +22,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// joints that the scene states one by one, in its file or a table, and calls a set
+// joints that the scene states one by one, in its file or a table, with the name of a set
 template <int Dim>
 struct MeasuredSet {
   std::string name;
   std::vector<DrawnJoint<Dim>> joints;
   MeanOrientation mean;
-  SetStatistics<Dim> statistics;  // what a set would state is 0 in them
+  SetStatistics<Dim> statistics;  // the quantities that a joint set states are 0
 };
 
-// what all parts of the report look at
+// the data of all parts of the report
 template <int Dim>
 struct Sample {
   const Scene& scene;
@@ -183,7 +183,7 @@ std::string set_text(const JointSet& set, const SetStatistics<Dim>& found) {
   const Moments spacing = moments_of(found.spacings);
   if (!found.spacings.empty())
     text += row("spacing along the mean normal", "m", 1 / found.stated_frequency,
-                {spacing.mean.value, 0}) +  // lines fraction joints: their spacings are no sample of independent ones
+                {spacing.mean.value, 0}) +  // several lines cross one joint: their spacings are not independent
             row("its deviation over its mean", "1",
                 set.size_law == SizeLaw::persistent && set.arrangement == Arrangement::equal ? "0" : "1",
                 fmt::format("{:.4g}", spacing.deviation / spacing.mean.value), 0);
@@ -219,7 +219,7 @@ std::string block_text(const BlockSizes& blocks, int dimension) {
   const char* unit = dimension == 3 ? "m³" : "m²";
   const double total = std::accumulate(v.begin(), v.end(), 0.0);
   std::string text =
-      fmt::format("## Blocks\n\n{} blocks, {:.6g} {} in all.\n\n| blocks up to this size make up | {} |\n|---|---|\n",
+      fmt::format("## Blocks\n\n{} blocks, {:.6g} {} in total.\n\n| blocks up to this size make up | {} |\n|---|---|\n",
                   v.size(), total, unit, unit);
   for (const int fraction : {10, 25, 50, 75, 90})
     text += fmt::format("| {} % of the whole | {:.4g} |\n", fraction, size_at_fraction(v, fraction / 100.0));
@@ -234,15 +234,15 @@ std::string report_text(const Sample<Dim>& sample, const BlockSizes& blocks) {
   if (!sample.sets.empty())
     text += fmt::format(
         "Drawn in unbounded rock and measured inside the domain ({:.6g} {}). A standard error is that of a Poisson "
-        "process: what another seed would change. Scanlines are as short as the domain is: they miss wide "
+        "process: the scatter between seeds. Scanlines are no longer than the domain: they miss wide "
         "spacings.\n\n",
         sample.domain.mass.volume, cubic);
   if (!sample.measured.empty())
     text += fmt::format(
-        "Sets marked as stated were not drawn: they are the joints that the scene lists, by their `set`, as they lie "
+        "Sets marked as stated were not drawn at random: they are the joints that the scene lists, by their `set`, "
         "in "
-        "the domain ({:.6g} {}). The mean orientation is that of all of a set; the standard error what it would be if "
-        "such joints were a Poisson process.\n\n",
+        "the domain ({:.6g} {}). The mean orientation is that of all joints of a set; the standard error is that of a "
+        "Poisson process of such joints.\n\n",
         sample.domain.mass.volume, cubic);
   if (!sample.single.empty())
     text += fmt::format("{} stated without a set.\n\n",
@@ -251,7 +251,8 @@ std::string report_text(const Sample<Dim>& sample, const BlockSizes& blocks) {
       sample.scene.joints, [](const JointSpec& spec) { return spec.within || !spec.ends_at.empty(); });
   if (confined > 0)
     text += fmt::format(
-        "Of {} stated joints within or ends_at is not counted here: intensities are too high by that.\n\n", confined);
+        "`within` and `ends_at` of {} stated joints are not counted here: intensities are too high by that.\n\n",
+        confined);
   for (const MeasuredSet<Dim>& set : sample.measured)
     text += measured_text<Dim>(set);
   for (std::size_t s = 0; s < sample.sets.size(); ++s)
@@ -262,7 +263,7 @@ std::string report_text(const Sample<Dim>& sample, const BlockSizes& blocks) {
 
 // ---- figures
 
-// at most some hundred points of a cumulative distribution
+// at most about a hundred points of a cumulative distribution
 Points cumulative(const std::vector<double>& ascending, const std::vector<double>& weights) {
   constexpr std::size_t most_points = 400;
   const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
@@ -287,7 +288,7 @@ std::string spacing_figure(const Sample<Dim>& sample) {
     diagram.curves.push_back(spacing_curve(set.name + ", stated", set.statistics.spacings));
   for (std::size_t s = 0; s < sample.sets.size(); ++s)
     diagram.curves.push_back(spacing_curve(sample.sets[s].spec->set.name, sample.statistics[s].spacings));
-  // what a Poisson process along a line has, for the widest set
+  // the distribution of a Poisson process along a line, for the widest set
   double rarest = 0, widest = 0;
   for (const SetStatistics<Dim>& found : sample.statistics) {
     if (found.spacings.empty()) continue;

@@ -1,5 +1,5 @@
-// What a scene's joints are in its domain: sets that were drawn, held against what was stated, and those that the scene
-// lists, by their set; a table, joints.csv and figures.
+// A report on a scene's joints in its domain: drawn sets, measured against stated, and listed joints by their set; a
+// table, joints.csv and figures.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@
 
 namespace voussoir {
 
-// what slicing left, for the distribution of block sizes
+// the blocks after slicing, for the distribution of block sizes
 struct BlockSizes {
   std::vector<double> volumes;  // m³ (2-D: m²), ascending
 };

@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Counts what is moved to its name in the folders of runs: each file that the program writes whole.
+// Counts files that are renamed into place in the folders of runs: each file that the program writes completely.
 class Watch {
  public:
   void add(const fs::path& folder) {
@@ -20,7 +20,7 @@ class Watch {
   }
   ~Watch() { ::close(file_); }
 
-  // how often each folder's file of this name came to be
+  // how often each folder's file of this name was written
   std::map<std::string, int> count(const std::string& name) {
     alignas(inotify_event) char buffer[1 << 16];
     for (ssize_t length; (length = ::read(file_, buffer, sizeof buffer)) > 0;)
@@ -39,7 +39,7 @@ class Watch {
   std::map<std::string, std::map<std::string, int>> counts_;
 };
 
-// the rows of planned_study.hpp, and three that take longer than it takes to disturb them
+// the rows of planned_study.hpp, and three that run long enough to be disturbed
 class Slurm : public PlannedStudy {
  protected:
   static constexpr int slow_rows = 3, different_runs = 41 + slow_rows;
@@ -60,7 +60,7 @@ values = [2000, 2500, 3000]
 
   fs::path slow_run(int k) const { return run_of("out", study_rows + k); }
 
-  // what a complaint about missing rows names
+  // the rows that a message about missing rows names
   static std::string rows_named_in(const std::string& text) {
     const std::string before = "missing: ";
     const std::size_t found = text.find(before);
@@ -69,8 +69,8 @@ values = [2000, 2500, 3000]
                : text.substr(found + before.size(), text.find(';', found) - found - before.size());
   }
 
-  // The process of `voussoir study run` that works at this run, as soon as the run is well under way: a tenth of what
-  // it takes, many times what its begin takes.
+  // The worker process (`voussoir study run`) of this run, as soon as the run is well under way: after a tenth of its
+  // time, much later than its begin.
   int worker_of(const fs::path& run) const {
     int worker = 0;
     const auto is_under_way = [&] {
@@ -84,7 +84,7 @@ values = [2000, 2500, 3000]
     return worker;
   }
 
-  // s, of a process of our own; 0: there is none
+  // s, of a process of our own; 0: none
   static double processor_time(int process) {
     std::istringstream stat(read(fmt::format("/proc/{}/stat", process)));
     std::string skipped;
@@ -95,7 +95,7 @@ values = [2000, 2500, 3000]
     return (user + system) / static_cast<double>(::sysconf(_SC_CLK_TCK));
   }
 
-  // Each run ended once. What was disturbed went on from its checkpoint; only those that had none began again.
+  // Each run ended once. Disturbed runs continued from their checkpoints; only those without one began again.
   void expect_each_run_once(Watch& watch, const std::set<std::string>& without_checkpoint) const {
     const std::map<std::string, int> begun = watch.count("run.json"), done = watch.count("results.json");
     EXPECT_EQ(begun.size(), static_cast<std::size_t>(different_runs));
@@ -118,22 +118,22 @@ TEST_F(Slurm, AnArrayThatIsDisturbedGivesTheSameFile) {
   ASSERT_TRUE(slurm.is_up()) << slurm.log();
   const std::string job = slurm.submit(fmt::format("--array=1-4 '{}' '{}' 4", array_, out));
 
-  // the dearest rows come first, one in each share
+  // the most expensive rows come first, one in each share
   worker_of(slow_run(1));
   EXPECT_EQ(said(fmt::format("scontrol requeue {}_1", job)), "");
   ::kill(worker_of(slow_run(2)), SIGKILL);
   ASSERT_TRUE(wait_until([&] { return fs::exists(slow_run(1) / "checkpoint"); })) << slurm.log();
   EXPECT_GT(checkpoint_record(read(slow_run(1) / "checkpoint")).step, 0);
   slurm.kill_node(LoopbackSlurm::node_of(worker_of(slow_run(3))));
-  // while Slurm finds that out
+  // while Slurm detects that
   EXPECT_EQ(study({at("study.toml"), "--out", at("whole")}).code, 0);
   ASSERT_TRUE(slurm.wait_until_idle()) << slurm.log();
 
-  // Slurm itself does what was requeued and what lost its node once more, not what was killed
+  // Slurm itself repeats requeued tasks and those that lost their node, not killed ones
   const std::string missing = rows_named_in(study({"gather", out}).out);
   EXPECT_NE(missing, "") << slurm.log();
   EXPECT_NE(study({"status", out}).out.find("rows done\nmissing: " + missing + "\n"), std::string::npos) << missing;
-  // what lost its node, and what was killed where Slurm ended its task before it had kept one
+  // the run that lost its node, and the killed one if Slurm ended its task before the first checkpoint
   std::set<std::string> without_checkpoint{slow_run(3).filename()};
   if (!fs::exists(slow_run(2) / "checkpoint")) without_checkpoint.insert(slow_run(2).filename());
   const std::string again = slurm.submit(fmt::format("--array=1-2 '{}' '{}' 2 {}", array_, out, missing));

@@ -34,7 +34,7 @@ std::optional<RowVerdict> verdict_on(const Sweep& sweep, const StudyRow& row) {
 
 struct Verdicts {
   int failed = 0, standing = 0, undecided = 0;
-  bool at_limit = false;  // some of those that stand are the limit itself
+  bool at_limit = false;  // some stable results are equal to the limit
 };
 
 Verdicts verdicts_on(const Sweep& sweep, const std::vector<StudyRow>& rows) {
@@ -64,7 +64,7 @@ const char* fails_cell(const std::optional<RowVerdict>& verdict) {
   return *verdict == RowVerdict::undecided ? "undecided" : *verdict == RowVerdict::fails ? "yes" : "no";
 }
 
-// a column for every key, then what was found
+// a column for every key, then the result
 std::string table(const StudyPlan& plan, const Sweep& sweep, const std::vector<StudyRow>& rows) {
   std::vector<std::string> header;
   if (sweep.varied == Varied::sample) header.emplace_back("row");

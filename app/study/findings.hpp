@@ -1,4 +1,4 @@
-// What the grids and samples of a study found: grid_1.csv and its maps, sample_1.csv, sample_1.json and its histogram.
+// Results of a study's grids and samples: grid_1.csv and its maps, sample_1.csv, sample_1.json and its histogram.
 #pragma once
 
 #include <string>

@@ -25,7 +25,7 @@ constexpr std::uintmax_t largest_notes = 64 << 20, largest_manifest = 2ull << 30
 
 constexpr const char *notes_file = "study.json", *manifest_file = "manifest.jsonl", *input_folder = "input";
 
-// where a file stands, links on the way to its folder followed
+// the place of a file, with links in the path to its folder resolved
 fs::path place_of(const fs::path& file) {
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
   return fs::canonical(folder) / file.filename();
@@ -70,7 +70,7 @@ PlannedRow row_of(const Json& json, const fs::path& folder) {
   return row;
 }
 
-// Links among the files that a scene names are not copied as such: then the copy says something else, or nothing.
+// Links among the files that a scene names are not copied as links: the copy would have other contents, or none.
 void require_same_scenes(const fs::path& folder, const std::vector<PlannedRow>& rows,
                          const std::vector<PlannedRow>& copies) {
   std::set<fs::path> seen;
@@ -86,7 +86,7 @@ void require_same_scenes(const fs::path& folder, const std::vector<PlannedRow>& 
     };
     if (!is_same())
       throw BadInput(
-          fmt::format("'{}' cannot be copied: one of the files that it names is a link; put the file itself "
+          fmt::format("'{}' cannot be copied: one of the files that it names is a link; put the file "
                       "in its place",
                       rows[k].run.scene.string()));
   }
@@ -102,12 +102,12 @@ void write_if_new(const fs::path& file, const std::string& bytes) {
 
 BadInput not_planned(const fs::path& folder, const fs::path& file) {
   return BadInput(
-      fmt::format("'{}' is not what was planned: plan again with 'voussoir study plan <study.toml> --out "
-                  "{}', which keeps what is done",
+      fmt::format("'{}' differs from the plan: plan again with 'voussoir study plan <study.toml> --out "
+                  "{}', which keeps completed runs",
                   file.string(), folder.string()));
 }
 
-// study.json holds a digest of itself
+// study.json contains a digest of itself
 Json with_digest(Json notes) {
   notes["digest"] = digest(notes.dump());
   return notes;
@@ -116,7 +116,7 @@ Json with_digest(Json notes) {
 Json read_notes(const fs::path& folder) {
   const fs::path file = folder / notes_file;
   if (!fs::exists(file))
-    throw BadInput(fmt::format("'{0}' holds no study: plan one with 'voussoir study plan <study.toml> --out {0}'",
+    throw BadInput(fmt::format("'{0}' contains no study: plan one with 'voussoir study plan <study.toml> --out {0}'",
                                folder.string()));
   try {
     Json notes = Json::parse(read_file(file, largest_notes));

@@ -1,10 +1,10 @@
-// The folder of a study, which can be copied to other machines whole.
+// The folder of a study, which can be copied to other machines as a unit.
 //
-//   study.json       the plan's file, the program, and digests of all that was planned
-//   manifest.jsonl   one run a line, dearest first: row of study.csv, hash, scene, overrides, expected cost
-//   input/           the plan, its scenes and what they read, as they were
+//   study.json       the plan's file, the program, and digests of all planned files
+//   manifest.jsonl   one run a line, most expensive first: row of study.csv, hash, scene, overrides, expected cost
+//   input/           the plan, its scenes and the files they read, unchanged
 //   runs/<hash>/     of each different run (app/run_folder/run_folder.hpp)
-//   study.csv        what was gathered; of grids and samples also grid_1.csv, … (findings.hpp)
+//   study.csv        the gathered results; of grids and samples also grid_1.csv, … (findings.hpp)
 #pragma once
 
 #include <filesystem>
@@ -28,18 +28,18 @@ struct InputFile {
   std::filesystem::path from, to;
 };
 
-// What is read by the plan and its rows; names below input/ keep where the files lie to each other.
+// The files that the plan and its rows read; names below input/ keep their relative places.
 std::vector<InputFile> input_files(const std::filesystem::path& plan, const std::vector<PlannedRow>& rows);
 
-// what `voussoir study` writes into its folder
+// the files that `voussoir study` writes into its folder
 Outputs study_outputs(const StudyPlan& plan, const std::vector<InputFile>& input, const std::vector<PlannedRow>& rows);
 
-// Copies the input and writes manifest.jsonl and study.json, the last of all. What was gathered for another manifest is
-// removed. The folder is claimed. Throws OutputError, BadInput.
+// Copies the input and writes manifest.jsonl and, last, study.json. Results gathered for another manifest are removed.
+// The folder is claimed. Throws OutputError, BadInput.
 void write_study_folder(const std::filesystem::path& folder, const StudyPlan& plan, const std::vector<InputFile>& input,
                         std::vector<PlannedRow> rows, const std::string& program_digest);
 
-// Throws BadInput where there is no plan, or where a byte of it differs from what was planned.
+// Throws BadInput if there is no plan, or if a byte of it has changed.
 StudyFolder read_study_folder(const std::filesystem::path& folder);
 
 }  // namespace voussoir

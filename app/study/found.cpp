@@ -18,11 +18,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// as many monitors as anyone could have
+// more than any scene has
 constexpr std::size_t most_columns = 100'000;
 
-// the finite numbers of a column on the path to the answer, without a search's trials that were taken back; empty where
-// there is no such column
+// the finite numbers of a column on the path to the result, without a search's rejected trials; empty if there is no
+// such column
 std::vector<double> column_of(const fs::path& history, const std::string& name) {
   const std::string text = read_file(history, largest_history);
   CsvReader reader(text, most_columns);
@@ -107,7 +107,7 @@ std::optional<std::string> missing_quantity(const fs::path& folder, const StudyP
         names.push_back(name);
     }
   } catch (const std::exception&) {
-    return std::nullopt;  // damaged: its row says so
+    return std::nullopt;  // damaged: its row reports it
   }
   if (std::find(names.begin(), names.end(), wanted) != names.end()) return "";
   return fmt::format("no run has {} '{}'; {}", plan.history ? "a column of history.csv" : "a value of results.json",

@@ -1,4 +1,4 @@
-// What a run of a study found: the quantity that the plan asks for, and what it cost.
+// The result of a study's run: the quantity that the plan asks for, and its cost.
 #pragma once
 
 #include <cstdint>
@@ -16,18 +16,18 @@ namespace voussoir {
 
 struct RunFound {
   std::optional<Value> result = {};
-  std::string status = "ok";  // or why there is no result
+  std::string status = "ok";  // or the reason why there is no result
   long long contact_evaluations = 0, steps = 0;
   double seconds = 0;
   std::vector<std::string> warnings = {};  // of its results
-  std::vector<Origin> origins = {};        // of all that computed it; empty where it does not say
+  std::vector<Origin> origins = {};        // of all processes that computed it; empty if not recorded
 };
 
-// reads results.json, and history.csv where the plan takes the quantity from there
+// reads results.json, and history.csv if the plan takes the quantity from there
 RunFound found_in(const std::filesystem::path& folder, const StudyPlan& plan);
 
-// Whether a run has what the plan asks for: empty where it has, a sentence with the names that there are where it has
-// not; nothing where the run did not reach its end, so that neither is known.
+// Whether a run has the quantity that the plan asks for: empty if it has, a sentence with the existing names if it has
+// not; nothing if the run did not reach its end, so that neither is known.
 std::optional<std::string> missing_quantity(const std::filesystem::path& folder, const StudyPlan& plan);
 
 }  // namespace voussoir

@@ -28,8 +28,8 @@ fs::path runs_of(const fs::path& folder, const PlannedRow& row) {
   return folder / "runs" / row.run.name;
 }
 
-// All that two computers must agree on: not the clock, the program's name, and warnings, which name the folder. Empty
-// where it cannot be read.
+// The contents on which two computers must agree: not the clock, the program's name, and warnings, which name the
+// folder. Empty if it cannot be read.
 std::string agreed_bits(const fs::path& folder, const RunFound& found) {
   try {
     nlohmann::json results = nlohmann::json::parse(read_file(folder / "results.json", largest_results));
@@ -108,9 +108,9 @@ void refuse_changed(const StudyFolder& study, const std::map<int, RowFound>& fou
     rows.insert(row);
   }
   if (rows.empty()) return;
-  const std::string others = rows.size() == 1 ? "" : fmt::format(", nor are those of rows {}", ranges_of_rows(rows));
-  throw BadInput(fmt::format("{}{}; put back what it wrote, or do it again with 'voussoir study run {} --rows {}'",
-                             first, others, study.folder.string(), ranges_of_rows(rows)));
+  const std::string others = rows.size() == 1 ? "" : fmt::format(", as do those of rows {}", ranges_of_rows(rows));
+  throw BadInput(fmt::format("{}{}; restore the file, or repeat the run with 'voussoir study run {} --rows {}'", first,
+                             others, study.folder.string(), ranges_of_rows(rows)));
 }
 
 }  // namespace
@@ -127,9 +127,9 @@ Gathered gather(const StudyFolder& study, const std::vector<fs::path>& folders) 
   refuse_changed(study, found);
   for (const auto& [row, at] : found) {
     if (at.differing)
-      gathered.differences.push_back(fmt::format("row {}: its results in '{}' and '{}' differ{}", row,
-                                                 at.differing->first.string(), at.differing->second.string(),
-                                                 at.other_origins ? ", and so does what computed them" : ""));
+      gathered.differences.push_back(fmt::format(
+          "row {}: its results in '{}' and '{}' differ{}", row, at.differing->first.string(),
+          at.differing->second.string(), at.other_origins ? ", and so do the programs that computed them" : ""));
     if (!at.has_results) continue;
     add_row(gathered.origins, row, at.found.origins);
     add_row(gathered.warnings, row, at.found.warnings);
@@ -162,7 +162,7 @@ ExitCode write_gathered(const StudyFolder& study, const Gathered& gathered, cons
   for (const StudyRow& row : gathered.rows)
     if (!row.result) fmt::print("failed: {}: {} = {}: {}\n", row.curve, row.key, row.value, row.status);
   if (!gathered.missing.empty())
-    fmt::print("missing: {0}; do them with 'voussoir study run {1} --rows {0}'\n", ranges_of_rows(gathered.missing),
+    fmt::print("missing: {0}; run them with 'voussoir study run {1} --rows {0}'\n", ranges_of_rows(gathered.missing),
                study.folder.string());
   for (const std::string& damaged : gathered.damaged)
     fmt::print("{}\n", damaged);
@@ -175,7 +175,7 @@ ExitCode study_gather_command(const std::vector<fs::path>& folders) {
   const StudyFolder study = read_study_folder(folders.front());
   for (const fs::path& folder : folders)
     if (read_study_folder(folder).manifest_digest != study.manifest_digest)
-      throw BadInput(fmt::format("'{}' holds another study than '{}': its manifest.jsonl differs", folder.string(),
+      throw BadInput(fmt::format("'{}' contains another study than '{}': its manifest.jsonl differs", folder.string(),
                                  study.folder.string()));
   const SharedFolderLock lock(study.folder);
   return write_gathered(study, gather(study, folders), "");
@@ -183,7 +183,7 @@ ExitCode study_gather_command(const std::vector<fs::path>& folders) {
 
 ExitCode study_status_command(const fs::path& folder) {
   const StudyFolder study = read_study_folder(folder);
-  std::map<std::string, std::set<int>> going_on;  // by who works at them, and since when
+  std::map<std::string, std::set<int>> running;  // by their worker, and since when
   std::map<int, std::string> failures;
   std::set<int> missing, failed;
   std::vector<std::string> doubtful;
@@ -200,7 +200,7 @@ ExitCode study_status_command(const fs::path& folder) {
       std::error_code error;
       const auto since = fs::last_write_time(worker, error);
       const std::time_t time = std::chrono::system_clock::to_time_t(std::chrono::file_clock::to_sys(since));
-      going_on[fmt::format("{}, since {:%F %T}", *holder, fmt::localtime(time))].insert(row.row);
+      running[fmt::format("{}, since {:%F %T}", *holder, fmt::localtime(time))].insert(row.row);
     } else if (at.is_missing) {
       missing.insert(row.row);
     } else {
@@ -209,8 +209,8 @@ ExitCode study_status_command(const fs::path& folder) {
     }
   }
   fmt::print("{} of {} rows done\n", done, study.rows.size());
-  for (const auto& [who, rows] : going_on)
-    fmt::print("going on: {} by {}\n", ranges_of_rows(rows), who);
+  for (const auto& [who, rows] : running)
+    fmt::print("running: {} by {}\n", ranges_of_rows(rows), who);
   for (const auto& [row, failure] : failures)
     fmt::print("failed: row {}: {}\n", row, failure);
   if (!failed.empty()) fmt::print("failed: {}\n", ranges_of_rows(failed));

@@ -1,4 +1,4 @@
-// What a study's runs found, from one folder or from several copies of it.
+// The results of a study's runs, from one folder or from several copies of it.
 #pragma once
 
 #include <filesystem>
@@ -18,23 +18,23 @@ namespace voussoir {
 struct Gathered {
   std::vector<StudyRow> rows;
   std::set<int> missing;                 // neither results nor a failure
-  std::vector<std::string> differences;  // two results of a row that are not the same, a line each
+  std::vector<std::string> differences;  // two different results of a row, a line each
   std::vector<std::string> damaged;      // results that cannot be read, a line each: their rows are missing
   std::vector<RowOrigins> origins;       // of the rows that have results
   std::vector<RowWarning> warnings;      // of these
 };
 
-// The first folder's results come first; all hold the same plan. Results that a run did not write
+// The first folder's results come first; all contain the same plan. Results that a run did not write
 // (app/run_folder/results_hash.hpp) are a BadInput with the row's name.
 Gathered gather(const StudyFolder& study, const std::vector<std::filesystem::path>& folders);
 
-// Writes study.csv and says what it holds; `remark` is a line behind the first, or empty.
+// Writes study.csv and prints a summary; `remark` is a line after the first, or empty.
 ExitCode write_gathered(const StudyFolder& study, const Gathered& gathered, const std::string& remark);
 
 // study.csv of a planned study, from its folder or copies of it
 ExitCode study_gather_command(const std::vector<std::filesystem::path>& folders);
 
-// prints which rows are done and which are missing
+// prints the rows that are done and those that are missing
 ExitCode study_status_command(const std::filesystem::path& folder);
 
 }  // namespace voussoir

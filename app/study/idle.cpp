@@ -19,13 +19,13 @@ namespace {
 
 using Names = std::set<std::string>;
 
-// results that differ by no more than this, of their size, differ by rounding
+// relative difference of results that is due to rounding
 constexpr double rounding_of_results = 1e-12;
 
-// how many other values of a key are tried in place of the first
+// the number of other values of a key that are tried in place of the first
 constexpr std::size_t most_tried = 3;
 
-// ---- what a run depends on ----------------------------------------------------------------------------------------
+// ---- the input of a run -------------------------------------------------------------------------------------------
 
 void forget(Node& table, std::string_view key) {
   std::erase_if(table.members, [&](const Member& member) { return member.key == key; });
@@ -37,8 +37,8 @@ bool names_one(const Node* list, const std::string& name) {
          });
 }
 
-// Whether a stage puts another friction angle in place of these joint properties'. A search for an angle does not: it
-// comes from the one in force.
+// Whether a stage replaces the friction angle of these joint properties. A search for an angle does not: it starts from
+// the present one.
 bool replaces_friction(const Node& stage, const std::string& properties) {
   return stage.find("friction_deg") || names_one(stage.find("friction"), properties);
 }
@@ -52,7 +52,7 @@ Names interfaces_of(const Node& tree) {
   return names;
 }
 
-// those that contacts may have: of joints, of sets, of linings, and the one of faces that no joint made
+// those that contacts may have: of joints, of sets, of linings, and of faces that no joint made
 Names properties_in_use(const Scene& scene, const Node& tree) {
   Names names = interfaces_of(tree);
   names.insert("default");
@@ -64,7 +64,7 @@ Names properties_in_use(const Scene& scene, const Node& tree) {
   return names;
 }
 
-// of a strength that never acts only whether it is stated matters
+// a strength that never acts only matters by being stated
 void forget_amount(Node& table, std::string_view key) {
   if (Node* node = table.find(key); node && node->is_number()) node->number = node->number > 0 ? 1 : 0;
 }
@@ -101,8 +101,8 @@ Node part_of_run(const Scene& scene, bool with_history) {
   return tree;
 }
 
-// Limit analysis knows blocks, their weight, water and strength, as they are before the first stage; of the stages it
-// asks for the applied forces alone.
+// Limit analysis uses blocks, their weight, water and strength, as they are before the first stage; of the stages only
+// the applied forces.
 Node part_of_limit(const Scene& scene, const std::vector<std::string>& options) {
   Node tree = shared_part(scene, static_cast<int>(scene.stages.size()));
   const auto asked = [&](const char* option) { return std::ranges::find(options, option) != options.end(); };
@@ -111,7 +111,8 @@ Node part_of_limit(const Scene& scene, const std::vector<std::string>& options) 
     if (options[k] == "--friction") sought.insert(options[k + 1]);
   const bool seeks_friction = !asked("--factor") && !asked("--load");
   if (!asked("applied")) forget(tree, "stage");
-  for (const char* key : {"accuracy", "damping", "time", "equilibrium", "initial_velocity", "contact"})
+  for (const char* key :
+       {"accuracy", "statics", "static_increments", "damping", "time", "equilibrium", "initial_velocity", "contact"})
     forget(tree, key);
   forget_unused_properties(scene, tree);
   each_properties(tree, [&](Node& item, const std::string& name) {
@@ -137,7 +138,7 @@ std::vector<TiedKey> keys_of_sweep(const Sweep& sweep) {
   return keys;
 }
 
-// some that differ from the first: the last ones, and those between
+// values other than the first: the last ones, and some between
 std::vector<std::string> other_values(const TiedKey& key) {
   std::vector<std::string> others;
   for (const std::string& value : key.values)
@@ -159,7 +160,7 @@ bool is_idle(const StudyPlan& plan, const Sweep& sweep, const TiedKey& key) {
       return text_of_part(plan, sweep, overrides) == first;
     });
   } catch (const SceneError&) {
-    return false;  // values that go together alone; what is wrong with a row its own reading says
+    return false;  // values that must change together; errors of a row are reported when it is read
   }
 }
 
@@ -190,7 +191,7 @@ struct Spread {
   }
 };
 
-// Whether no result of a grid differs from those that differ in this key alone; false where there are none to compare.
+// Whether the results of a grid do not change with this key alone; false if there are none to compare.
 bool is_flat_along(const Sweep& grid, std::size_t key, const std::vector<StudyRow>& rows) {
   std::map<std::vector<std::string>, Spread> lines;
   for (std::size_t place = 0; place < rows.size(); ++place) {
@@ -218,20 +219,19 @@ std::vector<std::string> flat_lines(const Sweep& sweep, const std::vector<StudyR
   if (names.empty() || all.results.size() < 2) return {};
   const std::string of = fmt::format("{} '{}'", kind_of_sweep(sweep), one_line(sweep.name, 60));
   if (all.is_flat())
-    return {fmt::format("{}: no result differs, whatever {} {}: does the scene use {}, or does a stage state its own?",
-                        of, fmt::join(names, ", "), names.size() == 1 ? "is" : "are",
-                        names.size() == 1 ? "it" : "them")};
+    return {fmt::format("{}: the results do not depend on {}: does the scene use {}, or does a stage state its own?",
+                        of, fmt::join(names, ", "), names.size() == 1 ? "it" : "them")};
   const double deviation = moments_of(all.results).deviation;
   if (all.error_bars.size() == all.results.size() && deviation < all.mean_bar())
     return {
-        fmt::format("{}: the results' deviation, {:.2g}, lies below their own error bars, {:.2g} in the mean: the "
-                    "differences may be those of the search alone, not of {}",
+        fmt::format("{}: the deviation of the results, {:.2g}, is below their mean error bar, {:.2g}: the "
+                    "differences may come from the search, not from {}",
                     of, deviation, all.mean_bar(), fmt::join(names, ", "))};
   std::vector<std::string> lines;
   for (std::size_t k = 0; sweep.varied == Varied::grid && k < sweep.with.size(); ++k)
     if (is_flat_along(sweep, k, rows))
-      lines.push_back(
-          fmt::format("{}: no result differs along {}: does the scene use it?", of, one_line(sweep.with[k].key, 100)));
+      lines.push_back(fmt::format("{}: the results do not depend on {}: does the scene use it?", of,
+                                  one_line(sweep.with[k].key, 100)));
   return lines;
 }
 
@@ -242,12 +242,12 @@ std::vector<std::string> idle_keys(const StudyPlan& plan) {
   for (const Sweep& sweep : plan.sweeps)
     for (const TiedKey& key : keys_of_sweep(sweep))
       if (is_idle(plan, sweep, key))
-        lines.push_back(
-            fmt::format("{} '{}': {} acts in no {} of '{}': its values change nothing, for nothing uses it, or a stage "
-                        "states its own "
-                        "in its place; name the key that acts",
-                        kind_of_sweep(sweep), one_line(sweep.name, 60), one_line(key.key, 100),
-                        sweep.limit ? "part" : "stage", sweep.scene.string()));
+        lines.push_back(fmt::format(
+            "{} '{}': {} acts in no {} of '{}': its values change nothing, because nothing uses it, or a stage "
+            "replaces it "
+            "by its own value; name the key that acts",
+            kind_of_sweep(sweep), one_line(sweep.name, 60), one_line(key.key, 100), sweep.limit ? "part" : "stage",
+            sweep.scene.string()));
   return lines;
 }
 

@@ -1,4 +1,4 @@
-// Keys of a study that nothing uses: known from the scenes before any run, or from results that do not differ.
+// Keys of a study without effect: known from the scenes before any run, or from results that do not differ.
 #pragma once
 
 #include <string>
@@ -9,12 +9,12 @@
 
 namespace voussoir {
 
-// A line for each key of a sweep, grid or sample that acts in no stage of its scene: with another of its values, alone,
-// all that a run depends on is the same. Told only where that is certain.
+// A line for each key of a sweep, grid or sample that acts in no stage of its scene: another of its values leaves the
+// input of a run unchanged. Reported only if that is certain.
 std::vector<std::string> idle_keys(const StudyPlan& plan);
 
-// A line for each sweep, grid or sample whose results do not differ, or by less than their own error bars, and for each
-// key of a grid along which none differs. `rows` as table_of gives them.
+// A line for each sweep, grid or sample whose results do not differ, or by less than their error bars, and for each key
+// of a grid on which no result depends. `rows` as table_of gives them.
 std::vector<std::string> flat_results(const StudyPlan& plan, const std::vector<StudyRow>& rows);
 
 }  // namespace voussoir

@@ -8,7 +8,7 @@
 namespace voussoir {
 namespace {
 
-// every key a study may hold; "" is the top of the file
+// every key of a study; "" is the top of the file
 struct StudyKey {
   std::string_view table, key, value, meaning;
 };
@@ -16,71 +16,75 @@ struct StudyKey {
 constexpr StudyKey study_keys[] = {
     {"", "scene", "text, required", "the scene's file, relative to the study"},
     {"", "quantity", "text, required",
-     "a value of results.json, e.g. `\"critical_friction\"`; with `history` the name of what it takes"},
+     "a value of results.json, e.g. `\"critical_friction\"`; with `history` the name of the quantity taken"},
     {"", "history", "table", "takes the quantity from a column of history.csv instead"},
     {"", "set", "list of texts", "`\"key=value\"` as after --set, for every run"},
     {"", "limit", "table",
      "runs by `voussoir limit` instead of `voussoir run`; `{}` for the critical friction under gravity"},
     {"", "begin", "text",
-     "a stage of the scene: runs that are the same up to its end share one run up to there, which the study makes "
-     "first, "
-     "and begin where it ended"},
-    {"", "sweep", "list of tables", "one setting that is changed, `[[sweep]]`, as many as are wanted"},
+     "a stage of the scene: runs that are the same up to its end begin with the last state of one shared run, which "
+     "the study "
+     "makes first"},
+    {"", "sweep", "list of tables", "one setting that is changed, `[[sweep]]`; any number"},
     {"", "grid", "list of tables",
-     "every combination of the values of two or three keys, `[[grid]]`: a table and a map"},
+     "all combinations of the values of two or three keys, `[[grid]]`: a table and a map"},
     {"", "sample", "list of tables",
-     "runs whose keys are drawn at random, `[[sample]]`: mean, deviation, histogram and share failed"},
-    {"history", "column", "text, required", "a column of history.csv, by its whole name"},
+     "runs whose keys are drawn at random, `[[sample]]`: mean, deviation, histogram and fraction failed"},
+    {"history", "column", "text, required", "a column of history.csv, by its full name"},
     {"history", "take", "one of `\"largest\"` `\"smallest\"` `\"last\"`, required", "which of its numbers"},
     {"history", "unit", "text, required", "of that number, e.g. `\"N\"`"},
     {"sweep", "name", "text, required", "in the table and the figure"},
     {"sweep", "key", "text, required", "key of the scene as after --set, e.g. `\"time.fraction\"`"},
-    {"sweep", "values", "list, required", "what the key is set to, a run each"},
+    {"sweep", "values", "list, required", "the values of the key, one run each"},
     {"sweep", "with", "list of tables", "further keys that change together with `key`, value by value"},
     {"sweep", "unit", "text", "of the values, e.g. `\"deg\"`"},
     {"sweep", "scene", "text", "another scene for this sweep"},
     {"sweep", "set", "list of texts", "`\"key=value\"` for every run of this sweep, after the study's own"},
     {"sweep", "extrapolate", "table",
-     "adds what each two neighbouring runs give at a value of 0, where the result goes with a power of the value"},
+     "adds the result that each two neighbouring runs give at a value of 0, if the error is proportional to a power of "
+     "the value"},
     {"sweep", "limit", "table", "runs of this sweep by `voussoir limit`, instead of the study's own `limit`"},
     {"with", "key", "text, required", "key of the scene as after --set"},
-    {"with", "values", "list, required", "what it is set to, one for each of the sweep's values"},
+    {"with", "values", "list, required", "its values, one for each of the sweep's values"},
     {"grid", "name", "text, required", "in the table and the figure"},
     {"grid", "keys", "list of tables, required", "two or three, each a key with its values; the last changes fastest"},
     {"grid", "fails", "table",
-     "which results count as failed; the map marks them, with a ring those whose error bar holds the limit"},
+     "the results that count as failed; the map marks them, and with a ring those whose error bar contains the limit"},
     {"grid", "scene", "text", "another scene for this grid"},
     {"grid", "set", "list of texts", "`\"key=value\"` for every run of this grid, after the study's own"},
     {"grid", "limit", "table", "as of a sweep"},
     {"grid.keys", "key", "text, required", "key of the scene as after --set"},
-    {"grid.keys", "values", "list, required", "what it is set to, two at least"},
+    {"grid.keys", "values", "list, required", "its values, at least two"},
     {"grid.keys", "unit", "text", "of the values"},
     {"sample", "name", "text, required", "in the table and the figure"},
     {"sample", "rows", "number, required",
-     "how many runs, 2 to 100,000; the first of them are those of a smaller sample"},
+     "number of runs, 2 to 100,000; the first of them are those of a smaller sample"},
     {"sample", "seed", "number",
-     "another seed, another sample; a value depends on seed, row and key alone, so that samples of one seed can be "
+     "another seed gives another sample; a value depends on seed, row and key only, so that samples of one seed can be "
      "compared row by row (default: 0)"},
-    {"sample", "keys", "list of tables, required", "each a key with the law of its values, independent of the others"},
+    {"sample", "keys", "list of tables, required",
+     "each a key with the distribution of its values, independent of the others"},
     {"sample", "fails", "table",
-     "which results count as failed; their share is told with its interval of 95 %, and how many results have an error "
-     "bar that holds the limit, which are neither failed nor standing"},
+     "the results that count as failed; reported: their fraction with its 95 % confidence interval, and the number of "
+     "results whose error bar contains the limit, which are neither failed nor stable"},
     {"sample", "scene", "text", "another scene for this sample"},
     {"sample", "set", "list of texts", "`\"key=value\"` for every run of this sample, after the study's own"},
     {"sample", "limit", "table", "as of a sweep"},
     {"sample.keys", "key", "text, required", "key of the scene as after --set"},
     {"sample.keys", "law", "one of `\"normal\"` `\"lognormal\"` `\"uniform\"` `\"triangular\"` `\"seed\"`, required",
      "seed: a whole number for the `seed` of a joint set"},
-    {"sample.keys", "mean", "number", "of a normal or lognormal law: of the value itself, not of its logarithm"},
-    {"sample.keys", "deviation", "number", "of a normal or lognormal law: standard deviation of the value itself"},
-    {"sample.keys", "mode", "number", "of a triangular law: the value that is the most likely"},
+    {"sample.keys", "mean", "number",
+     "of a normal or lognormal distribution: of the value itself, not of its logarithm"},
+    {"sample.keys", "deviation", "number",
+     "of a normal or lognormal distribution: standard deviation of the value itself"},
+    {"sample.keys", "mode", "number", "of a triangular distribution: the most likely value"},
     {"sample.keys", "least", "number",
-     "of a uniform or triangular law its lower end; of the others what lies below is drawn again"},
+     "of a uniform or triangular distribution its lower end; for the others values below it are drawn again"},
     {"sample.keys", "most", "number", "likewise the upper end"},
     {"sample.keys", "unit", "text", "of the value"},
-    {"fails", "below", "number", "results below it count as failed, e.g. 1 of a factor of safety"},
-    {"fails", "above", "number", "results above it do; this or below"},
-    {"extrapolate", "power", "number, required", "that power, above 0, at most 10; 0.6666667 for a rate of reduction"},
+    {"fails", "below", "number", "results below it count as failed, e.g. 1 for a factor of safety"},
+    {"fails", "above", "number", "results above it count as failed; state this or below"},
+    {"extrapolate", "power", "number, required", "the power, above 0, at most 10; 0.6666667 for a rate of reduction"},
     {"limit", "load", "one of `\"gravity\"` `\"left\"` `\"right\"` `\"applied\"`", "as after `voussoir limit --load`"},
     {"limit", "friction", "list of texts", "names as after `--friction`"},
     {"limit", "factor", "true or false", "`--factor`"},
@@ -100,7 +104,7 @@ std::string override_text(const Node& value, const std::string& path) {
       return fmt::format("{}", value.number);
     case Node::Kind::text:
       if (value.text.find_first_of("\"\\\n") != std::string::npos)
-        refuse(value, path, "must not hold quotes, backslashes or line breaks");
+        refuse(value, path, "must not contain quotes, backslashes or line breaks");
       return '"' + value.text + '"';
     default:
       refuse(value, path, "must be a number, a text, true or false");
@@ -174,7 +178,7 @@ std::string study_documentation() {
 
 `voussoir study study.toml --out folder` runs a scene as it is and with one setting changed at a time, with
 every combination of some, or with settings drawn at random. In parts, for many processes and machines: `voussoir study plan
-study.toml --out folder`, then `voussoir study run folder` as often as is wanted, with `--rows` or `--chunk`, `voussoir study
+study.toml --out folder`, then `voussoir study run folder` any number of times, with `--rows` or `--chunk`, `voussoir study
 status folder`, and `voussoir study gather folder`.
 
 ```toml

@@ -1,4 +1,4 @@
-// The keys that a study may hold, and how its tables are read: strictly, with line and repair.
+// The keys of a study, and the reading of its tables: strict, with line and repair.
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@ inline constexpr double largest_study_number = 1e15;
 void refuse_unknown_keys(const Subject& table, std::string_view kind);
 
 const std::string& text_of(const Subject& table, const char* key, const std::string& rule);
-// none where there is no such key
+// none if there is no such key
 std::vector<std::string> texts_of(const Subject& table, const char* key, const std::string& rule);
 std::optional<double> number_of(const Subject& table, const char* key);
 std::vector<Subject> tables_of(const Subject& table, const char* key);
@@ -25,7 +25,7 @@ std::vector<std::string> read_overrides(const Subject& table);
 // under `values`, as --set takes them
 std::vector<std::string> read_values(const Subject& table);
 
-// every key a study may hold, in markdown, from the table that the reader refuses by
+// every key of a study, in Markdown, from the table by which the reader refuses others
 std::string study_documentation();
 
 }  // namespace voussoir

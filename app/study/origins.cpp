@@ -28,7 +28,7 @@ void add_row(std::vector<RowOrigins>& all, int row, const std::vector<Origin>& o
 std::vector<std::string> origin_lines(const std::vector<RowOrigins>& all, const std::string& planned_by) {
   std::vector<std::string> lines;
   for (const RowOrigins& some : all) {
-    std::string text = some.origins.empty() ? "a program that does not say which" : "";
+    std::string text = some.origins.empty() ? "an unknown program" : "";
     for (const Origin& origin : some.origins)
       text += (text.empty() ? "" : "; and in part by ") + text_of(origin, planned_by);
     lines.push_back(fmt::format("rows {} computed by {}", ranges_of_rows(some.rows), text));
@@ -45,14 +45,14 @@ std::vector<std::string> origin_warnings(const std::vector<RowOrigins>& all) {
     }
   std::vector<std::string> warnings;
   if (programs.size() > 1)
-    warnings.push_back(fmt::format("{} programs computed these rows, which may differ by that: do them all with one",
+    warnings.push_back(fmt::format("{} programs computed these rows, which may therefore differ: run them all with one",
                                    programs.size()));
   if (functions.size() > 1)
-    warnings.push_back(
-        fmt::format("these rows were computed with {} kinds of the C library's functions, by processor or version, and "
-                    "may differ by that: do them all with 'voussoir study run --portable-math', for x86-64 processors "
-                    "with one version",
-                    functions.size()));
+    warnings.push_back(fmt::format(
+        "these rows were computed with {} variants of the C library's functions, by processor or version, and "
+        "may therefore differ: run them all with 'voussoir study run --portable-math', for x86-64 processors "
+        "with one version",
+        functions.size()));
   return warnings;
 }
 

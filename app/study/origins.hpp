@@ -1,4 +1,4 @@
-// Which programs, and which functions of the C library, computed the rows of a study.
+// The programs, and the functions of the C library, that computed the rows of a study.
 #pragma once
 
 #include <set>
@@ -11,7 +11,7 @@ namespace voussoir {
 
 // rows that have the same origins
 struct RowOrigins {
-  std::vector<Origin> origins;  // empty: their results do not say
+  std::vector<Origin> origins;  // empty: not recorded in their results
   std::set<int> rows;
 };
 
@@ -20,7 +20,7 @@ void add_row(std::vector<RowOrigins>& all, int row, const std::vector<Origin>& o
 // a line for each; `planned_by` is the hash of the program that planned the study
 std::vector<std::string> origin_lines(const std::vector<RowOrigins>& all, const std::string& planned_by);
 
-// why rows may differ in more than what the study varies, a line for each reason
+// reasons why rows may differ in more than the keys that the study varies, a line each
 std::vector<std::string> origin_warnings(const std::vector<RowOrigins>& all);
 
 }  // namespace voussoir

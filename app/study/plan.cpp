@@ -56,7 +56,7 @@ bool flag_of(const Subject& table, const char* key) {
   return node && node->boolean;
 }
 
-// what `voussoir limit` is asked, as its options; it judges what goes together
+// options of `voussoir limit`, which checks their combination itself
 std::optional<std::vector<std::string>> read_limit(const Subject& table) {
   const Node* node = table.node->find("limit");
   if (!node) return std::nullopt;
@@ -74,10 +74,10 @@ std::optional<std::vector<std::string>> read_limit(const Subject& table) {
   }
   const bool factor = flag_of(limit, "factor");
   for (const char* key : {"load", "friction"})
-    if (factor && node->find(key)) refuse(limit, key, "stands beside factor = true; one run answers one question");
-  if (node->find("load") && node->find("friction"))
-    refuse(limit, "friction", "stands beside load; one run answers one question");
-  if (!factor && node->find("joint")) refuse(limit, "joint", "names what factor = true divides; write that beside it");
+    if (factor && node->find(key)) refuse(limit, key, "contradicts factor = true; state one of them");
+  if (node->find("load") && node->find("friction")) refuse(limit, "friction", "contradicts load; state one of them");
+  if (!factor && node->find("joint"))
+    refuse(limit, "joint", "names the properties that factor = true divides; state factor = true as well");
   if (factor) options.emplace_back("--factor");
   if (flag_of(limit, "cohesion")) options.emplace_back("--cohesion");
   for (const char* key : {"friction", "joint"})
@@ -123,7 +123,7 @@ Sweep read_sweep(const Subject& table) {
   return sweep;
 }
 
-// what sweeps, grids and samples state alike
+// the keys that sweeps, grids and samples share
 void read_common(const Subject& table, const std::string& scene, const fs::path& folder, Sweep& sweep) {
   sweep.name = text_of(table, "name", "must be a text: its name in the table and the figure");
   sweep.scene = folder / scene;
@@ -157,7 +157,7 @@ StudyPlan read_study_plan(const fs::path& path) {
   plan.history = read_history(top);
   if (top.node->find("begin")) plan.begin = text_of(top, "begin", "must name a stage of the scene, e.g. \"stress\"");
 
-  // what everything else is compared with comes first
+  // the reference run, with which all others are compared, comes first
   const fs::path folder = path.parent_path();
   plan.sweeps.push_back({.name = "default", .values = {""}, .numbers = {std::nullopt}, .scene = folder / scene});
   using Read = Sweep (*)(const Subject&);

@@ -7,7 +7,7 @@
 
 namespace voussoir {
 
-// Paths in the plan are relative to it. Strict: whatever it does not know is a SceneError with line and repair.
+// Paths in the plan are relative to it. Strict: an unknown key is a SceneError with line and repair.
 StudyPlan read_study_plan(const std::filesystem::path& path);
 
 }  // namespace voussoir

@@ -16,10 +16,10 @@ constexpr const char* rule_of_key = "must be a key of the scene as after --set, 
 
 constexpr double most_rows = 100'000;
 
-// as many seeds as the seed of a joint set may take
+// the range of the seed of a joint set
 constexpr double seeds = 1e15;
 
-// of what is drawn and drawn again until it lies between two ends; a law that needs more hardly ever gives such a value
+// of draws until a value is between the two ends; a distribution that needs more hardly ever gives such a value
 constexpr int most_draws = 10'000;
 
 std::optional<Fails> read_fails(const Subject& table) {
@@ -75,7 +75,7 @@ SampledKey read_law(const Subject& table) {
 
   const auto required = [&](const char* name) {
     const std::optional<double> number = number_of(table, name);
-    if (!number) refuse(table, name, fmt::format("must be a number where law = \"{}\"", word));
+    if (!number) refuse(table, name, fmt::format("must be a number if law = \"{}\"", word));
     return *number;
   };
   const auto refuse_others = [&](std::initializer_list<const char*> others) {
@@ -104,9 +104,9 @@ SampledKey read_law(const Subject& table) {
   else
     refuse_others({"mode"});
   if (key.law == Law::triangular && (key.mode < key.least || key.mode > key.most))
-    refuse(table, "mode", "must lie between least and most");
+    refuse(table, "mode", "must be between least and most");
   if (key.law == Law::lognormal && !(key.mean > 0 && key.deviation <= 100 * key.mean))
-    refuse(table, "mean", "must be above 0, and a hundredth of the deviation at least, where law = \"lognormal\"");
+    refuse(table, "mean", "must be above 0, and at least a hundredth of the deviation, if law = \"lognormal\"");
   return key;
 }
 
@@ -159,7 +159,7 @@ Sweep read_grid(const Subject& table) {
   for (const Subject& key : keys) {
     grid.with.push_back(named_key(key));
     values.push_back(read_values(key));
-    if (values.back().size() < 2) refuse(key, "values", "must be two at least");
+    if (values.back().size() < 2) refuse(key, "values", "must be at least two");
     grid.counts.push_back(values.back().size());
     count *= values.back().size();
     grid.key += (grid.key.empty() ? "" : ", ") + grid.with.back().key;
@@ -188,7 +188,7 @@ Sweep read_sample(const Subject& table) {
   sample.varied = Varied::sample;
   sample.key = "row of the sample";
   const std::optional<double> count = whole_number_of(table, "rows", 2, most_rows);
-  if (!count) refuse(table, "rows", "must say how many runs are drawn, e.g. rows = 200");
+  if (!count) refuse(table, "rows", "must be the number of runs, e.g. rows = 200");
   const auto seed = static_cast<std::uint64_t>(whole_number_of(table, "seed", 0, seeds).value_or(0));
   for (int row = 1; row <= static_cast<int>(*count); ++row)
     sample.values.push_back(std::to_string(row));

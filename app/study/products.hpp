@@ -1,4 +1,4 @@
-// Grids and samples of a study: several keys at once, in every combination of their values or drawn at random.
+// Grids and samples of a study: several keys together, in all combinations of their values or drawn at random.
 #pragma once
 
 #include "app/study/sweep.hpp"
@@ -9,8 +9,8 @@ namespace voussoir {
 // Both give a sweep without name, scene and overrides. Throw SceneError.
 Sweep read_grid(const Subject& table);
 
-// A value is drawn by seed, row and key alone, with the same bits on every platform: a row does not depend on how many
-// there are, on the other keys, or on who asks for it.
+// A value is drawn from seed, row and key alone, with the same bits on every platform: a row does not depend on the
+// number of rows, on the other keys, or on the process that draws it.
 Sweep read_sample(const Subject& table);
 
 }  // namespace voussoir

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// what a run shares with all that are the same up to the end of a stage, what they record included
+// the input and recorded output that a run shares with all runs that are the same up to the end of a stage
 std::string shared_text(const StudyPlan& plan, const Sweep& sweep, const Scene& scene) {
   std::vector<std::string> names;
   for (const StageSpec& stage : scene.stages)

@@ -1,4 +1,4 @@
-// The runs that a plan asks for, one a row of study.csv, with what each is expected to cost.
+// The runs of a plan, one a row of study.csv, with the forecast cost of each.
 #pragma once
 
 #include <filesystem>
@@ -12,15 +12,15 @@ namespace voussoir {
 
 struct PlannedRow {
   int row = 0;      // in study.csv without extrapolations, from 1
-  double cost = 0;  // contact evaluations that are expected, within a factor of a few; of limit analysis blocks
-  StudyRun run;     // by the name of a digest of scene and program; `begin` is a name too
+  double cost = 0;  // forecast contact evaluations, within a factor of a few; for limit analysis the number of blocks
+  StudyRun run;     // named by a digest of scene and program; `begin` is a name too
 };
 
-// Every row in order. Reading them all first: a mistake in the last should not show after an hour. Throws SceneError,
+// Every row in order. All are read first: a mistake in the last must not appear after an hour. Throws SceneError,
 // BadInput.
 std::vector<PlannedRow> rows_of_plan(const StudyPlan& plan, const std::string& program_digest);
 
-// The runs that make what others begin with: of each the first row that needs it, up to the stage `until`.
+// The runs that make the initial states of others: for each the first row that needs it, up to the stage `until`.
 std::vector<StudyRun> generations_of(const std::vector<PlannedRow>& rows, const std::string& until);
 
 }  // namespace voussoir

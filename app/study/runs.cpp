@@ -28,10 +28,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// short beside the shortest run, long beside what it takes to look
+// short against the shortest run, long against the time of one check
 constexpr std::chrono::milliseconds time_between_looks{5};
 
-// s: a run that was asked to stop writes its checkpoint; one that hangs never will
+// s, in which a run that was asked to stop writes its checkpoint; a hanging one never does
 constexpr double patience = 10;
 
 constexpr std::uintmax_t longest_note = 1 << 20;  // bytes
@@ -40,10 +40,10 @@ constexpr int bad_input = static_cast<int>(ExitCode::bad_input);
 
 struct ActiveRun {
   const StudyRun* run;
-  std::optional<FileLock> lock;  // let go when the process has ended
+  std::optional<FileLock> lock;  // released when the process has ended
   std::unique_ptr<ChildProcess> process;
   bool resumed = false, too_long = false;
-  std::optional<double> asked_to_stop;  // s of its time when it was asked to stop
+  std::optional<double> asked_to_stop;  // s of its run time at which it was asked to stop
 };
 
 std::string last_line(const fs::path& file) {
@@ -55,7 +55,7 @@ std::string last_line(const fs::path& file) {
   return printable(last.starts_with(prefix) ? last.substr(prefix.size()) : last);
 }
 
-// a run holds its folder's lock as long as it lives
+// a run holds its folder's lock until it ends
 bool is_being_written(const fs::path& folder) {
   try {
     const ReadingLock lock(folder);
@@ -85,7 +85,7 @@ class Runs {
   // false: a signal stopped it
   bool go() {
     while (!active_.empty() || (!waiting_.empty() && !interruption())) {
-      // each at most once: what has to wait for another process goes behind the others
+      // each at most once: a run that must wait for another process moves to the end of the list
       for (std::size_t left = waiting_.size(); left > 0 && !interruption() && has_room(); --left) {
         const StudyRun* const next = waiting_.front();
         waiting_.pop_front();
@@ -131,13 +131,13 @@ class Runs {
         --total_;
         return true;
       }
-      if (options_.keeps(folder)) {  // since we looked
+      if (options_.keeps(folder)) {  // completed since the last check
         ++kept_;
         --total_;
         require_worth(run);
         return true;
       }
-      // of a worker that was killed: it is about to write its checkpoint
+      // the run of a killed worker: it is about to write its checkpoint
       if (is_being_written(folder) && orphaned_.try_emplace(run.name, Clock::now()).first->second +
                                               std::chrono::seconds(static_cast<int>(patience)) >
                                           Clock::now())
@@ -168,7 +168,7 @@ class Runs {
         {&run, std::move(lock), std::make_unique<ChildProcess>(arguments, messages_of(run)), resume, false, {}});
   }
 
-  // a study of something that no run yields ends with its first run instead of its last
+  // a study of a quantity that no run has ends with its first run instead of its last
   void require_worth(const StudyRun& run) {
     if (worth_ || !options_.doubt) return;
     const std::optional<std::string> doubt = options_.doubt(folder_of(run));
@@ -181,7 +181,7 @@ class Runs {
     ChildProcess& process = *active.process;
     if (const std::optional<ChildEnd> end = process.ended()) {
       took_ += process.seconds();
-      // a checkpoint that cannot be used is no reason to have no result
+      // with an unusable checkpoint the run starts again
       if (active.resumed && end->code == bad_input) {
         remove_checkpoints(folder_of(*active.run));
         waiting_.push_front(active.run);
@@ -227,15 +227,15 @@ class Runs {
   }
 
   RunsOptions options_;
-  std::map<std::string, std::string> failures_;        // by name of every different run
-  std::map<std::string, std::string> holders_;         // of those that are left to another process
-  std::map<std::string, Clock::time_point> orphaned_;  // since when their own lock was found held
+  std::map<std::string, std::string> failures_;        // by name of each different run
+  std::map<std::string, std::string> holders_;         // of runs that are left to another process
+  std::map<std::string, Clock::time_point> orphaned_;  // time since which their own lock was found held
   std::deque<const StudyRun*> waiting_;
   std::vector<ActiveRun> active_;
   std::size_t total_ = 0, done_ = 0;
   int kept_ = 0;
-  bool worth_ = false;  // some run has what is sought
-  double took_ = 0;     // s, of all that are done
+  bool worth_ = false;  // some run has the quantity
+  double took_ = 0;     // s, of all completed runs
   bool watched_ = !options_.quiet && ::isatty(STDERR_FILENO);
   Clock::time_point shown_{};
 };

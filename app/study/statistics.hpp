@@ -1,4 +1,4 @@
-// What a sample of results tells of what it was drawn from.
+// Statistics of a sample of results.
 #pragma once
 
 #include <optional>
@@ -8,24 +8,24 @@ namespace voussoir {
 
 struct Share {
   int of = 0, count = 0;     // count of `of`
-  double low = 0, high = 1;  // of the share that they were drawn with
+  double low = 0, high = 1;  // confidence interval of the underlying share
 };
 
 inline constexpr double sample_confidence = 0.95;
 
-// The interval of Clopper & Pearson (1934): at least `confidence` of such intervals hold the true share, whatever it
-// is. 0 <= count <= of, of > 0.
+// The interval of Clopper & Pearson (1934): at least the fraction `confidence` of such intervals contains the true
+// share. 0 <= count <= of, of > 0.
 Share share_with_interval(int count, int of, double confidence = sample_confidence);
 
-// The same where some of those that were not counted may belong to them: an interval that holds the share of at least
-// `confidence`, whichever do.
+// The same if some of the others may belong to those counted: an interval that contains the share with at least
+// `confidence`, whichever of them do.
 Share share_with_undecided(int count, int undecided, int of, double confidence = sample_confidence);
 
 struct Bin {
   double from = 0, to = 0;
   int count = 0;
 };
-// bins of equal width over all results, about the root of their number of them, at most 40
+// bins of equal width over all results; their number is about the root of the number of results, at most 40
 std::vector<Bin> histogram_of(const std::vector<double>& results);
 
 }  // namespace voussoir

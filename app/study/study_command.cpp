@@ -30,7 +30,7 @@ struct AllStudyArguments {
   std::vector<fs::path> folders;
 };
 
-// a study whose folder is held by this process alone
+// a study whose folder is locked by this process
 struct PlannedStudy {
   ClaimedFolder claim;
   StudyFolder study;
@@ -51,11 +51,11 @@ PlannedStudy plan_study(const fs::path& file, const fs::path& out, bool overwrit
   return {std::move(claim), read_study_folder(out)};
 }
 
-// The first of the parts: what is to be run, with its input, into a folder. Then come work.hpp and gather.hpp.
+// The first part: the planned runs, with their input, into a folder. Then come work.hpp and gather.hpp.
 ExitCode study_plan_command(const StudyArguments& arguments) {
   const PlannedStudy planned = plan_study(arguments.plan, arguments.out, arguments.overwrite);
   const std::size_t rows = planned.study.rows.size();
-  fmt::print("{0} rows planned: {1}/manifest.jsonl; do them with 'voussoir study run {1}'\n", rows,
+  fmt::print("{0} rows planned: {1}/manifest.jsonl; run them with 'voussoir study run {1}'\n", rows,
              arguments.out.string());
   return ExitCode::done;
 }
@@ -83,12 +83,13 @@ void add_work(CLI::App* command, WorkOptions& work) {
 }
 
 void add_plan(CLI::App* command, StudyArguments& arguments) {
-  // of `voussoir study` itself, which has parts that are asked otherwise
+  // of `voussoir study` itself, whose parts have other options
   const auto optional = [](CLI::Option* option) { return option->check(plain_text()); };
   optional(command->add_option("plan", arguments.plan, "study.toml"))->type_name("FILE");
-  optional(command->add_option("--out", arguments.out, "folder of study.csv; what it holds of this study is kept"))
+  optional(
+      command->add_option("--out", arguments.out, "folder of study.csv; completed runs of this study in it are kept"))
       ->type_name("FOLDER");
-  command->add_flag("--overwrite", arguments.overwrite, "replace what the folder holds of anything but a study");
+  command->add_flag("--overwrite", arguments.overwrite, "replace the results of other commands in the folder");
 }
 
 void require_plan(const StudyArguments& arguments) {
@@ -97,7 +98,7 @@ void require_plan(const StudyArguments& arguments) {
 }
 
 void add_study_parts(CLI::App* study, AllStudyArguments& all, Action& action) {
-  CLI::App* plan = study->add_subcommand("plan", "write down what is to be run, with its input, and run nothing");
+  CLI::App* plan = study->add_subcommand("plan", "write the list of runs and copy their input, without running");
   add_plan(plan, all.study);
   plan->callback([&] {
     require_plan(all.study);
@@ -105,23 +106,27 @@ void add_study_parts(CLI::App* study, AllStudyArguments& all, Action& action) {
   });
 
   WorkArguments& work = all.work;
-  CLI::App* run = study->add_subcommand("run", "do what is not done of a planned study, beside others that do so");
-  run->add_option("folder", work.folder, "of the study")->required()->check(plain_text())->type_name("FOLDER");
-  run->add_option("--rows", work.rows, "only these, e.g. 120-139,7 (default: all)")->check(plain_text());
+  CLI::App* run = study->add_subcommand(
+      "run", "execute the missing runs of a planned study, alone or together with other processes");
+  run->add_option("folder", work.folder, "folder of the study")->required()->check(plain_text())->type_name("FOLDER");
+  run->add_option("--rows", work.rows, "only these rows, e.g. 120-139,7 (default: all)")->check(plain_text());
   run->add_option("--chunk", work.chunk, "k/n: the k-th of n shares of them, of about equal cost")->check(plain_text());
   add_work(run, work.options);
-  run->add_flag("--any-program", work.any_program, "work at a study that another program has planned");
+  run->add_flag("--any-program", work.any_program, "accept a study that another program has planned");
   run->callback([&] { action = [&] { return study_run_command(all.work); }; });
 
-  CLI::App* gather = study->add_subcommand("gather", "write study.csv, and name rows that are missing or differ");
-  gather->add_option("folders", all.folders, "of the study and of copies that others worked at")
+  CLI::App* gather = study->add_subcommand("gather", "write study.csv, and list rows that are missing or differ");
+  gather->add_option("folders", all.folders, "folder of the study, and of copies that other processes worked at")
       ->required()
       ->check(plain_text())
       ->type_name("FOLDER");
   gather->callback([&] { action = [&] { return study_gather_command(all.folders); }; });
 
-  CLI::App* status = study->add_subcommand("status", "what is done, going on, failed and missing");
-  status->add_option("folder", work.folder, "of the study")->required()->check(plain_text())->type_name("FOLDER");
+  CLI::App* status = study->add_subcommand("status", "list rows that are done, running, failed and missing");
+  status->add_option("folder", work.folder, "folder of the study")
+      ->required()
+      ->check(plain_text())
+      ->type_name("FOLDER");
   status->callback([&] { action = [&] { return study_status_command(all.work.folder); }; });
 }
 
@@ -140,7 +145,7 @@ void add_study(CLI::App& program, Action& action) {
   command->callback([owned, &action, command] {
     if (!command->get_subcommands().empty()) {
       for (const CLI::Option* option : command->get_options())
-        if (option->count() > 0) throw CLI::ExtrasError({option->get_name() + " (it belongs behind the part's name)"});
+        if (option->count() > 0) throw CLI::ExtrasError({option->get_name() + " (state it after the part's name)"});
       return;
     }
     require_plan(owned->study);

@@ -5,8 +5,8 @@
 
 namespace voussoir {
 
-// runs a scene as it is and with one setting changed at a time, in processes side by side; writes study.csv. What was
-// done before is kept while scene and program are the same.
+// runs a scene as it is and with one setting changed at a time, in parallel processes; writes study.csv. Completed
+// runs are kept as long as scene and program are the same.
 void add_study(CLI::App& program, Action& action);
 
 }  // namespace voussoir

@@ -1,4 +1,4 @@
-// What may happen to a study that is done in parts: rows, folders, workers and plans that fail, and kills.
+// Faults of a study that is run in parts: rows, folders, workers and plans that fail, and kills.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -13,13 +13,13 @@ namespace fs = std::filesystem;
 
 using StudyFaults = PlannedStudy;
 
-// ---- what goes wrong ----------------------------------------------------------------------------------------------
+// ---- failures -----------------------------------------------------------------------------------------------------
 
 TEST_F(StudyFaults, ARowThatDivergesIsAFailureOfItsOwn) {
   write("study.toml", R"(
 scene = "scene.toml"
 quantity = "top_displacement_z"
-set = ["damping.statics=local"]
+set = ["statics=local"]
 [[sweep]]
 name = "time step"
 key = "time.step_s"
@@ -38,7 +38,7 @@ values = [1e-4, 100, 2e-4]
   EXPECT_NE(status.find("3 of 4 rows done\nfailed: row 3: "), std::string::npos) << status;
   EXPECT_NE(status.find("failed: 3\nmissing: none\n"), std::string::npos) << status;
 
-  // all in one says the same
+  // the same as in one command
   EXPECT_EQ(study({at("study.toml"), "--out", at("whole")}).code, 1);
   EXPECT_EQ(table("whole"), table("out"));
 }
@@ -65,7 +65,7 @@ TEST_F(StudyFaults, AFolderThatMustNotBeWrittenIsSeven) {
   EXPECT_EQ(study({"run", out}).code, 0) << "nothing was lost";
 }
 
-// a limit on the size of files is met as a full disk is
+// a limit on the size of files acts as a full disk
 TEST_F(StudyFaults, AFullDiskLosesNothing) {
   const std::string whole = whole_table(), out = planned("out");
   EXPECT_EQ(study({"run", out, "--rows", "1-3"}).code, 0);
@@ -94,10 +94,10 @@ TEST_F(StudyFaults, ARowHasOneWorkerAtATime) {
   EXPECT_NE(second.out.find("43 rows, 0 failed\n"), std::string::npos) << second.out;
   const std::string status =
       Process(VOUSSOIR_PROGRAM, {.arguments = {"study", "status", out}}, at("second")).wait().out;
-  EXPECT_TRUE(status.starts_with("42 of 43 rows done\ngoing on: 5 by " + name)) << status;
+  EXPECT_TRUE(status.starts_with("42 of 43 rows done\nrunning: 5 by " + name)) << status;
   EXPECT_TRUE(status.ends_with("missing: none\n")) << status;
 
-  // who works at it keeps others from planning it again
+  // a worker prevents others from planning the study again
   expect_one_line(
       Process(VOUSSOIR_PROGRAM, {.arguments = {"study", "plan", at("study.toml"), "--out", out}}, at("second")).wait(),
       3, "in use by process ");
@@ -108,12 +108,12 @@ TEST_F(StudyFaults, ARowHasOneWorkerAtATime) {
   EXPECT_EQ(table("out"), whole);
 }
 
-TEST_F(StudyFaults, AWorkerThatIsAskedToStopGoesOnLater) {
+TEST_F(StudyFaults, AWorkerThatIsAskedToStopContinuesLater) {
   const std::string whole = whole_table(), out = planned("out");
   Process worker = start({.arguments = {"study", "run", out, "--jobs", "2"}});
   ASSERT_TRUE(wait_until([&] { return !children_of(worker.pid()).empty(); }));
   worker.send(SIGTERM);
-  expect_one_line(worker.wait(), 128 + SIGTERM, "the same command continues with what is done in '" + out + "'");
+  expect_one_line(worker.wait(), 128 + SIGTERM, "the same command continues with the completed runs in '" + out + "'");
   EXPECT_EQ(study({"status", out}).out.find("failed"), std::string::npos) << "an interruption is no failure";
   EXPECT_EQ(study({"run", out}).code, 0);
   EXPECT_EQ(study({"gather", out}).code, 0);
@@ -134,21 +134,21 @@ TEST_F(StudyFaults, AByteThatDiffersFromThePlanIsRefused) {
           nlohmann::json::parse(bytes) == nlohmann::json::parse(whole))
         continue;  // of its layout
       for (const char* part : {"run", "gather", "status"})
-        expect_one_line(study({part, out}), 2, fmt::format("'{}/{}' is not what was planned", out, name),
+        expect_one_line(study({part, out}), 2, fmt::format("'{}/{}' differs from the plan", out, name),
                         fmt::format("byte {} ", at));
     }
     write(std::string("out/") + name, whole);
   }
   EXPECT_FALSE(fs::exists(out + "/runs"));
   fs::remove(out + "/manifest.jsonl");
-  expect_one_line(study({"run", out}), 2, "manifest.jsonl' is not what was planned");
-  expect_one_line(study({"run", at("nowhere")}), 2, "holds no study: plan one with");
+  expect_one_line(study({"run", out}), 2, "manifest.jsonl' differs from the plan");
+  expect_one_line(study({"run", at("nowhere")}), 2, "contains no study: plan one with");
   EXPECT_FALSE(fs::exists(folder_ / "nowhere"));
 }
 
-TEST_F(StudyFaults, AnotherProgramIsRefusedUnlessAskedFor) {
+TEST_F(StudyFaults, AnotherProgramIsRefusedUnlessRequested) {
   const std::string whole = whole_table(), out = planned("out");
-  // what stands behind a program's end changes nothing of what it does
+  // bytes after a program's end do not change its behaviour
   const std::string other = write("other", read(VOUSSOIR_PROGRAM) + "!");
   fs::permissions(other, fs::perms(0755));
   Launch launch{.arguments = {"study", "run", out}};
@@ -170,7 +170,7 @@ TEST_F(StudyFaults, AnotherProgramIsRefusedUnlessAskedFor) {
 
 class StudyKills : public PlannedStudy {
  protected:
-  // Kills workers, and now and then the runs of one before it, at random moments; what is left is done in peace.
+  // Kills workers, and sometimes the runs of one before it, at random moments; the rest runs undisturbed.
   void survive_kills(int kills) const {
     const std::string whole = whole_table();
     std::mt19937 random(20);
@@ -186,7 +186,7 @@ class StudyKills : public PlannedStudy {
           std::this_thread::sleep_for(std::chrono::milliseconds(random() % 20));
         }
         worker.send(SIGKILL);
-        goes_on = worker.wait().signal == SIGKILL;  // else nothing was left to do
+        goes_on = worker.wait().signal == SIGKILL;  // else all runs were done
         killed += goes_on;
       }
       const Ended ended = study({"run", out});
@@ -197,7 +197,7 @@ class StudyKills : public PlannedStudy {
     }
   }
 
-  // what of a run says something is that of the run that nothing disturbed
+  // the results of a run are those of the undisturbed run
   void expect_whole_rows(const std::string& out) const {
     const Contents disturbed = contents_of(out + "/runs");
     int compared = 0;

@@ -1,4 +1,4 @@
-// `voussoir study` in parts: planned once, done by any number of processes, gathered to the same file.
+// `voussoir study` in parts: planned once, run by any number of processes, gathered into the same file.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TEST(RowRanges, GoForthAndBack) {
+TEST(RowRanges, RoundTrip) {
   for (const char* text : {"1", "1-3", "1-3,7", "2,4,6-9"})
     EXPECT_EQ(ranges_of_rows(rows_of_ranges(text, 9)), text);
   EXPECT_EQ(ranges_of_rows(rows_of_ranges("7,1-2,3-3,2", 9)), "1-3,7");
@@ -29,13 +29,13 @@ TEST(RowRanges, GoForthAndBack) {
     EXPECT_THROW(chunk_of(text), BadInput) << text;
 }
 
-// the example of the algorithm's own documentation: XXH3 with 128 bits of nothing
+// the example of the algorithm's documentation: XXH3 with 128 bits of the empty string
 TEST(Digest, IsThatOfTheLibrary) {
   EXPECT_EQ(digest(""), "99aa06d3014798d86001c324468d497f");
   EXPECT_NE(digest("a"), digest("b"));
 }
 
-TEST_F(PlannedStudy, TheManifestHasEachRowOnceDearestFirst) {
+TEST_F(PlannedStudy, TheManifestHasEachRowOnceMostExpensiveFirst) {
   const std::string out = planned("out");
   std::istringstream stream(read(out + "/manifest.jsonl"));
   std::vector<int> numbers;
@@ -60,7 +60,7 @@ TEST_F(PlannedStudy, TheManifestHasEachRowOnceDearestFirst) {
   EXPECT_FALSE(fs::exists(out + "/runs"));
 }
 
-TEST_F(PlannedStudy, OneProcessAndChunksAtOnceGiveTheSameFile) {
+TEST_F(PlannedStudy, OneProcessAndConcurrentChunksGiveTheSameFile) {
   const std::string whole = whole_table();
 
   const std::string one = planned("one");
@@ -101,7 +101,7 @@ TEST_F(PlannedStudy, OneProcessAndChunksAtOnceGiveTheSameFile) {
 // examples/cluster, run by a shell that finds the program by its name
 class ClusterExamples : public PlannedStudy {
  protected:
-  // what it said; nothing: all went well
+  // its output; empty: it succeeded
   std::string complaint(const std::string& command) const {
     const std::string line = fmt::format("cd '{}' && PATH='{}':\"$PATH\" {} >said 2>&1 </dev/null", folder_.string(),
                                          fs::path(VOUSSOIR_PROGRAM).parent_path().string(), command);
@@ -131,7 +131,7 @@ TEST_F(ClusterExamplesLong, SnakemakeGivesTheSameFile) {
   EXPECT_EQ(complaint(command), "");
   EXPECT_EQ(table("a folder"), whole);
 
-  // what is there stays; what is lost is done again, alone
+  // existing runs stay; only lost ones are repeated
   const fs::file_time_type before = fs::last_write_time(run_of("a folder", 8) / "results.json");
   fs::remove_all(run_of("a folder", 7));
   fs::remove_all(folder_ / "a folder.shares");
@@ -140,18 +140,18 @@ TEST_F(ClusterExamplesLong, SnakemakeGivesTheSameFile) {
   EXPECT_EQ(fs::last_write_time(run_of("a folder", 8) / "results.json"), before);
 }
 
-TEST_F(PlannedStudy, StatusAndGatherNameWhatIsMissing) {
+TEST_F(PlannedStudy, StatusAndGatherListMissingRows) {
   const std::string whole = whole_table(), out = planned("out");
   EXPECT_EQ(study({"status", out}).out, "0 of 43 rows done\nmissing: 1-43\n");
   EXPECT_EQ(study({"run", out, "--rows", "3-12,20,40-43"}).code, 0);
   EXPECT_EQ(study({"status", out}).out, "15 of 43 rows done\nmissing: 1-2,13-19,21-39\n");
-  // two more are the first by other names
+  // two more rows are the first by other names
   EXPECT_EQ(study({"run", out, "--rows", "1"}).code, 0);
   const std::string missing = "13-19,21-31,33-39";
   EXPECT_EQ(study({"status", out}).out, "18 of 43 rows done\nmissing: " + missing + "\n");
   const Ended short_of = study({"gather", out});
   EXPECT_EQ(short_of.code, 1);
-  EXPECT_NE(short_of.out.find("missing: " + missing + "; do them with 'voussoir study run " + out), std::string::npos)
+  EXPECT_NE(short_of.out.find("missing: " + missing + "; run them with 'voussoir study run " + out), std::string::npos)
       << short_of.out;
   EXPECT_NE(
       table("out").find("stiffness,joint_properties.rock.normal_stiffness,220000000,,top_displacement_z,,,,missing"),
@@ -166,7 +166,7 @@ TEST_F(PlannedStudy, StatusAndGatherNameWhatIsMissing) {
   EXPECT_EQ(table("out"), whole);
 }
 
-TEST_F(PlannedStudy, CopiesThatWorkedApartAreGathered) {
+TEST_F(PlannedStudy, CopiesThatRanSeparatelyAreGathered) {
   const std::string whole = whole_table(), first = planned("first"), second = at("second");
   fs::copy(first, second, fs::copy_options::recursive);
   EXPECT_EQ(study({"run", first, "--rows", "1-24"}).code, 0);
@@ -176,7 +176,7 @@ TEST_F(PlannedStudy, CopiesThatWorkedApartAreGathered) {
   EXPECT_EQ(both.code, 0) << both.out << both.err;
   EXPECT_EQ(table("first"), whole);
 
-  // the clock may differ, and what names the folder; nothing else
+  // only the clock and the folder's name may differ
   const fs::path results = run_of("second", 24) / "results.json";
   nlohmann::ordered_json json = nlohmann::ordered_json::parse(read(results));
   json["timing"]["seconds"] = 1e6;
@@ -195,21 +195,21 @@ TEST_F(PlannedStudy, CopiesThatWorkedApartAreGathered) {
 
   std::string other = study_plan;
   write("study.toml", other.replace(other.find("1.1e8"), 5, "1.15e8"));
-  expect_one_line(study({"gather", first, planned("third")}), 2, "holds another study than");
+  expect_one_line(study({"gather", first, planned("third")}), 2, "contains another study than");
 }
 
 // ---- the C library's functions --------------------------------------------------------------------------------------
 
-TEST(PortableMath, IsAskedForBesideWhatIsStated) {
+TEST(PortableMath, IsAddedToTheStatedTunables) {
   EXPECT_EQ(with_portable_math(""), "glibc.cpu.hwcaps=-FMA,-FMA4");
   EXPECT_EQ(with_portable_math("glibc.malloc.check=3"), "glibc.malloc.check=3:glibc.cpu.hwcaps=-FMA,-FMA4");
   EXPECT_EQ(with_portable_math("glibc.cpu.hwcaps=-AVX2:glibc.malloc.check=3"),
             "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4:glibc.malloc.check=3");
   for (const char* text : {"", "a=1", "glibc.cpu.hwcaps=-AVX2", "a=1:glibc.cpu.hwcaps=-AVX2:b=2"})
-    EXPECT_EQ(with_portable_math(with_portable_math(text)), with_portable_math(text)) << "asked for twice";
+    EXPECT_EQ(with_portable_math(with_portable_math(text)), with_portable_math(text)) << "requested twice";
 }
 
-// on a processor with fused multiply-adds; one without is what glibc's tunable makes of it
+// on a processor with fused multiply-adds; glibc's tunable makes it act as one without
 class OtherProcessor : public PlannedStudy {
  protected:
   static constexpr int rows = 6;
@@ -259,14 +259,14 @@ TEST_F(OtherProcessor, GatherNamesItAndWarns) {
                               there_functions + "\n"),
             std::string::npos)
       << gathered.out;
-  expect_one_line(gathered, 0, "warning: these rows were computed with 2 kinds of the C library's functions");
+  expect_one_line(gathered, 0, "warning: these rows were computed with 2 variants of the C library's functions");
 
-  // it matters: the same rows differ
+  // the effect is real: the same rows differ
   const std::string whole = planned("whole");
   EXPECT_EQ(study({"run", whole}).code, 0);
   const Ended both = study({"gather", whole, halves});
   EXPECT_EQ(both.code, 1);
-  EXPECT_NE(both.out.find("' differ, and so does what computed them\n"), std::string::npos) << both.out;
+  EXPECT_NE(both.out.find("' differ, and so do the programs that computed them\n"), std::string::npos) << both.out;
   EXPECT_NE(both.out.find("\nrows 1-6 computed by"), std::string::npos) << both.out;
   EXPECT_EQ(both.err, "");
 }
@@ -311,11 +311,11 @@ TEST_F(OtherProcessor, ARowThatMovesThereNamesBoth) {
   const Ended gathered = study({"gather", out});
   EXPECT_NE(gathered.out.find("; and in part by the program that planned them, math functions "), std::string::npos)
       << gathered.out;
-  EXPECT_NE(gathered.err.find("with 2 kinds"), std::string::npos) << gathered.err;
+  EXPECT_NE(gathered.err.find("with 2 variants"), std::string::npos) << gathered.err;
 }
 
-// the first that needs it makes what rows begin with; the others wait for it
-TEST_F(PlannedStudy, WorkersShareWhatRowsBeginWith) {
+// the first row that needs an initial state makes it; the others wait for it
+TEST_F(PlannedStudy, WorkersShareInitialStates) {
   write("tunnel.toml", read(fs::path(VOUSSOIR_SOURCE_DIR) / "app/testing/tunnel.toml"));
   write("study.toml", R"(
 scene = "tunnel.toml"
@@ -343,7 +343,7 @@ values = [1e6, 3e7, 1e8]
   EXPECT_EQ(std::distance(fs::directory_iterator(out + "/runs"), fs::directory_iterator()), 4 + 1);
 }
 
-TEST_F(PlannedStudy, PartsAreAskedStrictly) {
+TEST_F(PlannedStudy, OptionsOfPartsAreCheckedStrictly) {
   const std::string out = planned("out");
   const auto refuse = [&](std::vector<std::string> arguments, const std::string& part) {
     expect_one_line(study(std::move(arguments)), 2, part);
@@ -359,8 +359,8 @@ TEST_F(PlannedStudy, PartsAreAskedStrictly) {
   EXPECT_FALSE(fs::exists(out + "/runs"));
 }
 
-// a scene elsewhere, with a base and a table beside it, is copied with all that it reads; a link among them is refused
-TEST_F(PlannedStudy, TheInputIsCopiedWithAllThatItReads) {
+// a scene in another folder, with a base and a table, is copied with all files it reads; a link among them is refused
+TEST_F(PlannedStudy, TheInputIsCopiedWithAllFilesItReads) {
   fs::create_directories(folder_ / "rock/common");
   fs::create_directories(folder_ / "studies");
   std::string scene = read(folder_ / "scene.toml");

@@ -1,4 +1,4 @@
-// [[grid]] and [[sample]] of a study: what is drawn, what is told of it, and that neither depends on who asks when.
+// [[grid]] and [[sample]] of a study: draws and statistics, and their independence of order and process.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,8 +26,8 @@ double at_most(int k, int n, double p) {
   return sum;
 }
 
-// the ends are the shares at which what was counted has 2.5 % on either side
-TEST(ShareFailed, IsEnclosedAsClopperAndPearsonSay) {
+// at the ends of the interval the count has a probability of 2.5 % on either side
+TEST(ShareFailed, HasTheIntervalOfClopperAndPearson) {
   for (const auto& [count, of] : {std::pair{1, 5}, {3, 20}, {37, 200}, {199, 200}, {500, 1000}}) {
     const Share share = share_with_interval(count, of);
     EXPECT_NEAR(1 - at_most(count - 1, of, share.low), 0.025, 1e-9) << count << " of " << of;
@@ -71,7 +71,7 @@ class StudySample : public Program {
     return numbers;
   }
 
-  // largest distance of the distribution of what was drawn from the law's own, times the root of the number
+  // largest distance of the empirical distribution from the stated one, times the root of the number of draws
   static double kolmogorov(std::vector<double> numbers, const std::function<double(double)>& law) {
     std::sort(numbers.begin(), numbers.end());
     const auto n = static_cast<double>(numbers.size());
@@ -86,14 +86,14 @@ class StudySample : public Program {
   std::vector<std::string> table(const std::string& file) const { return lines_of(read(folder_ / file)); }
 };
 
-// 1.95: exceeded by one of a thousand samples of the law itself
+// 1.95: exceeded by one of a thousand samples of the distribution itself
 TEST_F(StudySample, DrawsFollowTheirLaws) {
   constexpr int rows = 20'000;
   const auto normal = [](double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); };
   EXPECT_LT(kolmogorov(drawn("law = \"normal\", mean = 40, deviation = 3", rows),
                        [&](double x) { return normal((x - 40) / 3); }),
             1.95);
-  const double variance = std::log(1 + 0.25);  // of the logarithm, where the deviation is half the mean
+  const double variance = std::log(1 + 0.25);  // of the logarithm, if the deviation is half the mean
   EXPECT_LT(kolmogorov(drawn("law = \"lognormal\", mean = 8, deviation = 4", rows),
                        [&](double x) { return normal((std::log(x / 8) + variance / 2) / std::sqrt(variance)); }),
             1.95);
@@ -120,12 +120,12 @@ TEST_F(StudySample, ARowDependsOnSeedRowAndKeyAlone) {
   EXPECT_TRUE(std::equal(few.begin(), few.end(), all.begin()));
   for (std::size_t k = 0; k < all.size(); ++k)
     EXPECT_NE(all[k], other[k]);
-  // on no platform anything else
+  // the same on every platform
   EXPECT_EQ(fmt::format("{} {}", all[0], all[99]), "41.25250829412459 41.06394523518532");
   double products = 0;
   for (std::size_t k = 0; k + 1 < all.size(); ++k)
     products += (all[k] - 40) * (all[k + 1] - 40) / 9;
-  EXPECT_LT(std::abs(products) / std::sqrt(99.0), 4) << "rows beside each other are independent";
+  EXPECT_LT(std::abs(products) / std::sqrt(99.0), 4) << "neighbouring rows are independent";
 }
 
 const char* const sample = R"(
@@ -155,7 +155,7 @@ TEST_F(StudySample, IsTheSameInAnyOrderAndChunk) {
   for (const char* name : {"sample_1.csv", "sample_1.json", "sample_1.svg"})
     EXPECT_EQ(read(folder_ / "out" / name), read(folder_ / "whole" / name)) << name;
 
-  // statics of one block: weight over stiffness, so that every row can be judged
+  // statics of one block: weight over stiffness, so that every row can be verified
   const std::vector<std::string> rows = table("whole/sample_1.csv");
   ASSERT_EQ(rows.size(), 25u);
   EXPECT_EQ(rows[0],
@@ -227,7 +227,7 @@ keys = [{ key = "density", values = [1000, 2000], unit = "kg/m3" },
         { key = "joint_properties.rock.normal_stiffness", values = [1e8, 2e8, 4e8] }]
 [[grid]]
 name = "three"
-keys = [{ key = "damping.statics", values = ["local", "adaptive"] },
+keys = [{ key = "statics", values = ["local", "adaptive"] },
         { key = "density", values = [1000, 2000] },
         { key = "joint_properties.rock.normal_stiffness", values = [1e8, 2e8] }]
 )";
@@ -256,14 +256,14 @@ TEST_F(StudySample, AGridIsEveryCombination) {
   for (const char* name : {"grid_1.svg", "grid_2_1.svg", "grid_2_2.svg"})
     EXPECT_TRUE(read(folder_ / "out" / name).ends_with("</svg>\n")) << name;
   EXPECT_FALSE(fs::exists(folder_ / "out/grid_2.svg"));
-  EXPECT_NE(read(folder_ / "out/grid_2_1.svg").find("three, damping.statics = local"), std::string::npos);
+  EXPECT_NE(read(folder_ / "out/grid_2_1.svg").find("three, statics = local"), std::string::npos);
   const std::string csv = read(folder_ / "out/study.csv");
-  EXPECT_NE(csv.find("three,\"damping.statics, density, joint_properties.rock.normal_stiffness\",\"adaptive, 1000, "
+  EXPECT_NE(csv.find("three,\"statics, density, joint_properties.rock.normal_stiffness\",\"adaptive, 1000, "
                      "200000000\",,top_displacement_z,"),
             std::string::npos)
       << csv;
 
-  // what is not asked for any more is gone
+  // files that are no longer requested are removed
   std::string fewer = grid;
   write("study.toml", fewer.substr(0, fewer.find("[[grid]]\nname = \"three\"")));
   ASSERT_EQ(run("study study.toml --out out").code, 0);
@@ -282,7 +282,7 @@ TEST_F(StudySample, BothAreReadStrictly) {
   refuse(sample, "rows = 24", "", "rows");
   refuse(sample, "seed = 5", "seed = 1.5", "whole number");
   refuse(sample, "\"lognormal\"", "\"weibull\"", "must be one of");
-  refuse(sample, "mean = 1e8, ", "", "must be a number where law = \"lognormal\"");
+  refuse(sample, "mean = 1e8, ", "", "must be a number if law = \"lognormal\"");
   refuse(sample, "mean = 1e8", "mean = -1", "must be above 0");
   refuse(sample, "deviation = 3e7", "deviation = -3", "below 0");
   refuse(sample, "most = 2200", "most = 1000", "must be above least");
@@ -294,7 +294,7 @@ TEST_F(StudySample, BothAreReadStrictly) {
   refuse(sample, "{ below = -2e-4 }", "{ below = 1, above = 2 }", "must be a table { below");
   refuse(sample, "{ below = -2e-4 }", "{}", "must be a table { below");
   refuse(sample, "\"density\"", "\"densty\"", "densty");
-  refuse(grid, "values = [1000, 2000], ", "values = [1000], ", "two at least");
+  refuse(grid, "values = [1000, 2000], ", "values = [1000], ", "at least two");
   refuse(grid, "[{ key = \"density\", values = [1000, 2000], unit = \"kg/m3\" },", "[", "two or three");
   refuse(grid, "[[grid]]", "[grid]", "");
 }

@@ -1,4 +1,4 @@
-// `voussoir study` as its users meet it: settings in, study.csv out, whatever happens to single runs.
+// `voussoir study` as users see it: settings in, study.csv out, even if single runs fail.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -42,7 +42,7 @@ TEST_F(Study, HasARowForEverySetting) {
   write("study.toml", plan);
   const Ended ended = run("study study.toml --out out");
   EXPECT_EQ(ended.code, 0) << ended.err;
-  EXPECT_EQ(ended.err, "") << "no progress where nobody watches";
+  EXPECT_EQ(ended.err, "") << "no progress without a terminal";
   EXPECT_NE(ended.out.find("4 settings, 0 failed: out/study.csv\n2 different runs, 0 of them kept from before\n"),
             std::string::npos)
       << ended.out;
@@ -66,7 +66,7 @@ TEST_F(Study, HasARowForEverySetting) {
   EXPECT_NEAR(std::stod(cell), -3e-4, 1e-8);
 }
 
-TEST_F(Study, AsManyJobsAsWantedGiveTheSameBytes) {
+TEST_F(Study, AnyNumberOfJobsGivesTheSameBytes) {
   write("study.toml", R"(
 scene = "scene.toml"
 quantity = "top_displacement_z"
@@ -76,7 +76,7 @@ key = "joint_properties.rock.normal_stiffness"
 values = [1e8, 2e8, 4e8, 3e8]
 [[sweep]]
 name = "damping"
-key = "damping.statics"
+key = "statics"
 values = ["local", "adaptive"]
 )");
   ASSERT_EQ(run("study study.toml --out one --jobs 1").code, 0);
@@ -85,7 +85,42 @@ values = ["local", "adaptive"]
   EXPECT_EQ(rows("one").size(), 8u);
 }
 
-TEST_F(Study, KeepsWhatIsDone) {
+// Runs of one scene are the same runs, whichever names of keys the plan states.
+TEST_F(Study, TakesKeysByTheirEarlierNames) {
+  const std::string earlier = R"(
+scene = "scene.toml"
+quantity = "top_displacement_z"
+set = ["damping.increments=2"]
+[[sweep]]
+name = "statics"
+key = "damping.statics"
+values = ["local", "newton"]
+[[grid]]
+name = "both"
+keys = [{ key = "stage.settle.damping.statics", values = ["adaptive", "newton"] },
+        { key = "density", values = [1000, 2000] }]
+[[sample]]
+name = "drawn"
+rows = 2
+set = ["damping.statics=newton"]
+keys = [{ key = "density", law = "uniform", least = 1000, most = 2000 }]
+)";
+  std::string present = earlier;
+  for (const auto& [before, after] : {std::pair<std::string, std::string>{"damping.increments", "static_increments"},
+                                      std::pair<std::string, std::string>{"damping.statics", "statics"}})
+    for (auto at = present.find(before); at != std::string::npos; at = present.find(before))
+      present.replace(at, before.size(), after);
+  write("study.toml", earlier);
+  EXPECT_EQ(run("study study.toml --out out").code, 0);
+  const std::vector<std::string> rows = this->rows();
+  ASSERT_EQ(rows.size(), 10u);
+  write("study.toml", present);
+  const Ended ended = run("study study.toml --out out");
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_NE(ended.out.find("9 different runs, 9 of them kept from before"), std::string::npos) << ended.out;
+}
+
+TEST_F(Study, KeepsCompletedRuns) {
   const auto kept = [&](int different, int before) {
     const Ended ended = run("study study.toml --out out --jobs 2");
     EXPECT_EQ(ended.code, 0) << ended.err;
@@ -97,16 +132,16 @@ TEST_F(Study, KeepsWhatIsDone) {
   kept(2, 0);
   const std::string first = read(folder_ / "out/study.csv");
   kept(2, 2);
-  EXPECT_EQ(read(folder_ / "out/study.csv"), first) << "seconds and all";
+  EXPECT_EQ(read(folder_ / "out/study.csv"), first) << "the seconds included";
 
-  // another value is another run; the one that nobody asks for any more is forgotten
+  // another value is another run; the one that is no longer requested is removed
   text.replace(text.find("2e8"), 3, "3e8");
   write("study.toml", text);
   kept(2, 1);
   const auto folders = std::distance(fs::directory_iterator(folder_ / "out/runs"), fs::directory_iterator());
   EXPECT_EQ(folders, 2);
 
-  // a comment changes nothing, a number of the scene everything
+  // a comment changes no run, a number of the scene changes all
   const std::string scene = read(folder_ / "scene.toml");
   write("scene.toml", scene + "# no more\n");
   kept(2, 2);
@@ -116,7 +151,7 @@ TEST_F(Study, KeepsWhatIsDone) {
   write("scene.toml", denser);
   kept(2, 0);
 
-  // a run without its results is done again
+  // a run without its results is repeated
   fs::remove(fs::directory_iterator(folder_ / "out/runs")->path() / "results.json");
   kept(2, 1);
 }
@@ -142,7 +177,7 @@ set = ["damping.local=0.6"]
   EXPECT_NE(rows()[3].find(",ok,"), std::string::npos) << rows()[3];
 }
 
-TEST_F(Study, TakesAQuantityOutOfTheHistory) {
+TEST_F(Study, TakesAQuantityFromTheHistory) {
   std::string text = plan;
   text.replace(text.find("[[sweep]]"), 0,
                "history = { column = \"top_displacement_z_m\", take = \"smallest\", unit = \"m\" }\n");
@@ -152,7 +187,7 @@ TEST_F(Study, TakesAQuantityOutOfTheHistory) {
   EXPECT_NE(rows()[1].find(",m,ok,"), std::string::npos) << rows()[1];
 }
 
-TEST_F(Study, LeavesOutTheTrialsOfASearchThatWereTakenBack) {
+TEST_F(Study, LeavesOutRejectedTrialsOfASearch) {
   write("scene.toml", read(VOUSSOIR_SOURCE_DIR "/cases/wedge/scene.toml"));
   write("study.toml",
         "scene = \"scene.toml\"\nquantity = \"lowest\"\n"
@@ -173,7 +208,7 @@ TEST_F(Study, LeavesOutTheTrialsOfASearchThatWereTakenBack) {
     anywhere = std::min(anywhere, std::stod(friction));
     if (trial == "0") on_the_path = std::min(on_the_path, std::stod(friction));
   }
-  EXPECT_LT(anywhere, on_the_path) << "no trial was taken back: the test shows nothing";
+  EXPECT_LT(anywhere, on_the_path) << "no trial was rejected: the test shows nothing";
   std::istringstream cells(rows()[1]);
   std::string cell;
   for (int i = 0; i < 6; ++i)
@@ -181,7 +216,7 @@ TEST_F(Study, LeavesOutTheTrialsOfASearchThatWereTakenBack) {
   EXPECT_EQ(std::stod(cell), on_the_path) << rows()[1];
 }
 
-TEST_F(Study, AColumnIsFoundByItsWholeName) {
+TEST_F(Study, AColumnIsFoundByItsFullName) {
   std::string scene = read(folder_ / "scene.toml");
   scene += "[[monitors]]\nname = \"left,upper\"\nquantities = [\"displacement\"]\nabove = [\"bed\"]\n";
   write("scene.toml", scene);
@@ -196,7 +231,7 @@ TEST_F(Study, AColumnIsFoundByItsWholeName) {
   EXPECT_EQ(without_seconds("out"), without_seconds("plain"));
 }
 
-TEST_F(Study, OfWhatNoRunYieldsEndsWithItsFirstRun) {
+TEST_F(Study, OfAQuantityThatNoRunHasEndsWithItsFirstRun) {
   std::string text = plan;
   text.replace(text.find("top_displacement_z"), 18, "top_displacement_w");
   text.replace(text.find("[1e8, 2e8]"), 10, "[1.1e8, 1.2e8, 1.3e8, 1.4e8, 1.5e8, 1.6e8]");
@@ -220,7 +255,7 @@ TEST_F(Study, OfWhatNoRunYieldsEndsWithItsFirstRun) {
                   "no run has a column of history.csv 'w'; there are: time_s, ");
 }
 
-TEST_F(Study, ForgetsOnlyWhatAStudyMade) {
+TEST_F(Study, RemovesOnlyRunsOfAStudy) {
   std::string text = plan;
   write("study.toml", text);
   fs::create_directories(folder_ / "out/runs/thesis");
@@ -234,7 +269,7 @@ TEST_F(Study, ForgetsOnlyWhatAStudyMade) {
   std::ofstream(made[0] / "remarks.txt") << "mine";
   std::ofstream(made[1] / "remarks.txt") << "mine";
 
-  // another scene: both runs are forgotten, but not what lies beside them
+  // another scene: both runs are removed, but no other files in the folder
   write("scene.toml", read(folder_ / "scene.toml") + "[output]\nhistory_interval_s = 1\n");
   ASSERT_EQ(run("study study.toml --out out").code, 0);
   for (const fs::path& folder : made) {
@@ -245,7 +280,7 @@ TEST_F(Study, ForgetsOnlyWhatAStudyMade) {
   EXPECT_EQ(read(folder_ / "out/runs/notes.txt"), "mine");
 }
 
-// the first never rests; what ends it must not end the others
+// the first never reaches equilibrium; ending it must not end the others
 const char* const endless = R"(
 scene = "scene.toml"
 quantity = "top_displacement_z"
@@ -253,7 +288,7 @@ quantity = "top_displacement_z"
 name = "rest"
 key = "stage.settle.gravity_ramp_s"
 values = [1e8, 0]
-set = ["stage.settle.step_limit=1000000000000", "damping.statics=local"]
+set = ["stage.settle.step_limit=1000000000000", "statics=local"]
 )";
 
 TEST_F(Study, ARunThatHangsLosesOneSetting) {
@@ -349,7 +384,7 @@ stage = [{ name = "settle", kind = "settle" }]
     EXPECT_NEAR(numbers()[k], dips[k], 1e-5);
   EXPECT_NE(run("study study.toml --out out").out.find("3 of them kept"), std::string::npos);
 
-  // another question is another run, of one sweep alone too
+  // another analysis is another run, also for a single sweep
   write("study.toml",
         "scene = \"plane.toml\"\nquantity = \"factor_of_safety\"\nlimit = { factor = true }\n" + sweep +
             "[[sweep]]\nname = \"bonded\"\nkey = \"joints.A.dip\"\nvalues = [20]\nlimit = { factor = true, cohesion = "

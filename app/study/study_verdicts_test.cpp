@@ -1,4 +1,4 @@
-// What a study says of rows near its limit, of results that its runs did not write, and of keys that nothing uses.
+// Reports of a study on rows near its limit, on results that its runs did not write, and on keys without effect.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -67,7 +67,7 @@ std::string content(const Findings& findings, const std::string& name) {
   return "";
 }
 
-// the interval that holds the limit by its two ends alone
+// whether the interval contains the limit, from its two ends alone
 char judged(const Row& row, bool below, double limit) {
   if (!row.result) return '-';
   const double low = *row.result - row.bar.value_or(0), high = *row.result + row.bar.value_or(0);
@@ -76,12 +76,12 @@ char judged(const Row& row, bool below, double limit) {
   return *row.result > limit ? 'f' : 's';
 }
 
-TEST(RowsNearTheLimit, AreNeitherFailedNorStanding) {
+TEST(RowsNearTheLimit, AreNeitherFailedNorStable) {
   std::mt19937 random(9);
   std::uniform_real_distribution<double> uniform;
   int undecided_in_all = 0;
   for (int k = 0; k < 300; ++k) {
-    // halves and quarters, so that limits lie at ends of brackets too
+    // halves and quarters, so that limits are also at ends of brackets
     const bool below = random() % 2 == 0;
     const double limit = 0.25 * static_cast<double>(random() % 5);
     std::vector<Row> rows(2 * (1 + random() % 12));
@@ -140,7 +140,7 @@ TEST(RowsNearTheLimit, AreNeitherFailedNorStanding) {
       EXPECT_EQ(cell, verdict == 'f' ? "yes" : verdict == 's' ? "no" : verdict == '?' ? "undecided" : "") << text;
     }
 
-    // a map draws a cross or a ring into each of these, and one of either to explain it
+    // a map draws a cross or a ring into each of these, and one of each in the legend
     const Findings grid = findings_of(plan_of(Varied::grid, rows.size(), below, at), table_rows(rows));
     const std::string map = content(grid, "grid_1.svg");
     const auto times = [&](const std::string& part) {
@@ -195,7 +195,9 @@ TEST_F(StudyResults, AChangedValueIsRefusedWithItsRow) {
   json["values"]["top_displacement_z"]["value"] = -99;
   std::ofstream(results) << json.dump(2);
   const Ended gathered = study({"gather", out});
-  expect_one_line(gathered, 2, "row 3 (density: density = 1100): '" + results.string() + "' is not what its run wrote");
+  expect_one_line(
+      gathered, 2,
+      "row 3 (density: density = 1100): '" + results.string() + "' differs from the file that its run wrote");
   EXPECT_NE(gathered.err.find("'voussoir study run " + out + " --rows 3'"), std::string::npos) << gathered.err;
   EXPECT_EQ(table("out"), whole) << "nothing was written";
   EXPECT_NE(study({"status", out}).out.find("row 3 (density: density = 1100): '"), std::string::npos);
@@ -205,8 +207,8 @@ TEST_F(StudyResults, AChangedValueIsRefusedWithItsRow) {
   EXPECT_EQ(table("out"), whole);
 }
 
-// bytes changed, cut or taken away at random, of results and of histories: never a number that no run wrote
-TEST_F(StudyResults, NoByteIsBelievedThatTheRunDidNotWrite) {
+// bytes of results and histories changed, cut or removed at random: never a number that no run wrote
+TEST_F(StudyResults, ChangedBytesAreNeverAccepted) {
   std::mt19937 random(22);
   for (const char* plan : {few_rows, few_histories}) {
     const std::string out = done(plan), whole = table("out");
@@ -232,12 +234,12 @@ TEST_F(StudyResults, NoByteIsBelievedThatTheRunDidNotWrite) {
     EXPECT_NE(study({"status", out}).out.find("missing: 2\n"), std::string::npos) << study({"status", out}).out;
     EXPECT_EQ(study({"run", out}).code, 0);
     EXPECT_EQ(study({"gather", out}).code, 0);
-    EXPECT_EQ(table("out"), whole) << "done again";
+    EXPECT_EQ(table("out"), whole) << "repeated";
     fs::remove_all(out);
   }
 }
 
-TEST_F(StudyResults, WhatIsCutIsDoneAgainAndHashesToo) {
+TEST_F(StudyResults, TruncatedFilesAndHashesAreRepeated) {
   const std::string out = done(few_rows), whole = table("out");
   const fs::path run = run_of("out", 4);
   const std::string results = read(run / "results.json");
@@ -248,22 +250,22 @@ TEST_F(StudyResults, WhatIsCutIsDoneAgainAndHashesToo) {
     EXPECT_NE(gathered.out.find(fmt::format("row 4 (density: density = 1200): '{}' is damaged", (run / name).string())),
               std::string::npos)
         << gathered.out;
-    EXPECT_NE(gathered.out.find("missing: 4; do them with"), std::string::npos) << gathered.out;
+    EXPECT_NE(gathered.out.find("missing: 4; run them with"), std::string::npos) << gathered.out;
     EXPECT_EQ(study({"run", out}).code, 0);
     EXPECT_EQ(study({"gather", out}).code, 0);
     EXPECT_EQ(table("out"), whole);
   }
   fs::remove(run / "results.hash");
   EXPECT_NE(study({"gather", out}).out.find("results.hash' is missing"), std::string::npos);
-  // one command does both
+  // the same in one command
   EXPECT_EQ(study({at("study.toml"), "--out", out}).code, 0);
   EXPECT_EQ(table("out"), whole);
   std::ofstream(run / "results.json") << results;
-  EXPECT_EQ(study({"gather", out}).code, 2) << "of another time: its seconds are not the ones that were hashed";
+  EXPECT_EQ(study({"gather", out}).code, 2) << "of another run: its seconds differ from the hashed ones";
 }
 
-// of two copies the good one counts; a copy that was changed is refused all the same
-TEST_F(StudyResults, OfCopiesTheWholeOneCounts) {
+// of two copies the intact one counts; a changed copy is refused nevertheless
+TEST_F(StudyResults, OfTwoCopiesTheIntactOneCounts) {
   const std::string first = done(few_rows), whole = table("out"), second = at("second");
   fs::copy(first, second, fs::copy_options::recursive);
   std::ofstream(run_of("out", 2) / "results.json") << "";
@@ -357,7 +359,7 @@ TEST_F(StudyKeys, AreKnownToBeIdleBeforeAnyRun) {
     EXPECT_EQ(idle(sweep(key)).size(), key.acts ? 0 : 1) << key.key;
     EXPECT_EQ(idle(sweep(key, "limit = { factor = true }\n")).size(), key.acts_in_limit ? 0 : 1) << key.key;
   }
-  // that whose critical angle is sought does not act; cohesion does where it is asked for, or where a stage bonds
+  // the friction whose critical angle is sought does not act; cohesion does if requested, or if a stage bonds
   EXPECT_EQ(idle(sweep(keys[0], "limit = {}\n")).size(), 1u);
   EXPECT_EQ(idle(sweep(keys[0], "limit = { friction = [\"spare\"] }\n")).size(), 0u);
   EXPECT_EQ(idle(sweep(keys[1], "limit = { factor = true, cohesion = true }\n")).size(), 0u);
@@ -365,7 +367,7 @@ TEST_F(StudyKeys, AreKnownToBeIdleBeforeAnyRun) {
   EXPECT_EQ(idle(sweep({"density", "[2600, 2600]", true, true})).size(), 0u) << "nothing is varied";
 }
 
-TEST_F(StudyKeys, OfGridsAndSamplesAreJudgedEachByItself) {
+TEST_F(StudyKeys, OfGridsAndSamplesAreJudgedSeparately) {
   const std::string top = "scene = \"scene.toml\"\nquantity = \"factor_of_safety\"\n";
   const std::vector<std::string> grid = idle(
       top +
@@ -383,7 +385,7 @@ TEST_F(StudyKeys, OfGridsAndSamplesAreJudgedEachByItself) {
       2u);
 }
 
-// the sample that fails "with certainty", as it is planned, gathered and done in one
+// a sample that fails "with certainty": planned and gathered, and in one command
 TEST_F(StudyKeys, AreWarnedOfWhenPlannedAndWhenGathered) {
   write(
       "study.toml",
@@ -396,18 +398,18 @@ TEST_F(StudyKeys, AreWarnedOfWhenPlannedAndWhenGathered) {
   const Ended gathered = study({"gather", at("out")});
   EXPECT_EQ(gathered.code, 0) << gathered.err;
   EXPECT_NE(
-      gathered.err.find("warning: sample 'drawn': no result differs, whatever joint_properties.rock.friction_deg is"),
+      gathered.err.find("warning: sample 'drawn': the results do not depend on joint_properties.rock.friction_deg"),
       std::string::npos)
       << gathered.err;
   const Ended whole = study({at("study.toml"), "--out", at("whole")});
   EXPECT_EQ(whole.code, 0);
   EXPECT_NE(whole.err.find("acts in no stage"), std::string::npos) << whole.err;
-  EXPECT_NE(whole.err.find("no result differs"), std::string::npos) << whole.err;
+  EXPECT_NE(whole.err.find("the results do not depend on"), std::string::npos) << whole.err;
   EXPECT_NE(whole.out.find("factor_of_safety divides tan φ and cohesion of 'rock'; not "), std::string::npos)
       << whole.out;
 }
 
-// results with a known spread and known bars, judged by their numbers alone
+// results with a known spread and known bars, judged from their numbers alone
 TEST(FlatResults, AreThoseThatDifferByLessThanTheirBars) {
   std::mt19937 random(6);
   std::normal_distribution<double> normal;
@@ -428,7 +430,7 @@ TEST(FlatResults, AreThoseThatDifferByLessThanTheirBars) {
       const std::vector<std::string> lines = flat_results(plan_of(varied, count, true, 1), table_rows(rows));
       const bool flat = spread == 0, within = !flat && deviation < bar;
       ASSERT_EQ(lines.size(), flat || within ? 1u : 0u) << deviation << " " << bar;
-      const std::string expected = flat ? "no result differs, whatever a, b are" : "lies below their own error bars";
+      const std::string expected = flat ? "the results do not depend on a, b" : "is below their mean error bar";
       if (!lines.empty()) {
         EXPECT_NE(lines[0].find(expected), std::string::npos) << lines[0];
       }
@@ -436,14 +438,14 @@ TEST(FlatResults, AreThoseThatDifferByLessThanTheirBars) {
   }
 }
 
-// a grid may be flat along one of its keys
+// the results of a grid may be independent of one of its keys
 TEST(FlatResults, AreFoundAlongAKeyOfAGrid) {
   std::vector<Row> rows;
   for (int k = 0; k < 8; ++k)
     rows.push_back({1.0 + k / 2, {}});
   const std::vector<std::string> lines = flat_results(plan_of(Varied::grid, 8, true, 1), table_rows(rows));
   ASSERT_EQ(lines.size(), 1u);
-  EXPECT_NE(lines[0].find("grid 'some': no result differs along b"), std::string::npos) << lines[0];
+  EXPECT_NE(lines[0].find("grid 'some': the results do not depend on b"), std::string::npos) << lines[0];
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ std::vector<std::string> overrides_of(const Sweep& sweep, std::size_t place) {
   if (sweep.varied == Varied::one_key && !sweep.key.empty()) overrides.push_back(sweep.key + "=" + sweep.values[place]);
   for (const TiedKey& tied : sweep.with)
     overrides.push_back(tied.key + "=" + tied.values[place]);
-  // pictures cost time and say nothing here
+  // frames cost time and are not needed here
   overrides.push_back("output.frames=false");
   overrides.push_back("output.view=false");
   return overrides;

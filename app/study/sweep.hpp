@@ -1,4 +1,4 @@
-// What a study varies: which settings of which scene, one at a time, some in every combination, some at random.
+// The variations of a study: settings of scenes, one at a time, in all combinations, or at random.
 #pragma once
 
 #include <cmath>
@@ -16,15 +16,15 @@ struct TiedKey {
   std::string unit = {};
 };
 
-// of a result whose error bar holds the limit neither is known
+// undecided: the error bar of the result contains the limit
 enum class RowVerdict { stands, fails, undecided };
 
-// which results count as failed
+// the results that count as failed
 struct Fails {
   bool below = true;  // the limit; false: above it
   double limit = 0;
 
-  // A search's bracket is its result's error bar: where the limit lies in it, the search has met neither a stable nor a
+  // A search's bracket is its result's error bar: if it contains the limit, the search has found neither a stable nor a
   // failed state on the side that decides.
   RowVerdict verdict(double result, std::optional<double> error_bar) const {
     if (error_bar && std::abs(result - limit) <= *error_bar) return RowVerdict::undecided;
@@ -32,7 +32,7 @@ struct Fails {
   }
 };
 
-// one_key: several values of one key, and of those tied to it; grid and sample: `with` holds all keys, `values` only
+// one_key: several values of one key, and of keys tied to it; grid and sample: `with` contains all keys, `values` only
 // name the runs
 enum class Varied { one_key, grid, sample };
 
@@ -42,20 +42,20 @@ struct Sweep {
   std::string name = {};
   std::string key = {};                             // as after --set; empty: the scene as it is
   std::vector<std::string> values = {};             // as after --set key=
-  std::vector<std::optional<double>> numbers = {};  // the same where they are numbers
+  std::vector<std::optional<double>> numbers = {};  // the same if they are numbers
   std::vector<TiedKey> with = {};
   std::string unit = {};  // of the values; may be empty
   std::filesystem::path scene = {};
   std::vector<std::string> overrides = {};  // key=value, for every run of this sweep; the plan's own first
   std::optional<double> power = {};         // fit result against value^power and extrapolate to value 0
-  std::vector<std::size_t> counts = {};     // of a grid: how many values each key has
+  std::vector<std::size_t> counts = {};     // of a grid: the number of values of each key
   std::optional<Fails> fails = {};
   std::optional<std::vector<std::string>> limit = {};  // run by `voussoir limit` with these options, not `voussoir run`
 };
 
 enum class Take { largest, smallest, last };
 
-// a number out of a column of history.csv
+// a number from a column of history.csv
 struct HistoryQuantity {
   std::string column;
   Take take = Take::last;
@@ -64,16 +64,16 @@ struct HistoryQuantity {
 
 struct StudyPlan {
   std::string quantity;                    // a name in the values of results.json
-  std::optional<HistoryQuantity> history;  // or what this name stands for
-  std::string begin;                       // the stage at whose end runs begin, made once; empty: each at the start
-  bool wide_brackets = false;              // a search that ended with a wider bracket than asked has a value, too
+  std::optional<HistoryQuantity> history;  // the source of this name, if not results.json
+  std::string begin;                       // the stage at whose end runs begin, run once; empty: each at the start
+  bool wide_brackets = false;              // a search that ended with a wider bracket than requested has a value, too
   std::vector<Sweep> sweeps;               // the first is the scene as it is, under the name "default"
 };
 
-// what the run at a place among the sweep's values changes in the scene, as after --set
+// the overrides of the run at a place among the sweep's values, as after --set
 std::vector<std::string> overrides_of(const Sweep& sweep, std::size_t place);
 
-// a value as it is shown: without the quotes that --set takes
+// a value as displayed: without the quotes that --set takes
 std::string shown_value(const std::string& value);
 
 }  // namespace voussoir

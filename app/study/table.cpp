@@ -29,8 +29,8 @@ StudyRow row_of(const Sweep& sweep, const std::string& value, const RunFound& fo
   return row;
 }
 
-// Two results and result = limit + constant · value^power give the limit at value 0. Its error bar is how far it lies
-// from the nearer of the two; once there is an extrapolation from coarser runs, how far it lies from that. Its cost is
+// Two results and result = limit + constant · value^power give the limit at value 0. Its error bar is its distance
+// from the nearer of the two; once there is an extrapolation from coarser runs, its distance from that. Its cost is
 // that of both runs.
 StudyRow extrapolate(const Sweep& sweep, const StudyRow& first, double a, const StudyRow& second, double b) {
   StudyRow row;

@@ -1,4 +1,4 @@
-// study.csv: a row for every run of a study, and for what is extrapolated from two of them.
+// study.csv: a row for every run of a study, and for every extrapolation from two of them.
 #pragma once
 
 #include <filesystem>
@@ -19,12 +19,12 @@ struct StudyRow {
   std::optional<double> result, error_bar;  // without a result: the run failed
   std::string result_unit;
   std::string divides;        // of a factor of safety (Value::divides)
-  std::string status = "ok";  // or what went wrong
+  std::string status = "ok";  // or the failure
   long long contact_evaluations = 0, steps = 0;
   double seconds = 0;
 };
 
-// Every row in the plan's order; `found` tells of the run of a row, counted from 1.
+// Every row in the plan's order; `found` gives the result of a row's run, counted from 1.
 std::vector<StudyRow> table_of(const StudyPlan& plan, const std::function<RunFound(int row)>& found);
 
 std::string study_csv(const StudyPlan& plan, const std::vector<StudyRow>& rows);

@@ -1,4 +1,4 @@
-// What the runs of a study warn of, by row.
+// The warnings of a study's runs, by row.
 #pragma once
 
 #include <set>
@@ -7,7 +7,7 @@
 
 namespace voussoir {
 
-// warnings that differ in their numbers alone: those of the first row that has one, and all rows that do
+// warnings that differ only in their numbers: the text of the first such row, and all rows that have one
 struct RowWarning {
   std::string text, kind;
   bool same = true;  // in all these rows

@@ -25,7 +25,7 @@ bool is_sound(const StudyFolder& study, const fs::path& run) {
   return check_results(run, study.plan.history.has_value()).state == ResultsState::sound;
 }
 
-// what is there is kept; where all that need it are done it is not made again
+// an existing initial state is kept; it is not made again if all rows that need it are done
 std::vector<StudyRun> needed_generations(const StudyFolder& study, const std::vector<PlannedRow>& rows) {
   std::vector<StudyRun> needed;
   for (const StudyRun& generation : generations_of(study.rows, study.plan.begin))
@@ -36,7 +36,7 @@ std::vector<StudyRun> needed_generations(const StudyFolder& study, const std::ve
   return needed;
 }
 
-// a run that had nothing to begin with says why that is
+// a run without its initial state reports the reason
 void tell_generations(const std::vector<StudyRun>& generations, const RunsEnded& generated,
                       const std::vector<StudyRun>& runs, RunsEnded& ended) {
   for (std::size_t g = 0; g < generations.size(); ++g)
@@ -52,12 +52,12 @@ void tell_generations(const std::vector<StudyRun>& generations, const RunsEnded&
 void require_program(const StudyFolder& study, bool any) {
   if (any || program_digest() == study.program_digest) return;
   throw BadInput(
-      fmt::format("'{}' was planned by another program, {}: work at it with that one, plan it again, or add "
+      fmt::format("'{}' was planned by another program, {}: run it with that one, plan it again, or add "
                   "--any-program",
                   study.folder.string(), study.program));
 }
 
-// Dealt in turn by their hash, dearest first, so that chunks cost alike and none shares a run with another.
+// Distributed in turn by their hash, most expensive first, so that chunks cost about the same and share no run.
 std::vector<PlannedRow> chosen_rows(const StudyFolder& study, const WorkArguments& arguments) {
   std::set<int> wanted;
   if (!arguments.rows.empty()) wanted = rows_of_ranges(arguments.rows, static_cast<int>(study.rows.size()));
@@ -72,7 +72,7 @@ std::vector<PlannedRow> chosen_rows(const StudyFolder& study, const WorkArgument
   return chosen;
 }
 
-// of rows that are left to others, by who works at them
+// if rows are left to others, by their worker
 void refuse_held(const fs::path& folder, const std::vector<PlannedRow>& rows, const RunsEnded& ended) {
   std::map<std::string, std::set<int>> held;
   for (std::size_t k = 0; k < rows.size(); ++k)
@@ -82,7 +82,7 @@ void refuse_held(const fs::path& folder, const std::vector<PlannedRow>& rows, co
   for (const auto& [holder, numbers] : held)
     text += fmt::format("{}{} by {}", text.empty() ? "" : ", ", ranges_of_rows(numbers), holder);
   throw FolderInUse(
-      fmt::format("'{}': rows in use, left to whom they are in use by: {}; wait for it, or name other "
+      fmt::format("'{}': rows in use by other processes: {}; wait for them, or name other "
                   "rows",
                   folder.string(), text));
 }
@@ -121,7 +121,7 @@ RunsEnded work_at(const StudyFolder& study, const std::vector<PlannedRow>& rows,
 }
 
 ExitCode tell_interruption(const fs::path& folder) {
-  tell("voussoir: interrupted: the same command continues with what is done in '{}'\n", folder.string());
+  tell("voussoir: interrupted: the same command continues with the completed runs in '{}'\n", folder.string());
   return ended_by(interruption());
 }
 

@@ -1,4 +1,4 @@
-// How the runs of a study are done.
+// Options of a study's runs.
 #pragma once
 
 namespace voussoir {

@@ -1,4 +1,4 @@
-// Scenes put together from pieces of text, and what `voussoir check` says of them.
+// Scenes composed from pieces of text, and the output of `voussoir check` for them.
 #pragma once
 
 #include "app/testing/program.hpp"

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # console_page.sh PROGRAM PAGE SCRATCH [ROOT]: runs the commands of a page's console blocks in a copy of its folder, or, if ROOT
-# is stated, in a folder that shows the repository ROOT. Fails if a command fails, if a line that the page shows below it is
-# not printed (in this order; … stands for lines left out), and if a scene or study of the folder is in none of the commands
-# (ROOT: a scene or study beside the page that begins with the page's name). With ROOT a block of toml whose first line is the
+# is stated, in a folder that mirrors the repository ROOT. Fails if a command fails, if a line that the page shows below it is
+# not printed (in this order; … means lines left out), and if a scene or study of the folder is in none of the commands
+# (ROOT: a scene or study next to the page that begins with the page's name). With ROOT a block of toml whose first line is the
 # name of a file, `# docs/scenes.toml`, must show lines of that file, in this order.
 set -uo pipefail
 program=$(realpath "$1") page=$(realpath "$2") scratch=$3 root=${4:+$(realpath "$4")}
@@ -20,7 +20,7 @@ else
   cp -r "$(dirname "$page")/." "$scratch"
 fi
 cd "$scratch" || exit 1
-rm -rf results  # of those who ran them there
+rm -rf results  # of earlier runs
 # make run, make run SCENE=…: the program is built
 make() { "$root/cmake/run_scene.sh" "$(dirname "$(dirname "$program")")" "$(sed s/^SCENE=// <<<"${2:-}")" ""; }
 PATH=$(dirname "$program"):$PATH
@@ -28,7 +28,7 @@ PATH=$(dirname "$program"):$PATH
 faults=0 number=0 shown=0 next=0 commands="" printed=()
 fault() { echo "$(basename "$page"):$1" >&2; faults=$((faults + 1)); }
 
-# the line is printed by the last command, below what was found before
+# the line is printed by the last command, below the lines found before
 is_printed() {
   local i
   for ((i = next; i < ${#printed[@]}; i++)); do
@@ -54,7 +54,7 @@ while IFS= read -r line; do
     mapfile -t printed <"$command"
     continue
   elif [ $shown = 3 ]; then
-    [ "$line" = … ] || is_printed "$line" || fault "$number: '$command' does not hold '$line' here"
+    [ "$line" = … ] || is_printed "$line" || fault "$number: '$command' does not contain '$line' here"
     continue
   fi
   [ $shown = 1 ] || continue

@@ -1,4 +1,4 @@
-// A library for LD_PRELOAD that lets one call of the program fail, as a disk, a signal or a lack of memory would.
+// A library for LD_PRELOAD that makes one call of the program fail, as a disk, a signal or a lack of memory would.
 //
 //   FAIL_CALL    write, fsync, rename, open, unlink or malloc; all but malloc count on paths that begin with
 //   FAIL_FOLDER FAIL_AT      which of them, from 1; 0: none FAIL_LAST    up to which (default: FAIL_AT) FAIL_ERRNO what

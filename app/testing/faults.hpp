@@ -1,5 +1,5 @@
-// What the tests of faults share: a scene of any size, an empty folder for each test, and what it means that nothing is
-// lost: every file of a run that was disturbed and resumed equals that of the run that was not.
+// Common parts of the tests of faults: a scene of any size, an empty folder for each test, and the comparison: every
+// file of a run that was disturbed and resumed equals that of an undisturbed run.
 #pragma once
 
 #include <fmt/format.h>
@@ -70,7 +70,7 @@ inline void expect_equal(const Contents& found, const Contents& wanted, const st
   EXPECT_EQ(differences, "") << what;
 }
 
-// none is half-written, whatever else is missing
+// no file is partly written, even if others are missing
 inline void expect_whole_files(const std::filesystem::path& folder, const Contents& complete, const std::string& what) {
   for (const auto& [name, text] : contents_of(folder)) {
     EXPECT_EQ(name.find("voussoir-part"), std::string::npos) << what << name;
@@ -108,20 +108,20 @@ class FaultTest : public ::testing::Test {
   }
   static std::vector<std::string> resume_arguments(const std::string& out) { return {"resume", out, "--quiet"}; }
 
-  // continues with what is there, or begins where nothing is
+  // continues an existing run, or begins a new one
   Ended finish(const std::string& scene, const std::string& out, int steps) const {
     const bool begun = std::filesystem::exists(std::filesystem::path(out) / "run.json");
     return run({.arguments = begun ? resume_arguments(out) : run_arguments(scene, out, steps)});
   }
 
-  // the run that nothing disturbs
+  // the undisturbed run
   Contents undisturbed(const std::string& scene, int steps) const {
     const Ended ended = run({.arguments = run_arguments(scene, at("undisturbed"), steps)});
     EXPECT_EQ(ended.code, 0) << ended.err;
     return contents_of(at("undisturbed"));
   }
 
-  // in memory where the system has such a folder: hundreds of runs would wait for the disk
+  // in memory if the system has such a folder: hundreds of runs would wait for the disk
   const std::filesystem::path folder_ =
       (::access("/dev/shm", W_OK) == 0 ? "/dev/shm" : std::filesystem::temp_directory_path()) /
       fmt::format("voussoir_faults_{}", ::getpid());

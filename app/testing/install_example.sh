@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs into a scratch prefix, runs a scene by the program that lies there, and builds the example against the
-# library that does, by CMake plainly, by pkg-config with -march=native.
+# Installs into a scratch prefix, runs a scene with the installed program, and builds the example against the
+# installed library, by CMake with plain flags and by pkg-config with -march=native.
 set -euo pipefail
 build=$1 source=$2 scratch=$3 compiler=$4
 rm -rf "$scratch"
@@ -20,7 +20,7 @@ pkg-config --validate voussoir
 "$scratch/sliding_block" | tee "$scratch/example-march=native.txt"
 cmp "$scratch/example.txt" "$scratch/example-march=native.txt"
 
-# Beside another library, of other flags: its vectors arrive, and scenes end in the bits that the program gives.
+# Together with another library, of other flags: its vectors arrive, and scenes end in the bits of the program.
 beside=$(dirname "$0")/beside_another_library root=$(dirname "$0")/../.. scenes="$(dirname "$0")/two_squares.toml $(dirname "$0")/two_cubes.toml"
 for scene in $scenes; do
   "$scratch/prefix/bin/voussoir" run "$scene" --out "$scratch/bits" --overwrite --quiet

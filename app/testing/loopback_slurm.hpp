@@ -1,5 +1,5 @@
-// A Slurm cluster of two nodes with one processor each, on the loopback: its daemons are children of the test, all that
-// they write lies in one folder, and it needs no root.
+// A Slurm cluster of two nodes with one processor each, on the loopback: its daemons are children of the test, all
+// their files are in one folder, and it needs no root.
 #pragma once
 
 #include <arpa/inet.h>
@@ -18,7 +18,7 @@
 
 namespace voussoir {
 
-// standard output of a line of shell, both streams of it in one, without its last line's end
+// standard output and error of a shell command, without the last line break
 inline std::string said(const std::string& line) {
   std::string text;
   FILE* const pipe = ::popen(("{ " + line + "; } 2>&1 </dev/null").c_str(), "r");
@@ -32,7 +32,7 @@ inline std::string said(const std::string& line) {
 
 class LoopbackSlurm {
  public:
-  // what of it is not installed; empty: it can be started
+  // the part that is not installed; empty: it can be started
   static std::string missing() {
     for (const char* tool : {"munged", "slurmctld", "slurmd", "sbatch"})
       if (path_of(tool).empty()) return fmt::format("{} is not installed (packages slurm-wlm, munge)", tool);
@@ -53,7 +53,7 @@ class LoopbackSlurm {
       start("slurmd", {"-D", "-N", node}, node);
   }
 
-  // no job outlives it
+  // no job outlives the cluster
   ~LoopbackSlurm() {
     for (const int process : processes_of(""))
       ::kill(process, SIGKILL);
@@ -63,14 +63,14 @@ class LoopbackSlurm {
   // false: it did not come up in half a minute
   bool is_up() const { return comes_to_be("sinfo -hN -o %T | grep -cx idle", "2", 30); }
 
-  // the job's number, or what sbatch complains of
+  // the job's number, or the message of sbatch
   std::string submit(const std::string& arguments) const {
     return said("sbatch --parsable --output='" + (folder_ / "job-%A_%a").string() + "' " + arguments);
   }
   bool wait_until_idle() const { return comes_to_be("squeue -h", "", 240); }
   std::string output(const std::string& job) const { return read(folder_ / ("job-" + job)); }
 
-  // as when its power fails: nothing there has time for a last word
+  // as in a power failure: no process there can write anything more
   void kill_node(const std::string& node) {
     daemons_.at(node)->send(SIGKILL);
     const std::set<int> processes = processes_of(node);
@@ -79,10 +79,10 @@ class LoopbackSlurm {
         ::kill(process, signal);
   }
 
-  // the node that a process works on, from what Slurm gives it
+  // the node that a process works on, from its environment
   static std::string node_of(int process) { return variable(process, "SLURMD_NODENAME"); }
 
-  // what the daemons have to say, for a test that fails
+  // the daemons' logs, for a test that fails
   std::string log() const {
     return said(fmt::format("tail -n 20 '{0}'/*.err; squeue -a; scontrol show nodes", folder_.string()));
   }
@@ -109,7 +109,7 @@ class LoopbackSlurm {
 
   bool is_ours(int process) const { return variable(process, "SLURM_CONF") == (folder_ / "slurm.conf").string(); }
 
-  // of a node what its jobs run and who watches over them; of no node all of ours
+  // of a node: the processes of its jobs and their supervisors; without a node: all of ours
   std::set<int> processes_of(const std::string& node) const {
     std::set<int> found;
     for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
@@ -121,7 +121,7 @@ class LoopbackSlurm {
       std::istringstream status(read(entry.path() / "stat"));
       std::string skipped;
       int parent = 0;
-      status >> skipped >> skipped >> skipped >> parent;  // of our own program, whose name holds no space
+      status >> skipped >> skipped >> skipped >> parent;  // of our own program, whose name has no space
       if (parent > 1 && is_ours(parent)) found.insert(parent);
     }
     return found;
@@ -140,7 +140,7 @@ class LoopbackSlurm {
   }
 
   // A job that was requeued waits until its credential has expired, after 120 s by default, 5 s at least. With the two
-  // timeouts a node that is dead is known to be so after some 10 s instead of 300.
+  // timeouts a dead node is detected after about 10 s instead of 300.
   void write_configuration() const {
     const std::string user = said("id -un"), folder = folder_.string();
     std::ofstream(folder_ / "slurm.conf") << fmt::format(R"(ClusterName=loopback
@@ -175,7 +175,7 @@ NodeName=node2 NodeHostname=localhost NodeAddr=127.0.0.1 Port={2} CPUs=1 RealMem
 PartitionName=study Nodes=ALL Default=YES MaxTime=INFINITE State=UP
 )",
                                                          free_port(), free_port(), free_port(), user, folder);
-    // the older plugin asks for no file system and no systemd as long as nothing is confined
+    // the older plugin needs no file system and no systemd as long as nothing is confined
     std::ofstream(folder_ / "cgroup.conf") << "CgroupPlugin=cgroup/v1\n";
     std::ofstream key(folder_ / "munge/key", std::ios::binary);
     std::random_device random;

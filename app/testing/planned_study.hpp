@@ -1,5 +1,4 @@
-// A study of cheap rows, planned into folders and done in parts; what one command makes of it is made once for all
-// tests.
+// A study of cheap rows, planned into folders and run in parts; its result by one command is made once for all tests.
 #pragma once
 
 #include <sstream>
@@ -8,7 +7,7 @@
 
 namespace voussoir {
 
-// 43 rows, one of them twice as hard as the scene itself, some the same run under two names
+// 43 rows, one of them twice as stiff as the scene itself, some the same run under two names
 inline const char* const study_plan = R"(
 scene = "scene.toml"
 quantity = "top_displacement_z"
@@ -25,7 +24,7 @@ values = [1000, 1100, 1200, 1300, 1400, 1500, 1600, 1700, 1800, 1900,
           2000, 2100, 2200, 2300, 2400, 2500, 2600, 2700, 2800, 2900]
 [[sweep]]
 name = "damping"
-key = "damping.statics"
+key = "statics"
 values = ["local", "adaptive"]
 )";
 inline constexpr int study_rows = 43;
@@ -41,7 +40,7 @@ class PlannedStudy : public FaultTest {
     arguments.insert(arguments.begin(), "study");
     return run({.arguments = std::move(arguments)});
   }
-  // a folder in which all is still to be done
+  // a planned folder in which no row is done
   std::string planned(const std::string& name) const {
     const Ended ended = study({"plan", at("study.toml"), "--out", at(name)});
     EXPECT_EQ(ended.code, 0) << ended.err;

@@ -1,4 +1,4 @@
-// A program that a test starts, watches, kills and asks how it ended.
+// A program that a test starts, watches and kills, and whose end it checks.
 #pragma once
 
 #include <fcntl.h>
@@ -43,7 +43,7 @@ struct Ended {
   std::string out, err;
 };
 
-// it ended by itself, with this exit code and one line on stderr that holds the part
+// it ended by itself, with this exit code and one line on stderr that contains the part
 inline void expect_one_line(const Ended& ended, int code, const std::string& part, const std::string& what = "") {
   EXPECT_EQ(ended.signal, 0) << what << ended.err;
   EXPECT_EQ(ended.code, code) << what << ended.err;
@@ -55,7 +55,7 @@ inline constexpr int cannot_start = 126;  // exit code of a child that could not
 
 class Process {
  public:
-  // what it prints is caught in files beside `scratch`
+  // its output is caught in files next to `scratch`
   Process(const std::string& program, const Launch& launch, const std::filesystem::path& scratch)
       : out_(scratch.string() + ".out"), err_(scratch.string() + ".err"), pid_(::fork()) {
     if (pid_ == 0) become(program, launch);
@@ -100,7 +100,7 @@ class Process {
     for (const auto& [name, value] : launch.environment)
       ::setenv(name.c_str(), value.c_str(), 1);
 
-    // opened before the rights are gone: the folder of the program may be closed to others
+    // opened before the rights are dropped: the folder of the program may be closed to others
     const int file = ::open(program.c_str(), O_PATH);
     constexpr unsigned nobody = 65534;
     if (launch.ordinary_user && ::geteuid() == 0 &&
@@ -119,7 +119,7 @@ class Process {
   int pid_;
 };
 
-// false: it did not come to be true in a minute
+// false: it did not become true within a minute
 inline bool wait_until(const std::function<bool()>& condition) {
   for (int k = 0; k < 60'000; ++k) {
     if (condition()) return true;

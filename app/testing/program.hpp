@@ -1,4 +1,4 @@
-// The program as its users meet it: arguments in, files, messages and exit codes out.
+// The program as users see it: arguments in, files, messages and exit codes out.
 #pragma once
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 inline const fs::path scenes = fs::path(VOUSSOIR_SOURCE_DIR) / "app/testing";
 
-// what every build has goes by no name
+// an empty name: a feature of every build
 inline bool is_built_in(const std::string& part) {
   for (const auto& [name, is_there] : features())
     if (name == part) return is_there;

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # scene_comments.sh PROGRAM SOURCE SCRATCH: runs the commands of the program in comments of the scenes and studies below cases
 # and examples, in a copy of that folder. Of a study, whose runs would take long, the plan is made, which reads every scene
-# with all that is set; a command without a scene is held against its help. Fails where a command is refused or fails.
+# with all its settings; a command without a scene is checked against its help. Fails if a command is refused or fails.
 set -uo pipefail
 program=$(realpath "$1") source=$(realpath "$2") scratch=$3
 rm -rf "$scratch"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# study_plans.sh PROGRAM SOURCE SCRATCH: every study of the cases can be planned: each of its rows is a scene that is read and
-# checked. `make reports` runs them; a scene or rule that changes must not wait for it.
+# study_plans.sh PROGRAM SOURCE SCRATCH: plans every study of the cases, which reads and checks the scene of each row.
+# `make reports` runs them; an error in a scene or rule must show before.
 set -uo pipefail
 program=$1 source=$2 scratch=$3
 faults=0 planned=0

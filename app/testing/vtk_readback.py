@@ -1,4 +1,4 @@
-"""Reads runs of two_cubes.toml and turning_block.toml with VTK's own reader and filters and checks what they hold."""
+"""Reads runs of two_cubes.toml and turning_block.toml with VTK's own reader and filters and checks their contents."""
 import sys
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
@@ -54,9 +54,9 @@ def largest(vectors):
 
 
 def warped(data, vectors, scale=1):
-    """The points that Warp By Vector makes of the data's."""
+    """The data's points after Warp By Vector."""
     array = vtk.vtkDoubleArray()
-    array.SetName("way")
+    array.SetName("displacement")
     array.SetNumberOfComponents(3)
     for vector in vectors:
         array.InsertNextTuple(vector)
@@ -104,26 +104,26 @@ tube.SetVaryRadiusToVaryRadiusByAbsoluteScalar()
 tube.Update()
 assert tube.GetOutput().GetNumberOfStrips() > 0 and tube.GetOutput().GetBounds()[1] > 100, "no tube"
 
-# where the corners of a turning block come from, where they go, how fast
+# initial positions, displacements and velocities of the corners of a turning block
 folder = Path(sys.argv[2])
 frames = frames_of(folder, "blocks.pvd")
 assert len(frames) >= 5, len(frames)
 start = frames[0][1]
 for time, frame in frames:
-    way = tuples(frame, "displacement")
-    single = 2**-23 * largest(way) + 1e-14
-    assert largest(less(warped(start, less(way, tuples(start, "displacement"))), points(frame))) <= single, time
-    # as ParaView's users do it: the frame's own array, backwards
+    displacement = tuples(frame, "displacement")
+    single = 2**-23 * largest(displacement) + 1e-14
+    assert largest(less(warped(start, less(displacement, tuples(start, "displacement"))), points(frame))) <= single, time
+    # as in ParaView: the frame's own array, with a scale of -1
     frame.GetPointData().SetActiveVectors("displacement")
-    assert largest(less(warped(frame, way, -1), warped(start, tuples(start, "displacement"), -1))) <= single, time
+    assert largest(less(warped(frame, displacement, -1), warped(start, tuples(start, "displacement"), -1))) <= single, time
 for (_, frame), (time, following) in zip(frames, frames[1:]):
-    ways = tuples(frame, "displacement"), tuples(following, "displacement")
-    single = 2**-23 * largest(ways[1]) + 1e-14
-    assert largest(less(warped(frame, less(ways[1], ways[0])), points(following))) <= single, time
-    moved = less(ways[1], ways[0])
+    displacements = tuples(frame, "displacement"), tuples(following, "displacement")
+    single = 2**-23 * largest(displacements[1]) + 1e-14
+    assert largest(less(warped(frame, less(displacements[1], displacements[0])), points(following))) <= single, time
+    moved = less(displacements[1], displacements[0])
     assert max(x for x, _, _ in moved) - min(x for x, _, _ in moved) > 0.05, "nothing turns"
 
-# Over two intervals dt the mean velocity is off by spin³ × arm × dt² / 6, and what is written is half a step old: spin² ×
+# Over two intervals dt the mean velocity has an error of spin³ × arm × dt² / 6, and the written one is half a step old: spin² ×
 # arm × step / 2. The block's corners are 0.83 m from its centroid at most.
 spin, arm, step = 1.3, 0.87, 1e-3
 for (before, a), (_, b), (after, c) in zip(frames[1:], frames[2:], frames[3:]):
@@ -132,7 +132,7 @@ for (before, a), (_, b), (after, c) in zip(frames[1:], frames[2:], frames[3:]):
     bound = spin**3 * arm * half**2 / 6 + spin**2 * arm * step / 2
     assert largest(less(mean, tuples(b, "velocity"))) < bound, (before, bound)
 
-# of the block's faces those of the set, of a joint without one, and of the domain
+# the block's faces of the set, of a joint without one, and of the domain
 names = start.GetFieldData().GetAbstractArray("set_names")
 assert [names.GetValue(k) for k in range(names.GetNumberOfValues())] == ["bedding"]
 names = start.GetFieldData().GetAbstractArray("joint_names")

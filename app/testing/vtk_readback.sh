@@ -1,5 +1,5 @@
 #!/bin/sh
-# vtk_readback.sh PROGRAM FOLDER: runs two scenes and reads their files with VTK; status 77 where VTK is not installed.
+# vtk_readback.sh PROGRAM FOLDER: runs two scenes and reads their files with VTK; status 77 if VTK is not installed.
 here=$(dirname "$0")
 for python in python3 /usr/bin/python3; do
   if command -v "$python" >/dev/null && "$python" -c 'import vtk' 2>/dev/null; then

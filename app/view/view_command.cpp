@@ -21,10 +21,10 @@ namespace fs = std::filesystem;
 struct ViewArguments {
   std::filesystem::path folder;
   std::filesystem::path out;     // empty: view.html in the folder
-  bool fragment = false;         // for a page that holds the viewer once and many of these
-  bool script = false;           // what such a page holds once; then no folder is read
-  std::filesystem::path poster;  // a picture, PNG or WebP, to stand there until it is clicked; empty: none
-  std::string look;              // what a fragment shows at first, as behind # in a page's address
+  bool fragment = false;         // for a page that contains the viewer once and many of these
+  bool script = false;           // the part that such a page contains once; then no folder is read
+  std::filesystem::path poster;  // a picture, PNG or WebP, shown until it is clicked; empty: none
+  std::string look;              // initial view of a fragment, as after # in a page's address
   bool overwrite = false;
 };
 
@@ -42,11 +42,11 @@ void refuse_target(const fs::path& file, const ViewArguments& arguments, const s
     throw BadInput(fmt::format("'{}' is a folder: name a file with --out", file.string()));
   const bool ours = arguments.out.empty() && made_here(arguments.folder, page_file);
   if (there.type() != fs::file_type::not_found && !arguments.overwrite && !ours)
-    throw BadInput(fmt::format("'{}' is there and would be replaced: choose another with --out, or add --overwrite",
-                               file.string()));
+    throw BadInput(
+        fmt::format("'{}' exists and would be replaced: choose another with --out, or add --overwrite", file.string()));
 }
 
-// what the run has kept, or why there is nothing to see
+// the file that the run kept, or the reason if there is none
 fs::path data_of(const fs::path& folder) {
   std::error_code error;
   if (!fs::is_directory(folder, error))
@@ -54,10 +54,10 @@ fs::path data_of(const fs::path& folder) {
   const fs::path data = folder / view_file;
   if (fs::exists(data, error)) return data;
   if (holds_results(folder) || holds_unfinished_run(folder))
-    throw BadInput(fmt::format(
-        "'{}' has no {}: its run was not asked to keep it; run the scene again with 'voussoir run … --view'",
-        folder.string(), view_file));
-  throw BadInput(fmt::format("'{}' holds no run: 'voussoir run … --view' makes one to be viewed", folder.string()));
+    throw BadInput(
+        fmt::format("'{}' has no {}: its run was made without --view; run the scene again with 'voussoir run … --view'",
+                    folder.string(), view_file));
+  throw BadInput(fmt::format("'{}' contains no run: make one with 'voussoir run … --view'", folder.string()));
 }
 
 std::string poster_of(const ViewArguments& arguments) {
@@ -84,7 +84,7 @@ ExitCode write_script(const ViewArguments& arguments) {
 
 ExitCode view_command(const ViewArguments& arguments) {
   if (arguments.script) return write_script(arguments);
-  if (arguments.folder.empty()) throw BadInput("name the folder of a run that was asked for --view");
+  if (arguments.folder.empty()) throw BadInput("name the folder of a run made with --view");
   if (arguments.fragment && arguments.out.empty()) throw BadInput("--fragment needs --out, the file to write");
   const fs::path data = data_of(arguments.folder), target = target_of(arguments);
   std::vector<fs::path> inputs{data};
@@ -99,14 +99,15 @@ ExitCode view_command(const ViewArguments& arguments) {
 
 void add_view(CLI::App& program, Action& action) {
   const auto [command, arguments] = add_command(
-      program, action, "view",
-      "write the page in which the blocks of a run can be turned; the run was asked for --view", view_command);
-  command->add_option("folder", arguments.folder, "the folder of its results")->check(plain_text());
+      program, action, "view", "write the interactive 3-D page view.html (for a run made with --view)", view_command);
+  command->add_option("folder", arguments.folder, "folder of the run's results")->check(plain_text());
   add_out(command, arguments.out, "the page (default: view.html in the folder)");
   CLI::Option* fragment = command->add_flag(
       "--fragment", arguments.fragment,
-      "instead of a page the piece of one, for a page that holds many of them and what --script writes once");
-  command->add_flag("--script", arguments.script, "what a page with fragments holds once; takes no folder")
+      "write a fragment instead of a page, for a page with several fragments and the script of --script");
+  command
+      ->add_flag("--script", arguments.script,
+                 "write the script that a page with fragments contains once; takes no folder")
       ->excludes(fragment);
   command
       ->add_option("--poster", arguments.poster,
@@ -114,9 +115,8 @@ void add_view(CLI::App& program, Action& action) {
       ->needs(fragment)
       ->check(plain_text());
   command
-      ->add_option(
-          "--look", arguments.look,
-          "what a fragment shows at first, as behind # in a page's address: frame=3&magnified=100&forces=arrows")
+      ->add_option("--look", arguments.look,
+                   "initial view of a fragment, as after # in a page's address: frame=3&magnified=100&forces=arrows")
       ->needs(fragment);
   command->add_flag("--overwrite", arguments.overwrite, "replace the file");
 }

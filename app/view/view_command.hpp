@@ -5,7 +5,7 @@
 
 namespace voussoir {
 
-// the page in which the blocks of a run can be turned, from what the run has kept for it
+// the interactive 3-D page of a run's blocks, from the file that the run kept for it
 void add_view(CLI::App& program, Action& action);
 
 }  // namespace voussoir

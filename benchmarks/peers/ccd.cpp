@@ -7,7 +7,7 @@
 namespace voussoir::benchmarks {
 namespace {
 
-// lengths are about 1, overlaps about 1e-4: its defaults of 1e-4 would not see them
+// lengths are about 1, overlaps about 1e-4: its default tolerance of 1e-4 would miss them
 constexpr double length_tolerance = 1e-6;
 
 struct Body {

@@ -8,8 +8,8 @@
 namespace voussoir::benchmarks {
 namespace {
 
-// m, for parts of about 1: what lies in the plane within rounding is kept. Without it, corners where more than three
-// planes meet fall on either side by chance, faces are left more than once, and the region does not close.
+// m, for parts of about 1: vertices in the plane within rounding are kept. Without it, corners of more than three
+// planes are on either side by chance, edges leave a face more than once, and the region does not close.
 constexpr double in_plane = 1e-13;
 
 }  // namespace
@@ -27,7 +27,7 @@ Overlap Clipper::clip(const Polytope<3>& part, const HalfSpaces<3>& planes) {
   return measure();
 }
 
-// false when nothing is left
+// false if nothing is left
 bool Clipper::cut_by(const HalfSpace<3>& plane) {
   distances_.resize(vertices_.size());
   bool any_kept = false, any_lost = false;
@@ -70,7 +70,7 @@ void Clipper::cut_loop(const Loop& loop, Loop& left) {
     if (kept && !next_kept) left.push_back(leaves = vertex_on(here, next));
     if (!kept && next_kept) left.push_back(enters = vertex_on(next, here));
   }
-  // the new edge of this face runs from where it leaves to where it enters; the section's runs back
+  // the new edge of this face runs from the exit of its loop to the re-entry; the section's runs back
   if (leaves >= 0) section_edges_.emplace_back(enters, leaves);
 }
 
@@ -85,7 +85,7 @@ int Clipper::vertex_on(int kept, int lost) {
   return cuts_.back().vertex;
 }
 
-// the face that the plane itself makes: its edges, one of each face cut, in a ring
+// the face in the plane itself: its edges, one from each cut face, in a ring
 void Clipper::close_section() {
   if (section_edges_.empty()) return;
   if (next_loops_.size() <= next_count_) next_loops_.emplace_back();

@@ -1,4 +1,4 @@
-// The centroid of the overlap by clipping one polyhedron by the other's planes: what the analytic centre replaces
+// The centroid of the overlap by clipping one polyhedron by the other's planes, which the analytic centre replaces
 // (Boon 2013, section 4.7). Written for this benchmark and for speed; shares no code with the core.
 #pragma once
 
@@ -9,14 +9,14 @@
 namespace voussoir::benchmarks {
 
 struct Overlap {
-  double volume = 0;                       // m³; 0 when nothing is left
+  double volume = 0;                       // m³; 0 if nothing is left
   Vector<3> centroid = Vector<3>::Zero();  // m
 };
 
 // Keeps its buffers, so that a query allocates nothing.
 class Clipper {
  public:
-  // what the planes leave of a part, in the part's frame
+  // the part clipped by the planes, in the part's frame
   Overlap clip(const Polytope<3>& part, const HalfSpaces<3>& planes);
 
  private:
@@ -33,8 +33,8 @@ class Clipper {
   Overlap measure() const;
 
   std::vector<Vector<3>> vertices_;
-  std::vector<int> alive_;         // vertices of the faces there are
-  std::vector<double> distances_;  // of these to the plane in hand, negative on the kept side
+  std::vector<int> alive_;         // vertices of the present faces
+  std::vector<double> distances_;  // of these to the present plane, negative on the kept side
   std::vector<Loop> loops_, next_loops_;
   std::size_t loop_count_ = 0, next_count_ = 0;
   std::vector<Cut> cuts_;

@@ -1,6 +1,5 @@
-// GLPK on the feasibility program: as the core offers it (primal form, everything built again), and in the form that is
-// fastest for it (the dual, four rows) with one object for all pairs of a first part, cold and from the basis of the
-// pose before.
+// GLPK on the feasibility program: as in the core (primal form, everything rebuilt), and in its fastest form (the dual,
+// four rows) with one object for all pairs of a first part, cold and from the basis of the previous pose.
 #include <glpk.h>
 
 #include <map>
@@ -19,13 +18,13 @@ struct DeleteProblem {
 };
 
 // min Σ d_i λ_i  subject to  Σ λ_i a_i = 0, Σ λ_i = 1, λ >= 0. Its optimum is -s (solvers/feasibility_program.hpp):
-// positive when the parts overlap.
+// positive if the parts overlap.
 class DualProgram {
  public:
   // the basic variables: columns, and rows as their negative numbers (in a degenerate optimum some are)
   using Basis = std::vector<int>;
 
-  // `most_faces`: of any second part; columns beyond those of the pair in hand are fixed at 0
+  // `most_faces`: of any second part; columns beyond those of the present pair are fixed at 0
   DualProgram(const Polytope<3>& a, std::size_t most_faces) : faces_a_(static_cast<int>(a.faces.size())) {
     glp_term_out(GLP_OFF);
     problem_.reset(glp_create_prob());
@@ -62,7 +61,7 @@ class DualProgram {
     return solve();
   }
 
-  // a basis that is singular at the new pose is of no use
+  // a basis that is singular at the new pose cannot be used
   bool solve_from(const Basis& basis) {
     for (int column = 1; column <= columns_; ++column)
       glp_set_col_stat(lp(), column, GLP_NL);
@@ -85,7 +84,7 @@ class DualProgram {
  private:
   glp_prob* lp() const { return problem_.get(); }
 
-  // true when the optimum says that the parts overlap
+  // true if by the optimum the parts overlap
   bool solve() {
     failed_ = glp_simplex(lp(), &control_) != 0;
     return !failed_ && glp_get_obj_val(lp()) > 0;

@@ -1,4 +1,4 @@
-// Ipopt on the analytic centre, in the thesis' slack form (Eq. 3.38), from the point that the LP found.
+// Ipopt on the analytic centre, in the thesis' slack form (Eq. 3.38), from the point of the LP.
 #include "core/solvers/ipopt.hpp"
 
 #include "benchmarks/peers/peers.hpp"

@@ -1,5 +1,5 @@
-// What people would use instead of the kernel. Each library in one file, built only if it is found; none is ever linked
-// to the core. They run as shipped: cold, except where a name says warm; bodies and shapes are made beforehand.
+// Alternatives to the kernel. Each library in one file, built only if it is found; none is linked to the core. They run
+// as shipped: cold, unless the name contains warm; bodies and shapes are made beforehand.
 #pragma once
 
 #include "benchmarks/method.hpp"

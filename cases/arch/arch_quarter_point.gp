@@ -1,5 +1,5 @@
-# The arch under a point load at the quarter of its span: standing, coming down, load against drop, and the load that
-# brings it down against the stiffness of the joints.
+# The arch under a point load at the quarter of its span: stable, collapsing, load against drop, and the collapse
+# load against the stiffness of the joints.
 set terminal svg size 980,730 @page
 needle = 100e3                 # N/m: drawn 1 m long
 rigid = real(system("sed -n 2p quarter_rigid.csv"))
@@ -22,19 +22,19 @@ set arrow 9 from -2.5, 6.25 to -2.5, 4.8 head filled size 0.3, 20 lc rgb '#20202
 set key at first 0, 1.9 center vertical samplen 3 spacing 1.3 noautotitle
 
 set origin 0, 0.57
-set label 1 'stands' at 0, 3.35 center font ',17'
+set label 1 'stable' at 0, 3.35 center font ',17'
 set label 2 'under 60 kN/m, on joints of 100 GPa/m' at 0, 2.8 center
 set arrow 10 from -0.5, 0.45 to 0.5, 0.45 nohead lc rgb '#0072b2' lw 4
 set label 10 '100 kN/m' at 0, 0.12 center tc rgb '#0072b2'
 plot 'quarter_standing.csv' using 1:2 @stone, \
      'quarter_forces.csv' using ($1 - 0.5*$3/needle):($2 - 0.5*$4/needle):($3/needle):($4/needle) \
          with vectors nohead lc rgb '#0072b2' lw 4 title 'forces in the joints', \
-     'quarter_thrust.csv' using 1:2 with lines lc rgb '#d55e00' lw 1.8 title 'line of thrust'
+     'quarter_thrust.csv' using 1:2 with lines lc rgb '#d55e00' lw 1.8 title 'thrust line'
 
 set origin 0.5, 0.57
 unset arrow 10
 unset label 10
-set label 1 'comes down'
+set label 1 'collapses'
 set label 2 sprintf('under %.1f kN/m', rigid)
 set label 3 'when a block has dropped by 0.25 m' at 0, 2.3 center
 set key at first 0, 1.35
@@ -67,7 +67,7 @@ plot 'quarter_path_1000.csv' using 'drop_mm':'load_kN' with lines lt 1 title '10
      'quarter_path_100.csv' using 'drop_mm':'load_kN' with lines lt 2 title '100 GPa/m', \
      'quarter_rests_100.csv' using 'drop_mm':'load_kN' with points lt 2 pt 7 notitle, \
      'quarter_path_10.csv' using 'drop_mm':'load_kN' with lines lt 3 title '10 GPa/m', \
-     'quarter_rests_10.csv' using 'drop_mm':'load_kN' with points lt 3 pt 7 title 'DEM, at rest', \
+     'quarter_rests_10.csv' using 'drop_mm':'load_kN' with points lt 3 pt 7 title 'DEM, in equilibrium', \
      rigid with lines lc rgb '#404040' lw 1.5 dt 2 title 'limit analysis'
 
 set origin 0.5, 0

@@ -1,5 +1,5 @@
-// Masonry arch: the least thickness that stands under its own weight, by rigid-block limit analysis and by distinct
-// elements on joints of different stiffness; where the thrust runs, and how the arch comes down.
+// Masonry arch: the least thickness that is stable under its own weight, by rigid-block limit analysis and by distinct
+// elements on joints of different stiffness; the thrust line, and the mechanism of collapse.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -27,7 +27,7 @@ std::string block_name(int k) {
   return k == arch.voussoirs / 2 ? "keystone" : "voussoir_" + std::to_string(k + 1);
 }
 
-// what turns scene.toml into an arch of this thickness (m) on joints of this stiffness (Pa/m)
+// overrides of scene.toml for an arch of this thickness (m) on joints of this stiffness (Pa/m)
 std::vector<std::string> variant(double thickness, double joints) {
   std::vector<std::string> overrides = on_joints(joints);
   for (int k = 0; k < arch.voussoirs; ++k) {
@@ -57,7 +57,7 @@ const Body<2>& body_named(const Model<2>& model, const std::string& name) {
   throw std::runtime_error("no block " + name);
 }
 
-// m: by how much one body's corner lies from the nearest of the other's, at most
+// m: the largest distance of one body's corner from the nearest of the other's
 double apart(const Model<2>& model, const Body<2>& body, const Model<2>& other_model, const Body<2>& other) {
   double most = 0;
   for (const Vector<2>& corner : body.parts[0].vertices) {
@@ -84,16 +84,15 @@ TEST(Arch, OfOneStoneThatIsRepeatedIsTheSame) {
     ASSERT_EQ(here.parts[0].vertices.size(), there.parts[0].vertices.size());
     most = std::max({most, apart(one, here, other, there), apart(other, there, one, here)});
   }
-  report.record(
-      {"blocks of a repeated stone",
-       "m",
-       Kind::exact,
-       "identity: the corners that scene.toml states one by one",
-       0,
-       {1.5e-12, 0},
-       "scene.toml writes twelve decimals: half of the last in each coordinate of a corner and of the stone that "
-       "is turned is 1.4e-12"},
-      most);
+  report.record({"blocks of a repeated stone",
+                 "m",
+                 Kind::exact,
+                 "identity: the corners that scene.toml states one by one",
+                 0,
+                 {1.5e-12, 0},
+                 "scene.toml writes twelve decimals: half of the last in each coordinate of a corner and of the stone "
+                 "that is rotated is 1.4e-12"},
+                most);
 }
 
 TEST(Arch, NeedsTheThicknessOfTheThrustLine) {
@@ -129,13 +128,13 @@ double drop(const Trial& trial) {
   return trial.drop("keystone", {0, arch.radius});
 }
 
-// what carries the faces: a scene's own points, or an override, and what rows are called by it
+// contact model of the faces: a scene's own points, or an override, and its suffix in the names of rows
 struct Carried {
   std::string name;
   std::vector<std::string> overrides;
 };
 
-// The scene on joints of this stiffness (Pa/m), thicker and thinner than what its equilibria allow by a share of it.
+// The scene on joints of this stiffness (Pa/m), thicker and thinner than the limit of its equilibria by a share of it.
 Bracket bracket(double joints, double apart, long long step_limit, const Carried& carried = {}) {
   const std::string name = text(joints / 1e9) + " GPa/m, within " + text(100 * apart) + " %" + carried.name;
   const std::string above = "stands, " + name, below = "comes down, " + name;
@@ -153,7 +152,7 @@ Bracket bracket(double joints, double apart, long long step_limit, const Carried
   Bracket found{(1 - apart) * least, (1 + apart) * least, attempt("scene.toml", thick), attempt("scene.toml", thin)};
   const std::string source = "equilibria of rigid voussoirs on elastic joints, reference/arch";
   const std::string percent = text(100 * apart) + " % of the thickness";
-  report.record({above, "1", Kind::exact, source, 1, {0, 0}, percent + " above the limit the arch comes to rest"},
+  report.record({above, "1", Kind::exact, source, 1, {0, 0}, percent + " above the limit the arch reaches equilibrium"},
                 found.standing.stands && drop(found.standing) < limit.drop, found.standing.cost);
   report.record({below,
                  "1",
@@ -166,14 +165,14 @@ Bracket bracket(double joints, double apart, long long step_limit, const Carried
   return found;
 }
 
-// closer, and on stiffer joints, whose arch takes long to come to rest
-TEST(ArchLong, StandsAndFallsWithinTwoInAThousand) {
+// closer, and on stiffer joints, whose arch takes long to reach equilibrium
+TEST(ArchLong, IsStableAndFailsWithinTwoInAThousand) {
   bracket(1e10, 0.002, 300'000);
   bracket(1e11, 0.002, 600'000);
   bracket(1e12, 0.002, 2'000'000);
 }
 
-// what elastic joints add to the thickness of rigid voussoirs, for the figure
+// addition of elastic joints to the thickness of rigid voussoirs, for the figure
 TEST(Arch, NeedsLessOnStifferJoints) {
   CaseReport report("arch", {"power of the stiffness in what is added"});
   std::vector<double> joints, least;
@@ -188,8 +187,8 @@ TEST(Arch, NeedsLessOnStifferJoints) {
   report.record({"power of the stiffness in what is added",
                  "1",
                  Kind::limit,
-                 "closed form: a pressed length of (1/(k turn))^1/2 lost against a turn of the arch gained: the least "
-                 "sum goes by k^-1/3",
+                 "closed form: the loss of a pressed length of (1/(k turn))^1/2 plus the rotation of the arch: the "
+                 "least sum is proportional to k^-1/3",
                  -1.0 / 3,
                  {0.5 * (least[last] / rigid - 1), 0},
                  "the next power, k^-2/3, is as small beside it as it is beside the thickness"},
@@ -198,7 +197,7 @@ TEST(Arch, NeedsLessOnStifferJoints) {
   write_csv("arch", "rigid.csv", {"rigid", "many"}, {{rigid}, {reference::minimum_thickness({1001, 1, 1})}});
 }
 
-// An arch at rest, thicker than its limit by a share of it, against its equilibrium, joint by joint.
+// An arch in equilibrium, thicker than its limit by a share of it, against the reference, joint by joint.
 void judge_rest(const Trial& standing, double apart, const Carried& carried) {
   CaseReport report("arch", {"drop of the keystone" + carried.name, "thrust" + carried.name,
                              "where the thrust crosses the joints" + carried.name});
@@ -207,7 +206,8 @@ void judge_rest(const Trial& standing, double apart, const Carried& carried) {
   const double thickness = (1 + apart) * limit.thickness, rigid = reference::minimum_thickness(arch);
   const ElasticArch expected = elastic_arch(arch, on, thickness);
 
-  // the reference is of first order in how far a hinge turns, and so is right to that share of what elasticity costs
+  // the reference is of first order in the rotation of a hinge, so it is right to that share of the effect of
+  // elasticity
   double share = 0;
   for (const reference::ElasticJoint& joint : limit.joints)
     share = std::max(share, std::abs(joint.turn));
@@ -215,9 +215,8 @@ void judge_rest(const Trial& standing, double apart, const Carried& carried) {
   const ElasticArch thinner = elastic_arch(arch, on, (1 - left_out) * thickness);
   const std::string source = "equilibrium of rigid voussoirs on elastic joints, reference/arch";
   const std::string because =
-      "what the reference does by it where the arch is thinner by the turn of a hinge, 0.4 %, of the 4.4 % that "
-      "elastic "
-      "joints add to the thickness: it knows turns to the first order";
+      "change of the reference if the arch is thinner by the rotation of a hinge, 0.4 %, of the 4.4 % that elastic "
+      "joints add to the thickness: it has rotations to the first order";
   report.record({"drop of the keystone" + carried.name,
                  "m",
                  Kind::exact,
@@ -252,11 +251,11 @@ void judge_rest(const Trial& standing, double apart, const Carried& carried) {
                 worst, standing.cost);
 }
 
-constexpr double near = 0.005;  // of the thickness: how far from the limit every build tries it
+constexpr double near = 0.005;  // of the thickness: the distance from the limit that every build tries
 
-// The limit on soft joints and on the scene's; the arch just above it against its equilibrium; the mechanism of the one
-// just below.
-TEST(Arch, StandsAboveItsLimitAndFallsBelow) {
+// The limit on soft joints and on the scene's; the arch just above it against its equilibrium; the mechanism just
+// below.
+TEST(Arch, IsStableAboveItsLimitAndFailsBelow) {
   const Bracket soft = bracket(soft_joints, near, 120'000), found = bracket(stiffness, near, 120'000);
   const Trial &standing = found.standing, &falling = found.falling;
   judge_rest(standing, near, {});
@@ -266,7 +265,7 @@ TEST(Arch, StandsAboveItsLimitAndFallsBelow) {
   report.reference("keystone_displacement_y", -elastic_arch(arch, {stiffness, stiffness}, stated).drop, "m");
   const double rigid = reference::minimum_thickness(arch);
 
-  // the arch that comes down
+  // the arch that collapses
   const std::vector<Joint> hinges = hinges_of(joints_of(falling, shape));
   const reference::ThrustLine line = best_thrust_line(arch, rigid);
   int as_expected = 0;
@@ -295,8 +294,8 @@ TEST(Arch, StandsAboveItsLimitAndFallsBelow) {
   draw_points("hinges.csv", hinges);
 }
 
-// the same with every joint carried as a whole
-TEST(Arch, StandsAboveItsLimitAndFallsBelowOnWholeFaces) {
+// the same with integrated face contacts
+TEST(Arch, IsStableAboveItsLimitAndFailsBelowOnIntegratedFaces) {
   const Carried whole{", whole faces", {whole_faces}};
   judge_rest(bracket(stiffness, near, 120'000, whole).standing, near, whole);
 }

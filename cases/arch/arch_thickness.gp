@@ -10,5 +10,5 @@ many = real(system("sed -n 2p rigid.csv | cut -d, -f2"))
 plot 'least.csv' using 'stiffness_GPa_m':'least' @theory title 'rigid voussoirs on elastic joints', \
      rigid with lines lc rgb '#0072b2' lw 2 dt 2 title 'rigid, 15 voussoirs', \
      many with lines lc rgb '#009e73' lw 1.5 dt 4 title 'Milankovitch, any number', \
-     'brackets.csv' using 'stiffness_GPa_m':'stands' with points lc rgb '#d55e00' pt 9 ps 1 title 'DEM stands', \
-     '' using 'stiffness_GPa_m':'falls' with points lc rgb '#d55e00' pt 10 ps 1 title 'DEM comes down'
+     'brackets.csv' using 'stiffness_GPa_m':'stands' with points lc rgb '#d55e00' pt 9 ps 1 title 'DEM, stable', \
+     '' using 'stiffness_GPa_m':'falls' with points lc rgb '#d55e00' pt 10 ps 1 title 'DEM, collapses'

@@ -51,7 +51,7 @@ std::vector<Joint> joints_of(const Trial& trial, const ArchShape& shape) {
     const Vector<2> crossing = c.geometry.point + turning / moment(along, c.force)[0] * along;
     const Motion<2>&of_a = state.bodies.motions[a], &of_b = state.bodies.motions[b];
 
-    // where that point of the first body was: joints stand at multiples of a sector from the springing
+    // initial position of that point of the first body: joints are at multiples of a sector from the springing
     const Vector<2> before = model.origin + model.bodies[a].reference + matrix(of_a.rotation).transpose() * crossing;
     const double half = 0.5 * std::numbers::pi, sector = 2 * half / shape.voussoirs;
     Joint joint;

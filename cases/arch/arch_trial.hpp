@@ -1,5 +1,5 @@
-// What the tests of the arch share: runs that end at rest or on the way down, the joints as they stand, and data for
-// the figures.
+// Shared by the tests of the arch: runs that end in equilibrium or during collapse, the state of the joints, and data
+// for the figures.
 #pragma once
 
 #include <string>
@@ -9,12 +9,12 @@
 
 namespace voussoir::cases {
 
-// that gives the joints of a scene this stiffness (Pa/m), along and across
+// that gives the joints of a scene this stiffness (Pa/m), in shear and normal direction
 std::vector<std::string> on_joints(double stiffness);
 
-constexpr double fallen = 0.25;  // m: a drop at which the hinges are open to be seen
+constexpr double fallen = 0.25;  // m: a drop at which the hinges are visibly open
 
-// A scene of this folder that was run until it was at rest, or a block had dropped so far, or no step was left.
+// A scene of this folder that was run until equilibrium, or until a block had dropped so far, or until the step limit.
 struct Trial {
   LoadedScene scene;
   State<2> state;  // at the end
@@ -26,28 +26,28 @@ struct Trial {
 };
 Trial attempt(const std::string& scene, const std::vector<std::string>& overrides, double drop = fallen);
 
-// a joint as it stands, by its place in the arch
+// the state of a joint, by its place in the arch
 struct Joint {
   double angle = 0;     // from the crown, rad, positive to the right
-  double outwards = 0;  // m from its middle: where its force crosses it
+  double outwards = 0;  // m from its middle: the point at which its force crosses it
   double turn = 0;      // rad between its faces
   Vector<2> point;      // m, where the force crosses
   Vector<2> force;      // N
 };
 
-// the joints that press, from the left
+// the joints in compression, from the left
 struct ArchShape {
   int voussoirs = 0;
   double radius = 0;  // m
 };
 std::vector<Joint> joints_of(const Trial& trial, const ArchShape& shape);
 
-// joints that turn by more than a tenth of the one that turns most
+// joints that rotate by more than a tenth of the largest rotation
 std::vector<Joint> hinges_of(const std::vector<Joint>& joints);
 
 // CSV files in the folder of the case, for the figures
-void draw_blocks(const std::string& file, const Trial& trial);  // closed outlines, parted by an empty line
-void draw_forces(const std::string& file, const Trial& trial);  // of every sub-contact: where it acts, and the force
+void draw_blocks(const std::string& file, const Trial& trial);  // closed outlines, separated by an empty line
+void draw_forces(const std::string& file, const Trial& trial);  // of every sub-contact: its point and its force
 void draw_points(const std::string& file, const std::vector<Joint>& joints);
 
 }  // namespace voussoir::cases

@@ -1,5 +1,5 @@
-// Masonry arch under a point load at the quarter of its span: what brings it down, by limit analysis and by distinct
-// elements on joints of different stiffness, what of the difference is the joints', and how it comes down.
+// Masonry arch under a point load at the quarter of its span: its collapse load, by limit analysis and by distinct
+// elements on joints of different stiffness, the part of the difference that is due to the joints, and the mechanism.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -34,16 +34,16 @@ double drop(const Trial& trial) {
 Trial under(double load, double stiffness, double down) {
   std::vector<std::string> overrides = on_joints(stiffness);
   overrides.push_back("stage.load.force.point.force=[0, " + text(-load) + "]");
-  overrides.push_back("stage.load.step_limit=20000000");  // so close to the load that brings it down, rest takes long
+  overrides.push_back("stage.load.step_limit=20000000");  // so close to the collapse load, equilibrium takes long
   return attempt("quarter_point.toml", overrides, down);
 }
 
-// The load that brings the arch down, as a share of what rigid voussoirs carry.
+// The collapse load of the arch, as a share of that of rigid voussoirs.
 struct Found {
   double stiffness = 0;  // Pa/m
   double load = 0, half_bracket = 0;
-  std::vector<double> loads, drops;  // N/m, m: of the trials that came to rest
-  Trial fallen;                      // under what rigid voussoirs carry
+  std::vector<double> loads, drops;  // N/m, m: of the trials that reached equilibrium
+  Trial fallen;                      // under the load that rigid voussoirs carry
   verification::Cost cost;
 };
 
@@ -53,7 +53,8 @@ Found search(double stiffness, double narrow) {
   found.stiffness = stiffness;
   const auto attempted = [&](double load, double until) {
     Trial trial = under(load * rigid, stiffness, until);
-    if (trial.stands == trial.comes_down) throw std::runtime_error("the arch neither rests nor comes down");
+    if (trial.stands == trial.comes_down)
+      throw std::runtime_error("the arch neither reaches equilibrium nor collapses");
     found.cost.contact_evaluations += trial.cost.contact_evaluations;
     found.cost.seconds += trial.cost.seconds;
     if (trial.stands) {
@@ -75,8 +76,8 @@ Found search(double stiffness, double narrow) {
   return found;
 }
 
-// Turn of the hinge that turns most. The reference knows it to the first order, so what it finds is right to that share
-// of what the joints cost.
+// Rotation of the hinge that rotates most. The reference has it to the first order, so its load is right to that share
+// of the reduction by the joints.
 double most_turn(const ElasticLoad& limit) {
   double turn = 0;
   for (const reference::ElasticJoint& joint : limit.joints)
@@ -116,8 +117,8 @@ Found judge_load(double stiffness, double narrow, CaseReport& report) {
                  elastic,
                  expected.load,
                  {found.half_bracket + expected.left_out, 0},
-                 "over that of rigid voussoirs: half the bracket of the search, and what the joints cost times the "
-                 "turn of a hinge, which the reference knows to the first order"},
+                 "over that of rigid voussoirs: half the bracket of the search, and the reduction by the joints times "
+                 "the rotation of a hinge, which the reference has to the first order"},
                 found.load, found.cost);
   write_states("quarter_rests_" + text(stiffness / 1e9) + ".csv", found.loads, found.drops);
   return found;
@@ -130,7 +131,7 @@ double limit_analysis() {
   return analysis.values.front().second.value * stated_load;
 }
 
-// What the loads on two stiffnesses say of rigid joints, by a line over k^-1/3, against limit analysis.
+// The load on rigid joints, extrapolated from two stiffnesses by a line over k^-1/3, against limit analysis.
 void judge_extrapolation(const Found& soft, const Found& stiff, CaseReport& report) {
   const double x = std::pow(soft.stiffness, -1.0 / 3), y = std::pow(stiff.stiffness, -1.0 / 3);
   const auto extrapolated = [&](double at_x, double at_y) { return (at_y * x - at_x * y) / (x - y); };
@@ -145,13 +146,13 @@ void judge_extrapolation(const Found& soft, const Found& stiff, CaseReport& repo
        "limit analysis: voussoir limit --load applied",
        limit_analysis(),
        {0, std::min(asked, next_power + brackets)},
-       "by how much a line through the reference's own two loads misses the rigid one, for it leaves out the next "
-       "power, and what the line makes of both brackets; not more than the 2 % that are asked"},
+       "the distance of a line through the reference's own two loads from the rigid one, since it leaves out the next "
+       "power, and the effect of both brackets on the line; at most the required 2 %"},
       extrapolated(soft.load, stiff.load) * rigid,
       {soft.cost.contact_evaluations + stiff.cost.contact_evaluations, soft.cost.seconds + stiff.cost.seconds});
 }
 
-// the arch on its way down: which joints turn, and about which ends
+// the collapsing arch: which joints rotate, and about which ends
 void judge_hinges(const Trial& fallen, CaseReport& report) {
   const std::vector<Joint> hinges = hinges_of(joints_of(fallen, shape));
   int as_expected = 0;
@@ -160,21 +161,20 @@ void judge_hinges(const Trial& fallen, CaseReport& report) {
     for (const Joint& hinge : hinges)
       as_expected += std::abs(hinge.angle - angle) < 1e-6 && (hinge.outwards > 0) == expected.outside;
   }
-  report.record(
-      {"hinges under the point load",
-       "1",
-       Kind::exact,
-       "the mechanism of rigid voussoirs that needs the least load, reference/arch",
-       4,
-       {0, 0},
-       "a count of the joints that turn, about the ends that they should: on the left at 66 degrees from the crown "
-       "inside and at 18 outside, on the right at 42 inside and at the springing outside"},
-      static_cast<int>(hinges.size()) == as_expected ? as_expected : -1, fallen.cost);
+  report.record({"hinges under the point load",
+                 "1",
+                 Kind::exact,
+                 "the mechanism of rigid voussoirs that needs the least load, reference/arch",
+                 4,
+                 {0, 0},
+                 "a count of the joints that rotate about the right ends: on the left at 66 degrees from the crown "
+                 "inside and at 18 outside, on the right at 42 inside and at the springing outside"},
+                static_cast<int>(hinges.size()) == as_expected ? as_expected : -1, fallen.cost);
   draw_blocks("quarter_falling.csv", fallen);
   draw_points("quarter_hinges.csv", hinges);
 }
 
-TEST(QuarterPoint, CarriesInLimitAnalysisWhatTheThrustLineSays) {
+TEST(QuarterPoint, HasTheCollapseLoadOfTheThrustLineByLimitAnalysis) {
   CaseReport report("arch", {"point load, limit analysis"});
   report.record({"point load, limit analysis",
                  "N",
@@ -192,7 +192,7 @@ TEST(QuarterPoint, CarriesInLimitAnalysisWhatTheThrustLineSays) {
   report.report("stiffness from which joints cost less than 2 % of the point load", "Pa/m", stiff, elastic);
 }
 
-TEST(QuarterPoint, ComesDownAsItsJointsSay) {
+TEST(QuarterPoint, HasTheCollapseLoadOfElasticJoints) {
   CaseReport report("arch");
   const Found soft = judge_load(1e10, 1.0 / 256, report), stiff = judge_load(stated_stiffness, 1.0 / 128, report);
   judge_extrapolation(soft, stiff, report);
@@ -201,16 +201,16 @@ TEST(QuarterPoint, ComesDownAsItsJointsSay) {
             {{soft.stiffness / 1e9, stiff.stiffness / 1e9}, {soft.load * rigid / 1e3, stiff.load * rigid / 1e3}});
 }
 
-// closer, and on joints whose arch takes long to come to rest
-TEST(QuarterPointLong, ComesDownAsItsJointsSayMoreClosely) {
+// closer, and on joints whose arch takes long to reach equilibrium
+TEST(QuarterPointLong, HasTheCollapseLoadOfElasticJointsMoreClosely) {
   CaseReport report("arch");
   judge_load(1e10, 1.0 / 2048, report);
   const Found soft = judge_load(stated_stiffness, 1.0 / 1024, report), stiff = judge_load(1e12, 1.0 / 128, report);
   judge_extrapolation(soft, stiff, report);
 }
 
-// the scene as it stands
-TEST(QuarterPoint, RestsAsItsJointsArePressed) {
+// the scene as committed
+TEST(QuarterPoint, HasTheEquilibriumOfElasticJoints) {
   CaseReport report("arch", {"drop under the point load", "thrust under the point load",
                              "where the thrust crosses the joints under the point load"});
   const reference::ArchJoints joints{stated_stiffness, stated_stiffness};
@@ -218,8 +218,8 @@ TEST(QuarterPoint, RestsAsItsJointsArePressed) {
   const Expected limit = expected_on(stated_stiffness);
   const ElasticLoad more = elastic_load(loaded, joints, stated_load + limit.left_out * rigid);
   const std::string because =
-      "what the reference does by it under a load greater by what it leaves out: the turn of a hinge at the limit, "
-      "0.4 %, of the 11 % that the joints cost";
+      "change of the reference under a load greater by its truncation: the rotation of a hinge at the limit, 0.4 %, of "
+      "the 11 % that the joints take away";
   const Trial trial = under(stated_load, stated_stiffness, fallen);
   ASSERT_TRUE(trial.stands);
   report.record(

@@ -79,7 +79,7 @@ TEST(Bounce, FirstImpact) {
                  {2.5 * flight.step, 0},
                  "counted in steps, one to either side; the late velocity shortens it by 0.3 of a step"},
                 flight.duration(), cost(run));
-  // it lets go while it still overlaps
+  // the contact ends while the blocks still overlap
   const double speed = expected.restitution * drop_speed;
   const double top = speed * speed / (2 * gravity) - expected.end_overlap;
   report.record({"rebound height",
@@ -162,27 +162,26 @@ TEST(Bounce, ErrorAgainstStep) {
   write_csv("bounce", "steps.csv", {"omega_dt", "error", "bound"}, {steps, errors, bounds});
 
   const std::size_t last = errors.size() - 1;
-  report.record(
-      {"order of the error in the step",
-       "1",
-       Kind::limit,
-       "convergence: leapfrog with a late dashpot",
-       1,
-       {0.1, 0},
-       "the fraction of second order is as large as omega dt, below 0.02 for the two smallest steps; the last force "
-       "before release adds as much"},
-      std::log2(errors[last - 1] / errors[last]));
+  report.record({"order of the error in the step",
+                 "1",
+                 Kind::limit,
+                 "convergence: leapfrog with a late dashpot",
+                 1,
+                 {0.1, 0},
+                 "the fraction of second order is as large as omega dt, below 0.02 for the two smallest steps; the "
+                 "last force before release adds as much"},
+                std::log2(errors[last - 1] / errors[last]));
   report.record({"restitution, extrapolated to no step",
                  "1",
                  Kind::limit,
                  "Schwager & Poschel (2007): exp(-2 z acos(z)/sqrt(1 - z2))",
                  expected,
                  {0, damping_ratio * steps[last - 1] * steps[last - 1]},
-                 "what second order leaves of the two smallest steps: z (omega dt)2"},
+                 "remaining second order of the two smallest steps: z (omega dt)2"},
                 2 * found[last] - found[last - 1]);
 }
 
-// Without damping the cube comes back to where it fell from, again and again.
+// Without damping the cube returns to its initial height, again and again.
 TEST(Bounce, UndampedKeepsItsEnergy) {
   CaseReport report("bounce",
                     {"undamped: energy error of one bounce, largest", "undamped: energy error, largest in 20 s"});
@@ -205,18 +204,18 @@ TEST(Bounce, UndampedKeepsItsEnergy) {
        "conservation of energy",
        0,
        {1.1 * fraction, 0, Bound::at_most},
-       "met between two steps the spring gives up to (omega dt/2)2 of the energy, left between two it takes as much; a "
-       "tenth for gravity and for the highest row beside the top"},
+       "a contact that begins between two steps gains up to (omega dt/2)2 of the energy, one that ends between two "
+       "loses as much; a tenth allows for gravity and for the distance of the highest row from the top"},
       one, cost(run));
-  report.record(
-      {"undamped: energy error, largest in 20 s",
-       "1",
-       Kind::limit,
-       "conservation of energy",
-       0,
-       {3 * 0.42 * std::sqrt(count) * fraction, 0, Bound::at_most},
-       "three deviations of a random walk: 0.42 (omega dt/2)2 a bounce when every place in a step is equally likely"},
-      all, cost(run));
+  report.record({"undamped: energy error, largest in 20 s",
+                 "1",
+                 Kind::limit,
+                 "conservation of energy",
+                 0,
+                 {3 * 0.42 * std::sqrt(count) * fraction, 0, Bound::at_most},
+                 "three deviations of a random walk: 0.42 (omega dt/2)2 per bounce if every position in a step is "
+                 "equally likely"},
+                all, cost(run));
   report.report("undamped bounces in 20 s", "1", count, "0.05 of the stable step");
 }
 

@@ -62,17 +62,17 @@ const Contact<3>& only_contact(const State<3>& state) {
   return *found;
 }
 
-// The cube lies flat on a plate whose top is at `height`: exact geometry.
+// The cube is flat on a plate whose top is at `height`: exact geometry.
 void check_rest(CaseReport& report, const std::string& which, const RecordedRun<3>& run, int body, double height) {
   const Contact<3>& contact = only_contact(run.last());
   const double overlap = weight / (stiffness * edge * edge);
   report.record({"tilt at rest" + which,
                  "rad",
                  Kind::exact,
-                 "geometry: a face lies flat",
+                 "geometry: a face is flat on the plate",
                  0,
                  {1e-6, 0},
-                 "the last swing leaves less than half of the overlap, 2.5e-6 m, across the face of 1 m"},
+                 "the last oscillation leaves less than half of the overlap, 2.5e-6 m, across the face of 1 m"},
                 tilt(run.model(), run.last(), body), cost(run.run));
   report.record({"area of contact at rest" + which,
                  "m2",
@@ -88,7 +88,7 @@ void check_rest(CaseReport& report, const std::string& which, const RecordedRun<
                  "equilibrium: W/(k A)",
                  overlap,
                  {0, 1e-6},
-                 "the dashpot leaves nothing of the last bounce, but a cube that is left spinning shakes by 1e-7"},
+                 "the dashpot removes the last bounce completely, but a cube that keeps spinning vibrates by 1e-7"},
                 contact.geometry.overlap, cost(run.run));
   const double centroid =
       run.model().origin[2] + run.model().bodies[body].reference[2] + run.last().bodies.motions[body].displacement[2];
@@ -103,7 +103,7 @@ void check_rest(CaseReport& report, const std::string& which, const RecordedRun<
   const Vector<3> normal = (run.model().parts[contact.part_a].body == body ? -1 : 1) * contact.geometry.normal;
   report.report("spin about the vertical at rest" + which, "rad/s",
                 angular_velocity(run.model().bodies[body], run.last().bodies.motions[body]).dot(normal),
-                "a contact acts at one point: nothing resists twisting about its normal", cost(run.run));
+                "a contact acts at one point: it does not resist twisting about its normal", cost(run.run));
 }
 
 void check_sound(CaseReport& report, const std::string& which, const RecordedRun<3>& run) {
@@ -111,7 +111,7 @@ void check_sound(CaseReport& report, const std::string& which, const RecordedRun
   report.record({"contacts without an answer" + which,
                  "1",
                  Kind::exact,
-                 "promise: every contact has an answer",
+                 "promise: every contact has a result",
                  0,
                  {0.5, 0},
                  "a count"},
@@ -124,7 +124,7 @@ void check_sound(CaseReport& report, const std::string& which, const RecordedRun
                  {0.5, 0},
                  "a count"},
                 static_cast<double>(counters.deep_overlaps), cost(run.run));
-  const EnergyLedger& energy = run.run.results.energy;
+  const EnergyBalance& energy = run.run.results.energy;
   report.record(
       {"energy that the motion does not account for" + which,
        "1",
@@ -135,8 +135,8 @@ void check_sound(CaseReport& report, const std::string& which, const RecordedRun
        "leapfrog closes to the rounding of some 40 000 steps"},
       energy.motion_error / energy.largest_energy, cost(run.run));
   report.report("energy that the contacts do not account for" + which, "1",
-                energy.contact_error / energy.largest_energy, "the published normal leans with the edge: see README.md",
-                cost(run.run));
+                energy.contact_error / energy.largest_energy,
+                "the published normal is inclined with the edge: see README.md", cost(run.run));
 }
 
 void draw(const std::string& name, const RecordedRun<3>& run, const std::vector<std::size_t>& frames,
@@ -194,7 +194,7 @@ TEST(Collisions, ACornerRollsOntoItsFace) {
        {-35, 15, {}});
 }
 
-// An edge across an edge: it leans outwards, topples off and lies on the ground.
+// An edge across an edge: it leans outwards, topples off and lands on the ground.
 TEST(Collisions, AnEdgeOnAnEdgeTopples) {
   CaseReport report("collisions", {"edge on edge: toppled outwards", "tilt at rest, edge on edge"});
   const RecordedRun<3> run = record<3>("edge_edge.toml");
@@ -237,7 +237,8 @@ TEST(Collisions, AnEdgeOnAnEdgeTopples) {
        {-90, 12, {}});
 }
 
-// Two free cubes, no gravity: nothing outside acts, so momentum and its moment stay, whatever the contact does.
+// Two free cubes, no gravity: no external force acts, so momentum and angular momentum are constant, whatever the
+// contact does.
 TEST(Collisions, AnImpactKeepsMomentum) {
   CaseReport report("collisions", {"impact: change of momentum", "impact: change of angular momentum"});
   const RecordedRun<3> run = record<3>("impact.toml");
@@ -268,7 +269,7 @@ TEST(Collisions, AnImpactKeepsMomentum) {
   }
   EXPECT_TRUE(touched);
   const double scale = before.first.norm();
-  const char* because = "forces are equal and opposite at one point; what is left is rounding of some thousand steps";
+  const char* because = "forces are equal and opposite at one point; the rounding of some thousand steps remains";
   report.record({"impact: change of momentum", "1", Kind::exact, "Newton: conserved", 0, {1e-10, 0}, because},
                 linear / scale, cost(run.run));
   report.record({"impact: change of angular momentum",
@@ -285,7 +286,7 @@ TEST(Collisions, AnImpactKeepsMomentum) {
 
 constexpr double study_end = 0.6;  // s, as study.toml states it
 
-// A cube that stands on an edge off balance: a pendulum from above, as long as the edge neither slips nor lifts.
+// A cube on an edge, off balance: a pendulum from above, as long as the edge neither slips nor lifts.
 TEST(Collisions, ACubeFallsOverInTime) {
   CaseReport report("collisions", {"time to lean by 10 deg more", "time to lean by 30 deg more"});
   const SceneRun run = cases::run("fall_over.toml");
@@ -316,7 +317,7 @@ TEST(Collisions, ACubeFallsOverInTime) {
          "reference/small, elliptic integral: a pendulum from above",
          expected,
          {0, overlap / arm / start},
-         "the edge gives by its overlap, W/k, which moves the pivot against a lean of 8 degrees; rows of 1 ms "
+         "the edge deforms by its overlap, W/k, which moves the pivot against a lean of 8 degrees; rows of 1 ms "
          "between which the angle is taken as straight add 1e-6"},
         time[i - 1] + fraction * (time[i] - time[i - 1]), cost(run));
   }

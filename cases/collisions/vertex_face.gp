@@ -1,4 +1,4 @@
-# six stages of the collision, with the time of each
+# six moments of the collision, with the time of each
 set terminal svg size 1000,620 @page
 @picture
 unset key

@@ -1,4 +1,4 @@
-# overlap of every joint at rest
+# overlap of every joint in equilibrium
 set xlabel 'joint, from the ground up'
 set ylabel 'overlap (mm)'
 set xrange [-0.5:7.5]

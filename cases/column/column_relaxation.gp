@@ -1,4 +1,4 @@
-# to rest: error of the top's place, from here on, over the steps taken
+# towards equilibrium: largest remaining error of the top's position over the steps taken
 set logscale xy
 set xlabel 'steps'
 set ylabel 'largest error of the settlement from here on, fraction'

@@ -22,14 +22,15 @@ std::vector<double> displacement(const SceneRun& run, int cube) {
   return column(run, fmt::format("cube_{}_displacement_z_m", cube));
 }
 
-// At rest joint j carries the cubes above it.
+// In equilibrium joint j carries the cubes above it.
 TEST(Column, SettlesOnItsSprings) {
   CaseReport report("column", {"overlap of joint 0", "overlap of joint 7", "settlement of the top"});
   const SceneRun run = cases::run("scene.toml");
   const std::vector<double> overlaps = reference::column_overlaps(eight);
   const double one = overlaps.back(), tolerance = 4e-5 * one;
   const std::string because =
-      "rest leaves each of 8 cubes 1e-6 of the mean contact force, 4.5 weights, unbalanced: 3.6e-5 of a weight at most";
+      "equilibrium leaves each of 8 cubes 1e-6 of the mean contact force, 4.5 weights, unbalanced: 3.6e-5 of a weight "
+      "at most";
   double below = 0, settlement = 0;
   std::vector<double> joint, expected_mm, found_mm;
   for (int j = 0; j < eight.blocks; ++j) {
@@ -60,7 +61,7 @@ TEST(Column, SettlesOnItsSprings) {
   write_csv("column", "overlaps.csv", {"joint", "overlap_mm", "closed_form_mm"}, {joint, found_mm, expected_mm});
 }
 
-// Started in the shape of the first mode, it swings in it, with its period.
+// Started in the shape of the first mode, it oscillates in it, with its period.
 TEST(Column, SwingsInItsFirstMode) {
   CaseReport report("column", {"period of the first mode", "largest distance from the first mode"});
   const SceneRun run = cases::run("mode.toml");
@@ -98,7 +99,7 @@ TEST(Column, SwingsInItsFirstMode) {
                  "identity: A_i sin(omega t)",
                  0,
                  {amplitude * half * half * (1 + frequency * time.back() / 6), 0},
-                 "leapfrog: amplitude by (omega dt/2)2/2, phase by omega t (omega dt/2)2/6; the rest is room"},
+                 "leapfrog: amplitude by (omega dt/2)2/2, phase by omega t (omega dt/2)2/6; the remainder is a margin"},
                 largest, cost(run));
   for (std::size_t k = 0; k < time.size(); ++k) {
     top_mm.push_back(1e3 * top[k]);

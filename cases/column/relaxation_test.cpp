@@ -1,4 +1,4 @@
-// How a column comes to rest: relaxation against local damping, in steps.
+// A column reaches equilibrium: relaxation against local damping, in steps.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ constexpr double rest = 1e-8;  // of the mean contact force
 // squares of 1 m, 20 kN each, on joints of 200 MN/m
 constexpr double density = 2000, stiffness = 2e8, gravity = 10;
 
-// a column in the plane that weight presses at once; rows of the top's way at steps of `interval` s
+// a column in the plane under weight applied suddenly; rows of the top's displacement every `interval` s
 std::string scene_text(int blocks, const std::string& statics, double interval) {
   std::string text = fmt::format(R"(title = "Column of {0} squares, to rest"
 dimension = 2
@@ -97,21 +97,22 @@ void write_approach(const std::string& file, int blocks, const SceneRun& run) {
 void compare(CaseReport& report, int blocks, double relaxation_interval, double local_interval) {
   const Settled relaxed = settle(blocks, "adaptive", relaxation_interval),
                 damped = settle(blocks, "local", local_interval);
-  report.record({fmt::format("settlement by relaxation, {} blocks", blocks),
-                 "m",
-                 Kind::exact,
-                 "equilibrium: N (N + 1)/2 m g/k",
-                 settlement(blocks),
-                 {0, rest * blocks * blocks},
-                 "rest leaves each of N blocks 1e-8 of the mean contact force unbalanced, which N joints collect"},
-                -value(relaxed.run, "top_displacement_y"), cost(relaxed.run));
+  report.record(
+      {fmt::format("settlement by relaxation, {} blocks", blocks),
+       "m",
+       Kind::exact,
+       "equilibrium: N (N + 1)/2 m g/k",
+       settlement(blocks),
+       {0, rest * blocks * blocks},
+       "equilibrium leaves each of N blocks 1e-8 of the mean contact force unbalanced, which N joints collect"},
+      -value(relaxed.run, "top_displacement_y"), cost(relaxed.run));
   report.record({fmt::format("steps of local damping over steps of relaxation, {} blocks", blocks),
                  "1",
                  Kind::limit,
                  "demanded: at least 15 times fewer steps to a residual of 1e-8",
                  15,
                  {0, 0, Bound::at_least},
-                 "no room: steps are counted"},
+                 "no margin: steps are counted"},
                 static_cast<double>(damped.steps) / static_cast<double>(relaxed.steps), cost(damped.run));
   report.report(fmt::format("steps of relaxation, {} blocks", blocks), "steps", static_cast<double>(relaxed.steps),
                 "count of steps", cost(relaxed.run));

@@ -1,4 +1,4 @@
-# overlap while gravity grows, then at rest
+# overlap while gravity grows, then in equilibrium
 stats 'closed_form.csv' using 1 nooutput name 'rest'
 set xlabel 'time (s)'
 set ylabel 'overlap of the edges (mm)'

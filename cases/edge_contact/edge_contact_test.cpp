@@ -1,4 +1,4 @@
-// Edge on edge: overlap, force and normal where no face touches.
+// Edge on edge: overlap, force and normal without any face in contact.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -35,14 +35,15 @@ Rest rest(const SceneRun& run) {
 
 void check(CaseReport& report, const std::string& which, const SceneRun& run) {
   const Rest found = rest(run);
-  report.record({"overlap" + which,
-                 "m",
-                 Kind::exact,
-                 "equilibrium: W/k",
-                 overlap,
-                 {0, 2e-6},
-                 "rest leaves 1e-6 of the force unbalanced, the search for the contact point 1e-9 of the overlap"},
-                found.overlap, cost(run));
+  report.record(
+      {"overlap" + which,
+       "m",
+       Kind::exact,
+       "equilibrium: W/k",
+       overlap,
+       {0, 2e-6},
+       "equilibrium leaves 1e-6 of the force unbalanced, the search for the contact point 1e-9 of the overlap"},
+      found.overlap, cost(run));
   report.record({"contact force" + which,
                  "N",
                  Kind::exact,
@@ -77,7 +78,7 @@ void check(CaseReport& report, const std::string& which, const SceneRun& run) {
                 found.tilt, cost(run));
 }
 
-TEST(EdgeContact, RestsWithoutFriction) {
+TEST(EdgeContact, HasEquilibriumWithoutFriction) {
   CaseReport report("edge_contact", {"overlap", "contact force", "sideways drift"});
   report.reference("upper_displacement_z", -overlap, "m");
   const SceneRun run = cases::run("scene.toml");
@@ -93,7 +94,7 @@ TEST(EdgeContact, RestsWithoutFriction) {
   write_csv("edge_contact", "closed_form.csv", {"overlap_mm"}, {{1e3 * overlap}});
 }
 
-TEST(EdgeContact, RestsWithFriction) {
+TEST(EdgeContact, HasEquilibriumWithFriction) {
   CaseReport report("edge_contact");
   check(report, ", friction 30 deg", cases::run("scene.toml", {"joint_properties.edge.friction_deg=30"}));
 }
@@ -103,11 +104,10 @@ TEST(EdgeContact, UnevenEdgeIsReported) {
   CaseReport report("edge_contact");
   const SceneRun run = cases::run("uneven.toml");
   const double sideways = std::hypot(value(run, "upper_displacement_x"), value(run, "upper_displacement_y"));
-  report.report(
-      "tilt of the normal, uneven edge", "deg", std::asin(shear_stiffness * sideways / weight) / degree,
-      "each edge points along the bisector of its faces, one upright, one tilted by 8.13 deg; the normal takes the "
-      "mean; from the friction that holds the block",
-      cost(run));
+  report.report("tilt of the normal, uneven edge", "deg", std::asin(shear_stiffness * sideways / weight) / degree,
+                "the direction of each edge is the bisector of its faces, one upright, one tilted by 8.13 deg; the "
+                "normal is the mean; from the friction that holds the block",
+                cost(run));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-# what the contacts leave open of the energy of the drop, against the time step
+# energy error of the contacts, as a fraction of the energy of the drop, against the time step
 set logscale xy
 set xlabel 'time step, fraction of the estimated limit'
 set ylabel 'energy left open, fraction of that of the drop'
@@ -10,5 +10,5 @@ second_order(x) = 2e-3 * x**2
 plot 'balance.csv' using 'fraction':'published' with linespoints lt 1 title 'published normal', \
      '' using 'fraction':'multipliers' with linespoints lt 2 title 'multipliers of the program', \
      '' using 'fraction':'central_path' with linespoints lt 3 title 'on the central path', \
-     '' using 'fraction':'whole' with linespoints lt 4 title 'whole contacts, at worst', \
+     '' using 'fraction':'whole' with linespoints lt 4 title 'integrated face contacts, largest', \
      second_order(x) with lines dt 2 lc rgb '#808080' title 'second order'

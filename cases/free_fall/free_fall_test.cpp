@@ -1,4 +1,5 @@
-// Two hundred regular polyhedra fall into a box and come to rest: nothing gives way, nothing is lost.
+// Two hundred regular polyhedra fall into a box and come to rest: no block is penetrated, and the energy is accounted
+// for.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -28,7 +29,7 @@ std::string text_of(const std::filesystem::path& path) {
   return text.str();
 }
 
-// a stiffness per area, at a point and as a whole
+// a stiffness per area, at a point and integrated
 const std::vector<std::string> per_area{"joint_properties.rock.constant_stiffness=false",
                                         "joint_properties.rock.normal_stiffness=2e9",
                                         "joint_properties.rock.shear_stiffness=1e9"};
@@ -43,7 +44,7 @@ std::filesystem::path write_scene(const std::string& file, const std::string& te
 // a fall, its frames kept
 struct Fall {
   LoadedScene loaded;
-  std::vector<State<3>> frames;  // the begin and the end among them
+  std::vector<State<3>> frames;  // first and last included
   FallFindings found;
 
   const Prepared<3>& scene() const { return std::get<Prepared<3>>(loaded.prepared); }
@@ -56,7 +57,7 @@ Fall let_fall(const std::filesystem::path& path, const FallPlan& plan, const std
   return fall;
 }
 
-// whether the contacts' energy balance is judged, or what they leave open is reported
+// whether the contacts' energy balance is judged, or only its error reported
 enum class Balance { reported, checked };
 enum class Rest { demanded, optional };
 
@@ -68,7 +69,7 @@ void check(CaseReport& report, const std::string& which, const Fall& fall, Balan
                            double limit, const char* reason) {
     report.record({quantity + which, unit, Kind::limit, source, 0, {limit, 0, Bound::at_most}, reason}, value, cost);
   };
-  at_most("contacts without an answer", "1", "promise: every contact has an answer",
+  at_most("contacts without an answer", "1", "promise: every contact has a result",
           static_cast<double>(found.counters.unconverged), 0.5, "a count");
   at_most("overlaps beyond the potential particle's radius", "1", "demanded: stiff enough",
           static_cast<double>(found.counters.deep_overlaps), 0.5, "a count");
@@ -76,31 +77,30 @@ void check(CaseReport& report, const std::string& which, const Fall& fall, Balan
           largest_potential_radius(fall.scene().model, fall.scene().settings.contact.potential_radius),
           "no overlap is beyond the radius of the bluntest block's potential particle");
   if (rest == Rest::demanded || found.kinetic < at_rest)
-    at_most("kinetic energy at rest", "1", "equilibrium: rest, as a fraction of the energy of the drop", found.kinetic,
-            at_rest, "what was asked of the case; there the fall is ended");
+    at_most("kinetic energy at rest", "1", "equilibrium: as a fraction of the energy of the drop", found.kinetic,
+            at_rest, "requirement on the case; the fall is ended there");
   else
     report.report("kinetic energy at the end, not at rest" + which, "1", found.kinetic,
                   "a block between two parallel faces keeps turning: contacts that act at points do not resist "
                   "(README.md)",
                   cost);
-  for (const auto& [when, closure] :
-       {std::pair(", before the damping starts", found.before), {", at rest", found.end}}) {
+  for (const auto& [when, error] : {std::pair(", before the damping starts", found.before), {", at rest", found.end}}) {
     at_most(
         std::string("energy that the motion does not account for") + when, "1",
         "conservation of energy: work of all forces against kinetic energy, as a fraction of the energy of the drop",
-        closure.motion, motion_closed,
+        error.motion, motion_closed,
         "leapfrog closes to the rounding of some ten thousand steps of two hundred blocks");
     const std::string quantity = std::string("energy that the contacts do not account for") + when;
     if (balance == Balance::checked)
       at_most(quantity, "1",
               "conservation of energy: work of the contacts against springs, dashpots and friction, as a fraction of "
               "the energy of the drop",
-              closure.contacts, energy_balanced,
-              "what was asked of the case; what the time step leaves falls with its square (README.md)");
+              error.contacts, energy_balanced,
+              "requirement on the case; the error of the time step falls with its square (README.md)");
     else
-      report.report(quantity + which, "1", closure.contacts,
-                    "where edges cross, the published normal is not across both: sliding along them works against the "
-                    "spring without a change of the overlap (README.md)",
+      report.report(quantity + which, "1", error.contacts,
+                    "if edges cross, the published normal is not perpendicular to both: sliding along them works "
+                    "against the spring without a change of the overlap (README.md)",
                     cost);
   }
 }
@@ -108,7 +108,7 @@ void check(CaseReport& report, const std::string& which, const Fall& fall, Balan
 void draw(const Fall& fall) {
   const Camera camera{-60, 24, {"west", "east", "south", "north"}};
   const Model<3>& model = fall.scene().model;
-  const std::size_t impact = 4;  // 0.8 s: the lowest blocks lie, the highest still fall
+  const std::size_t impact = 4;  // 0.8 s: the lowest blocks have landed, the highest still fall
   write_picture("free_fall", "start.csv", model, fall.frames.front(), camera);
   write_picture("free_fall", "impact.csv", model, fall.frames[impact], camera);
   write_picture("free_fall", "rest.csv", model, fall.frames.back(), camera);
@@ -124,7 +124,7 @@ TEST(FreeFall, TheCommittedSceneIsTheGeneratorsOwn) {
   const std::string text = fall_scene({}, "Two hundred regular polyhedra fall into a box");
   const std::filesystem::path made = write_scene("scene.toml", text);
   EXPECT_TRUE(text == text_of(std::filesystem::path(VOUSSOIR_CASE_DIR) / "scene.toml"))
-      << "copy " << made << " to the case's folder when the generator has changed on purpose";
+      << "copy " << made << " to the case's folder if the generator has changed on purpose";
 }
 
 TEST(FreeFall, AMixComesToRest) {
@@ -152,7 +152,7 @@ TEST(FreeFall, TheEnergyBalanceClosesWithTheSquareOfTheStep) {
     double value;
     const char *source, *because;
   };
-  enum class When { end, worst };  // `worst` counts what another part of the fall takes back as well
+  enum class When { end, worst };  // `worst` also counts errors that another part of the fall cancels
   const auto left_open = [&](const std::string& name, std::vector<std::string> overrides, double fraction,
                              const std::optional<Limit>& limit, When when = When::end) {
     overrides.push_back(fmt::format("time.fraction={}", fraction));
@@ -180,17 +180,18 @@ TEST(FreeFall, TheEnergyBalanceClosesWithTheSquareOfTheStep) {
     open[0].push_back(fraction);
     open[1].push_back(left_open("published normal", {}, fraction, {}));
     open[2].push_back(left_open("multipliers", multipliers, fraction, {}));
-    std::optional<Limit> of_path;  // seen: 4e-4 and 6e-5, a sixth more or less
+    std::optional<Limit> of_path;  // measured: 4e-4 and 6e-5, a sixth more or less
     if (fraction < 1)
       of_path = {fraction == 0.2 ? 2e-4 : 1e-3, "convergence: a potential, second order in the step",
-                 "four times what a step of second order leaves"};
+                 "four times the error of a step of second order"};
     open[3].push_back(left_open("central path", central_path, fraction, of_path));
-    // demanded of whole contacts: one percent, a thousandth at a fifth, and that a shorter step leaves less
+    // required of integrated face contacts: one percent, a thousandth at a fifth, and a smaller error for a shorter
+    // step
     double most = 0.01;
     if (fraction < 1) most = std::min(fraction == 0.2 ? energy_balanced : most, open[4].front());
     const Limit of_region{
         most, "conservation of energy: a potential, the depth of the overlap region, or the overlap of two faces",
-        "what was asked of the case; a shorter step leaves less than the limit does"};
+        "requirement on the case; a shorter step has a smaller error than the limit"};
     open[4].push_back(left_open("whole contacts", whole_contacts, fraction, of_region, When::worst));
   }
   left_open("a point with stiffness per area", per_area, 1, {});
@@ -211,8 +212,8 @@ TEST(FreeFallLong, EveryShapeFalls) {
   }
 }
 
-// the shape whose blocks swing on a point
-TEST(FreeFallLong, DodecahedraRestOnWholeContacts) {
+// the shape whose blocks rock on a point
+TEST(FreeFallLong, DodecahedraComeToRestOnIntegratedContacts) {
   CaseReport report("free_fall");
   FallPlan plan;
   plan.kinds = {3};

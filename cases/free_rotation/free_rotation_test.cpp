@@ -25,7 +25,7 @@ struct Tumble {
   double largest_error = 0, largest_momentum = 0;  // rad/s; relative
 };
 
-// the monitors give world axes; the rotation vector leads back to the axes of the box
+// the monitors give world axes; the rotation vector transforms them to the axes of the box
 Tumble tumble(const SceneRun& run) {
   const auto vectors = [&](const std::string& name, const std::string& unit) {
     std::vector<Eigen::Vector3d> list;
@@ -54,7 +54,7 @@ Tumble tumble(const SceneRun& run) {
   return t;
 }
 
-// time between the first and the last fall of the middle spin through zero, over their number
+// time between the first and the last downward zero of the middle spin, over their number
 double period_of(const Tumble& t) {
   std::vector<double> zeros;
   for (std::size_t i = 1; i < t.time.size(); ++i) {
@@ -76,23 +76,22 @@ TEST(FreeRotation, FollowsEuler) {
 
   // for the study
   report.reference("box_angular_velocity_x", reference::free_rotation_in_space(box, duration)[0], "rad/s");
-  report.record(
-      {"angular velocity, largest error",
-       "rad/s",
-       Kind::exact,
-       "Euler (1758), Jacobi's elliptic functions",
-       0,
-       {fraction * duration * steepest, 0},
-       "a step of second order turns at a rate wrong by (omega dt)2/12; over 45 s that shifts a curve whose slope is "
-       "2 rad/s2 at most"},
-      found.largest_error, cost(run));
+  report.record({"angular velocity, largest error",
+                 "rad/s",
+                 Kind::exact,
+                 "Euler (1758), Jacobi's elliptic functions",
+                 0,
+                 {fraction * duration * steepest, 0},
+                 "a step of second order rotates at a rate wrong by (omega dt)2/12; over 45 s that shifts a curve "
+                 "whose slope is 2 rad/s2 at most"},
+                found.largest_error, cost(run));
   report.record({"angular momentum, largest change",
                  "1",
                  Kind::exact,
                  "identity: no moment acts",
                  0,
                  {1e-12, 0},
-                 "4000 steps of 5 turns, each rounded to 1e-16: a random walk of 2e-14, at worst 4e-12"},
+                 "4000 steps of 5 rotations, each rounded to 1e-16: a random walk of 2e-14, at worst 4e-12"},
                 found.largest_momentum, cost(run));
   report.record({"period",
                  "s",

@@ -59,7 +59,7 @@ const Variant variants[] = {
      {beam, aligned, HingePoint::analytic_centre}},
 };
 
-// the vertical force that the push needs is the weight of a block; the thrust is what reaches the abutment
+// the vertical force that the push needs is the weight of a block; the thrust is the force on the abutment
 std::vector<HingedBeamLoad> curve(const SceneRun& run) {
   const std::vector<double> turned = column(run, "block_rotation_deg", push);
   const std::vector<double> weight = column(run, "block_contact_load_y_N", push);
@@ -79,10 +79,11 @@ HingedBeamLoad at(const std::vector<HingedBeamLoad>& curve, double rotation) {
   return {rotation, a.weight + fraction * (b.weight - a.weight), a.thrust + fraction * (b.thrust - a.thrust)};
 }
 
-// the reference's own curve: the hinge rolls and the joint gives in shear as in the scene
+// the reference's own curve: the hinge rolls and the joint deforms in shear as in the scene
 std::vector<HingedBeamLoad> expected_curve(const HingedBeamModel& model, double stiffness) {
   constexpr double last = 0.22;
-  constexpr int steps = 220;  // the path then has its weight to 1e-4, and chords of 0.001 rad miss it by 1e-5
+  constexpr int steps =
+      220;  // the path then has its weight to 1e-4, and linear interpolation over 0.001 rad is off by 1e-5
   std::vector<HingedBeamLoad> curve;
   for (const reference::HingedBeamState& s : reference::hinged_beam_path(model, stiffness, last, steps))
     curve.push_back(s);
@@ -128,7 +129,7 @@ bool has_ipopt() {
 
 class HingedBeam : public testing::TestWithParam<Variant> {};
 
-// Pushed down evenly, the beam needs at every rotation the weight that would hold it there.
+// Pushed down steadily, the beam needs at every rotation the weight that would keep it in equilibrium there.
 TEST_P(HingedBeam, CarriesTheWeightOfItsReference) {
   const Variant& v = GetParam();
   CaseReport report("hingedbeam", {"weight, " + v.name, "thrust, " + v.name, "peak weight, " + v.name,
@@ -139,7 +140,8 @@ TEST_P(HingedBeam, CarriesTheWeightOfItsReference) {
 
   const Worst error = worst(found, expected);
   const std::string static_points =
-      "the push at 0.5 rad/s leaves a swing of at most 20 N, 0.4 % of the weight at 0.01 rad; the reference is right "
+      "the push at 0.5 rad/s leaves an oscillation of at most 20 N, 0.4 % of the weight at 0.01 rad; the reference is "
+      "right "
       "to "
       "0.01 %";
   report.record(share_check("weight, " + v.name, by_reference, 0.005, static_points), error.weight, cost(scene));
@@ -169,8 +171,8 @@ TEST_P(HingedBeam, CarriesTheWeightOfItsReference) {
 INSTANTIATE_TEST_SUITE_P(All, HingedBeam, testing::ValuesIn(variants),
                          [](const auto& chosen) { return chosen.param.test; });
 
-// The published values have the lower corner stay level with an aligned abutment's edge; rolling lifts it by up to
-// 0.1 mm at the peak.
+// The published values assume that the lower corner stays level with an aligned abutment's edge; rolling lifts it by up
+// to 0.1 mm at the peak.
 TEST(HingedBeamPeak, IsThatOfALevelCorner) {
   CaseReport report("hingedbeam");
   for (const Variant& v : {variants[0], variants[2]}) {
@@ -183,7 +185,7 @@ TEST(HingedBeamPeak, IsThatOfALevelCorner) {
                    "equilibrium: 36.895 kN (tall) and 36.588 kN (aligned) with the lower corner kept level",
                    level.weight,
                    {0, 0.01},
-                   "rolling lifts the corner by 0.1 mm, of which each carries 0.6 % where the abutment ends beside it"},
+                   "rolling lifts the corner by 0.1 mm, each worth 0.6 % if the abutment ends beside it"},
                   own.weight);
   }
   std::vector<HingedBeamLoad> second, first;
@@ -195,7 +197,7 @@ TEST(HingedBeamPeak, IsThatOfALevelCorner) {
   write_curve("second_order", second);
   const HingedBeamLoad peak = reference::hinged_beam_second_order_peak(beam);
   report.report("peak weight of E.2", "N", peak.weight,
-                "the arm of the weight stays half a block: drawn, not compared");
+                "the lever arm of the weight remains half a block: drawn, not compared");
 }
 
 // Under its weight the beam holds 1 % less than the peak and snaps through 1 % above it.
@@ -209,8 +211,8 @@ TEST(HingedBeamWeight, IsHeldUpToThePeak) {
                  by_reference,
                  0.06,
                  {2e-5, 0},
-                 "the weight is rounded to 0.5 N, worth 2e-6 rad; rest leaves 1e-6 of the contact force, and what the "
-                 "hinge does not slip is of no matter between tall abutments"},
+                 "the weight is rounded to 0.5 N, worth 2e-6 rad; equilibrium leaves 1e-6 of the contact force, and "
+                 "the slip of the hinge does not matter between tall abutments"},
                 -value(held, "block_rotation") * degree, cost(held));
 
   const double peak = reference::hinged_beam_peak(model).weight;
@@ -220,7 +222,7 @@ TEST(HingedBeamWeight, IsHeldUpToThePeak) {
   };
   const SceneRun below = under(0.99 * peak), above = under(1.01 * peak);
   report.record(
-      {"weight held", "1", Kind::exact, "reference/hingedbeam: 0.99 of the peak", 1, {0, 0}, "it comes to rest"},
+      {"weight held", "1", Kind::exact, "reference/hingedbeam: 0.99 of the peak", 1, {0, 0}, "it reaches equilibrium"},
       below.results.outcome == Outcome::done && -value(below, "block_rotation") * degree < 0.117262, cost(below));
   const std::vector<double> turned = column(above, "block_rotation_deg", push);
   report.record(
@@ -230,13 +232,13 @@ TEST(HingedBeamWeight, IsHeldUpToThePeak) {
        "reference/hingedbeam: 1.01 of the peak",
        1,
        {0, 0},
-       "it passes Goodman's geometric limit, where the hinges are level"},
+       "it passes Goodman's geometric limit, at which the hinges are level"},
       above.results.outcome == Outcome::incomplete &&
           -*std::min_element(turned.begin(), turned.end()) * degree > reference::hinged_beam_geometric_limit(beam),
       cost(above));
 }
 
-// The same push with either solver of the analytic centre: a fast one, for Ipopt is slow.
+// The same push with either solver of the analytic centre: a fast push, since Ipopt is slow.
 TEST(HingedBeamSolvers, AgreeOnTheCentre) {
   CaseReport report("hingedbeam");
   const SceneRun own = run("solvers.toml");
@@ -248,7 +250,8 @@ TEST(HingedBeamSolvers, AgreeOnTheCentre) {
   const SceneRun ipopt = run("solvers.toml", {"contact.centre=ipopt"});
   const Worst apart = worst(curve(ipopt), curve(own));
   const std::string because =
-      "both find the centre to 1e-6 of the overlap; rows stand at the same times, and a chord of the curve misses 1e-4";
+      "both find the centre to 1e-6 of the overlap; rows are at the same times, and linear interpolation between rows "
+      "is off by 1e-4";
   report.record(share_check("weight, Ipopt against own Newton", "Eqs 3.28 and 3.38: the same maximum", 0.001, because),
                 apart.weight, cost(ipopt));
   report.record(share_check("thrust, Ipopt against own Newton", "Eqs 3.28 and 3.38: the same maximum", 0.001, because),

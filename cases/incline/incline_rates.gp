@@ -1,4 +1,4 @@
-# how much too low a constant rate finds the angle
+# error of the angle found by a constant rate, always too low
 set logscale xy
 set xlabel 'rate of reduction (deg/s)'
 set ylabel 'critical angle found too low by (deg)'

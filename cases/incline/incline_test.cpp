@@ -1,4 +1,5 @@
-// Block on an incline: where it begins to slide, how it slides, that it rests; in space and in the plane.
+// Block on an incline: the angle at which it begins to slide, its motion, its equilibrium above; in space and in the
+// plane.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -65,20 +66,21 @@ Path path(const SceneRun& run, int stage, int dimension) {
 class InclineIn : public testing::TestWithParam<Variant> {};
 
 // Bisection finds the dip; below it the block slides with constant acceleration.
-TEST_P(InclineIn, SlidesAtTheDipAndAsNewtonSays) {
+TEST_P(InclineIn, SlidesAtTheDipByNewtonsLaw) {
   const Variant& v = GetParam();
   CaseReport report("incline", {"critical friction, " + v.name, "distance after 0.5 s, " + v.name});
   const SceneRun run = cases::run(v.scene);
   const double expected = reference::incline_critical_friction(incline(0)) / degree;
   if (v.dimension == 3) report.reference("critical_friction", expected, "deg");
-  report.record({"critical friction, " + v.name,
-                 "deg",
-                 Kind::exact,
-                 "Coulomb (1785): the dip",
-                 expected,
-                 {0.005, 0},
-                 "half the bracket of 0.01; the force left at rest, 1e-6 of the contact force, is worth 0.00005"},
-                value(run, "critical_friction"), cost(run));
+  report.record(
+      {"critical friction, " + v.name,
+       "deg",
+       Kind::exact,
+       "Coulomb (1785): the dip",
+       expected,
+       {0.005, 0},
+       "half the bracket of 0.01; the unbalanced force in equilibrium, 1e-6 of the contact force, is worth 0.00005"},
+      value(run, "critical_friction"), cost(run));
 
   const Path sliding = path(run, slide, v.dimension);
   const double step = run.results.stages[slide - 1].time_step, end = sliding.time.back();
@@ -91,14 +93,14 @@ TEST_P(InclineIn, SlidesAtTheDipAndAsNewtonSays) {
                  "Newton: g (sin - cos tan) t2/2",
                  closed_form.back(),
                  {0, 2 * step / end},
-                 "velocities stand half a step behind: half a step at the start would be dt/t in the "
-                 "distance; as much again for the overlap, which grows while the joint's area shrinks"},
+                 "velocities are half a step behind: half a step at the start would be dt/t in the distance; as much "
+                 "again for the overlap, which grows as the joint's area shrinks"},
                 sliding.distance.back(), cost(run));
   write_csv("incline", v.dimension == 3 ? "slide.csv" : "slide_plane.csv", {"time_s", "distance_m", "closed_form_m"},
             {sliding.time, sliding.distance, closed_form});
 }
 
-// Put on slowly at a high friction angle, the weight presses the joint and shears it, no more.
+// Applied slowly at a high friction angle, the weight only compresses and shears the joint.
 TEST_P(InclineIn, SettlesElastically) {
   const Variant& v = GetParam();
   CaseReport report("incline");
@@ -111,12 +113,12 @@ TEST_P(InclineIn, SettlesElastically) {
                  "equilibrium: two springs: W sin/(ks A) along, W cos/(kn A) across",
                  expected,
                  {0, 6e-5},
-                 "sheared by 85 micrometres the joint loses up to 5e-5 of its area; rest leaves 1e-6"},
+                 "sheared by 85 micrometres the joint loses up to 5e-5 of its area; equilibrium leaves 1e-6"},
                 path(run, settle, v.dimension).distance.back(), cost(run));
 }
 
-// One degree above the dip nothing moves, damped or not.
-TEST_P(InclineIn, RestsAboveTheDip) {
+// One degree above the dip the block does not move, damped or not.
+TEST_P(InclineIn, IsInEquilibriumAboveTheDip) {
   const Variant& v = GetParam();
   CaseReport report("incline");
   const SceneRun run = cases::run(v.scene, {"stage.slide.friction_deg=31"});
@@ -125,16 +127,15 @@ TEST_P(InclineIn, RestsAboveTheDip) {
   const Path resting = path(run, slide, v.dimension);
   for (const double d : resting.distance)
     farthest = std::max(farthest, d);
-  report.record(
-      {"distance in 0.5 s at 31 deg, " + v.name,
-       "m",
-       Kind::limit,
-       "Coulomb (1785): it rests",
-       0,
-       {1e-5 * elastic, 0, Bound::at_most},
-       "what the force left at rest, 1e-6 of the contact force, can do: it swings by twice that fraction of the "
-       "elastic displacement in each of three directions"},
-      farthest, cost(run));
+  report.record({"distance in 0.5 s at 31 deg, " + v.name,
+                 "m",
+                 Kind::limit,
+                 "Coulomb (1785): equilibrium",
+                 0,
+                 {1e-5 * elastic, 0, Bound::at_most},
+                 "effect of the unbalanced force, 1e-6 of the contact force: oscillation by twice that fraction of the "
+                 "elastic displacement in each of three directions"},
+                farthest, cost(run));
   write_csv("incline", v.dimension == 3 ? "rest.csv" : "rest_plane.csv", {"time_s", "distance_m"},
             {resting.time, resting.distance});
 }
@@ -171,8 +172,8 @@ TEST(Incline, TheBiasOfARateIsTheOnePredicted) {
                    "closed form: (6 X cos r2/((1-a) g))^(1/3), friction falling linearly",
                    predicted.back(),
                    {0, 0.01 + bias * std::tan(dip * degree) / 6},
-                   "the next term is tan(dip) bias/6; the joint gives 1e-5 of the 0.01 m before it slips, and a step "
-                   "moves the angle by less than 0.001 deg: the rest is room"},
+                   "the next term is tan(dip) bias/6; the joint deforms by 1e-5 of the 0.01 m before it slips, and a "
+                   "step moves the angle by less than 0.001 deg: the remainder is a margin"},
                   found.back(), cost(run));
   }
   report.record({"slope of the bias over the rate",
@@ -202,10 +203,10 @@ TEST(Incline, TwoRatesFindTheDip) {
   report.record({"its error as a fraction of its error bar",
                  "1",
                  Kind::limit,
-                 "promise: what an error bar is",
+                 "promise: definition of an error bar",
                  1,
                  {0, 0, Bound::at_most},
-                 "no room: the bar is the claim"},
+                 "no margin: the bar is the claim"},
                 std::abs(found.value - dip) / *found.error_bar);
 }
 

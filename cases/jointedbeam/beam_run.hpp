@@ -1,5 +1,5 @@
-// What the tests of the jointed beam share: the scenes as the chain of reference/jointedbeam knows them, runs as the
-// chain would tell them, and checks against it.
+// Shared by the tests of the jointed beam: the scenes as input of the chain of reference/jointedbeam, runs in the
+// quantities of the chain, and checks against it.
 #pragma once
 
 #include <cmath>
@@ -43,7 +43,7 @@ inline JointedBeam with_cells(JointedBeam beam, int cells, CellClosure closure =
   return beam;
 }
 
-// ---- the run as the chain would tell it
+// ---- the run in the quantities of the chain
 // ----------------------------------------------------------------------------
 
 // of one joint: forces per metre of width are summed, the resultant acts at their pressure's centre
@@ -90,7 +90,7 @@ inline BeamState describe(const JointedBeam& beam, const Model<2>& model, const 
 }
 
 struct BeamRun {
-  std::vector<BeamState> held;  // at the ends of the stages that came to rest
+  std::vector<BeamState> held;  // at the ends of the stages that reached equilibrium
   double lost = 0;              // g: the stage that did not; 0: all did
   Results results;
 };

@@ -1,4 +1,4 @@
-# Boon (2013), Fig. 4.16: the line of thrust through the contact points; an arrow at each lies along its force.
+# Boon (2013), Fig. 4.16: the line of thrust through the contact points; an arrow at each has the direction of its force.
 set terminal svg size 760,420
 set multiplot
 set size ratio -1

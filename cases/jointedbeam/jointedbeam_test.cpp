@@ -109,7 +109,7 @@ TEST(JointedBeam, OfFullBlocksIsTheChain) {
   report.record({"thrust, full block, 1 g",
                  "N",
                  Kind::exact,
-                 "demanded: 60 N, what the abutments are moved in for",
+                 "demanded: 60 N, for which the abutments are moved in",
                  60,
                  {0, 1e-3},
                  "the closure has five digits; the last step of the move is cut by half a step"},
@@ -120,7 +120,8 @@ TEST(JointedBeam, OfFullBlocksIsTheChain) {
     record_thrust(report, name, expected, found, 0.001, "a chain of 16 cells a joint deviates by 0.01 %", cost(run));
     record_deflection(report, name, expected, found, 0.005,
                       "a chain of 16 cells a joint deviates by 0.01 to 0.25 %: a cell slips as a whole");
-    const std::string same = "the same cells under the same law: the chain's steps of 0.25 g leave 1e-5, rest 1e-6";
+    const std::string same =
+        "the same cells under the same law: the chain's steps of 0.25 g leave 1e-5, equilibrium 1e-6";
     record_thrust(report, name + ", chain of 16 cells", at_gravity(cells, gravity), found, 2e-4, same);
     record_deflection(report, name + ", chain of 16 cells", at_gravity(cells, gravity), found, 5e-4, same);
   }
@@ -172,9 +173,10 @@ TEST(JointedBeam, ComesNearerWithSubContacts) {
                    {last, 0},
                    "cells slip one by one: more of them follow the front of slip more closely"},
                   deflection, cost(run));
-    report.report("largest error of thrust, " + number + " sub-contacts", "1", thrust,
-                  "normal forces and their places are exact for any number; what is left is the shape of the beam",
-                  cost(run));
+    report.report(
+        "largest error of thrust, " + number + " sub-contacts", "1", thrust,
+        "normal forces and their positions are exact for any number; the error is that of the shape of the beam",
+        cost(run));
     EXPECT_LT(deflection, last) << count;
     last = deflection;
     columns[0].push_back(count);
@@ -184,9 +186,9 @@ TEST(JointedBeam, ComesNearerWithSubContacts) {
   write_csv("jointedbeam", "sub_contacts.csv", {"sub_contacts", "thrust_percent", "deflection_percent"}, columns);
 }
 
-// One point at the centroid of the overlap carries 4/3 of what a triangle of stress does: the joint is too stiff. One
-// at the analytic centre carries what it should, half of the contact from the edge instead of a third: the arm is
-// short.
+// One point at the centroid of the overlap carries 4/3 of the force of a triangle of stress: the joint is too stiff.
+// One at the analytic centre carries the right force at half of the contact length from the edge instead of a third:
+// the lever arm is short.
 TEST(JointedBeam, DeviatesOnOnePointAsItsChainDoes) {
   CaseReport report("jointedbeam");
   const JointedBeam beam = full_block();
@@ -204,7 +206,7 @@ TEST(JointedBeam, DeviatesOnOnePointAsItsChainDoes) {
     for (const double gravity : {10.0, 40.0}) {
       const BeamState &found = at_gravity(run.held, gravity), &expected = at_gravity(chain, gravity);
       const std::string name = "one point, " + v.name + ", " + in_g(gravity);
-      const std::string because = "the same joint; what a step of 0.25 g leaves of the chain's history";
+      const std::string because = "the same joint; the error of steps of 0.25 g in the chain's history";
       record_thrust(report, name, at_gravity(own_chain, gravity), found, 0.002, because, cost(run));
       record_deflection(report, name, at_gravity(own_chain, gravity), found, 0.005, because);
       report.report("error of thrust, " + name, "1", found.thrust / expected.thrust - 1, "against distributed joints",
@@ -216,7 +218,7 @@ TEST(JointedBeam, DeviatesOnOnePointAsItsChainDoes) {
   }
 }
 
-TEST(JointedBeam, OfHalfBlocksIsLostAsTheChainIs) {
+TEST(JointedBeam, OfHalfBlocksFailsAsTheChainDoes) {
   CaseReport report("jointedbeam");
   const JointedBeam beam = half_block();
   const BeamRun run = run_beam(beam, "half.toml");
@@ -237,14 +239,14 @@ TEST(JointedBeam, OfHalfBlocksIsLostAsTheChainIs) {
                  chain_source + ": peak of gravity over deflection",
                  limit.gravity,
                  {1, 0},
-                 "the middle of a bracket of 1 g; a chain of 16 cells is lost within 0.3 g of the distributed one"},
+                 "the middle of a bracket of 1 g; a chain of 16 cells fails within 0.3 g of the distributed one"},
                 0.5 * (run.held.back().gravity + run.lost), cost(run));
   EXPECT_EQ(run.lost - run.held.back().gravity, 1);
   report.report("deflection at the loss of equilibrium, half block, chain", "m", limit.deflection, "at the peak");
   report.report("gravity that leaves Diederichs & Kaiser no arch, half block", "g", voussoir_beam_limit(beam),
                 "no shear in joints, no prestress");
   report.report("gravity at which Diederichs & Kaiser's design limit is reached, half block", "g",
-                voussoir_beam_limit(beam, 0.35), "35 % of the arches are gone");
+                voussoir_beam_limit(beam, 0.35), "35 % of the arches have failed");
   write_figures("half", beam, run.held, chain, {10, 30, 50, 70, 77});
   write_build_up("half_pushed.csv", beam, pushed);
 }
@@ -304,7 +306,7 @@ std::vector<std::string> overrides(const Law& law, double closure) {
   std::vector<std::string> all;
   for (const std::string& key : law.keys)
     all.push_back("joint_properties.rock." + key);
-  const double speed = closure / 2 / 0.005;  // m/s: falls to nothing within 0.01 s
+  const double speed = closure / 2 / 0.005;  // m/s: falls to zero within 0.01 s
   all.push_back(fmt::format("stage.close.move.left.velocity=[{},0]", speed));
   all.push_back(fmt::format("stage.close.move.right.velocity=[{},0]", -speed));
   return all;

@@ -1,4 +1,4 @@
-// Jointed beam with its joints carried as wholes, against the chain of distributed joints.
+// Jointed beam with integrated face contacts, against the chain of distributed joints.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -11,9 +11,9 @@
 namespace voussoir::cases {
 namespace {
 
-// Faces carried as a whole are the distributed joint until some of it slips. At 89 degrees cells of the chain still
+// Integrated face contacts are the distributed joint until parts of it slip. At 89 degrees cells of the chain still
 // slip at the edge of the pressure, by 5e-4 of the deflection; at 89.99 none does.
-TEST(JointedBeam, OnWholeFacesIsTheChainOfDistributedJointsThatDoNotSlip) {
+TEST(JointedBeam, OnIntegratedFacesIsTheChainOfDistributedJointsThatDoNotSlip) {
   CaseReport report("jointedbeam");
   JointedBeam beam = full_block();
   beam.joint.friction.angle = 89.99 * degree;
@@ -25,8 +25,8 @@ TEST(JointedBeam, OnWholeFacesIsTheChainOfDistributedJointsThatDoNotSlip) {
   for (const double gravity : judged) {
     const std::string name = "whole faces, no slip, " + in_g(gravity);
     const std::string because =
-        "both integrate the same pressure, 1e-5 by the chain's cells and steps, rest to 1e-6; the whole face's shear "
-        "stress is even, the chain's where a joint opens is not";
+        "both integrate the same pressure, 1e-5 by the chain's cells and steps, equilibrium to 1e-6; the shear stress "
+        "of the integrated contact is uniform, that of the chain is not if a joint opens";
     record_thrust(report, name, at_gravity(chain, gravity), at_gravity(whole.held, gravity), 5e-5, because,
                   cost(whole));
     record_deflection(report, name, at_gravity(chain, gravity), at_gravity(whole.held, gravity), 5e-4, because);
@@ -37,19 +37,20 @@ TEST(JointedBeam, OnWholeFacesIsTheChainOfDistributedJointsThatDoNotSlip) {
   report.record({"contact evaluations, whole faces over one point a face",
                  "1",
                  Kind::limit,
-                 "demanded: what was asked of the time",
+                 "demanded: a bound on the cost",
                  0,
                  {2.5, 0, verification::Bound::at_most},
-                 "a count: what a contact costs is measured in cases/sub_contacts"},
+                 "a count: cases/sub_contacts measures the cost of a contact"},
                 evaluations(whole) / evaluations(one_point), cost(whole));
   for (const auto& [name, run] : {std::pair("whole faces", &whole), {"one point a face", &one_point}})
     report.report(std::string("steps, no slip, ") + name, "1", static_cast<double>(run->results.counters.steps),
                   "from the closing of the abutments to 40 g", cost(*run));
 
-  // with the scene's 40 degrees the chain's joints slip locally, whole faces do not
+  // with the scene's 40 degrees the chain's joints slip locally, integrated face contacts do not
   const BeamState slipping = at_gravity(raise_gravity(full_block(), judged, full_closure), 40),
                   found = at_gravity(run_beam(full_block(), "scene.toml", {whole_faces}).held, 40);
-  const std::string note = "against distributed joints, parts of which slip; a whole face slips as a whole or not";
+  const std::string note =
+      "against distributed joints, parts of which slip; an integrated face contact slips everywhere or nowhere";
   report.report("error of thrust, whole faces, 40 degrees, 40 g", "1", found.thrust / slipping.thrust - 1, note);
   report.report("error of deflection, whole faces, 40 degrees, 40 g", "1", found.deflection / slipping.deflection - 1,
                 note);

@@ -1,5 +1,5 @@
-// Joint laws on laboratory paths: the law alone against closed forms, and a block on a base under each of them, carried
-// by one to eight points.
+// Joint laws on laboratory paths: the law alone against closed forms, and a block on a base under each law, on one to
+// eight points.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -109,7 +109,7 @@ TEST(JointLaws, LaboratoryPathsAreTheClosedForms) {
           shear[k].push_back(row[k]);
       }
     }
-    const std::string because = "a few roundings of exponentials and powers; the issue's measure";
+    const std::string because = "a few roundings of exponentials and powers";
     report.record(
         {"normal stress, " + law.name, "1", Kind::exact, "Boon (2013), Eqs 4.12-4.14", 0, {1e-10, 0}, because},
         normal_error);
@@ -141,7 +141,8 @@ TEST(JointLaws, CurvesForTheFigures) {
   }
   for (const double stress : {0.5e6, 1e6, 2e6, 4e6})
     for (int i = 0; i <= 60; ++i) {
-      const double slip = 60e-6 * i / 60, left = std::max(1 - slip / peak_slip(stress), 0.0);  // no law of ours
+      const double slip = 60e-6 * i / 60,
+                   left = std::max(1 - slip / peak_slip(stress), 0.0);  // not a law of the program
       const double row[] = {1e-6 * stress, 1e6 * slip, 1e-9 * left * reference::stiffness_at(power_shear, stress)};
       for (int k = 0; k < 3; ++k)
         degrading[k].push_back(row[k]);
@@ -152,7 +153,7 @@ TEST(JointLaws, CurvesForTheFigures) {
             stiffness);
   write_csv("jointlaws", "degrading.csv", {"normal_MPa", "slip_um", "stiffness_GPa_per_m"}, degrading);
 
-  // two cycles under constant normal load, and the same under surroundings that stiffen what rises
+  // two cycles under constant normal load, and the same with surroundings of normal stiffness
   for (const double surroundings : {0.0, 20e9}) {
     std::vector<std::vector<double>> loop(3);
     JointPath path;
@@ -203,7 +204,7 @@ TEST(JointLaws, ABlockOnOneToEightPoints) {
                    "closed form of the law",
                    0,
                    {1e-5, 0},
-                   "rest to 1e-6 of the weight, and what the shearing leaves of it"},
+                   "equilibrium to 1e-6 of the weight, and the remainder after shearing"},
                   closure);
     report.record({"shear of a block on 1 to 8 points, " + law.name,
                    "1",

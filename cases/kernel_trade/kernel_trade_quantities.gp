@@ -1,4 +1,4 @@
-# the four errors apart, against planes looked at; horizontal: what another definition of the contact point changes
+# the four errors separately, against planes looked at; horizontal: effect of another definition of the contact point
 set terminal svg size 980,620 @page
 set logscale xy
 set format y '10^{%T}'

@@ -1,4 +1,4 @@
-# the radius r: tilt near an edge in units of r, and what r does between too small and too large
+# the radius r: tilt near an edge in units of r, and effect of r from too small to too large
 set terminal svg size 1080,460 @page
 set multiplot layout 1,2 margins 0.07,0.72,0.15,0.95 spacing 0.09
 
@@ -25,7 +25,7 @@ set key at screen 0.995,0.95 right top vertical
 plot 'radius.csv' using 'radius':(column('tilt') > 1e-9 ? column('tilt') : NaN) with linespoints lt 2 \
        title 'tilt of face contacts', \
      '' using 'radius':(column('change') > 1e-9 ? column('change') : NaN) with linespoints lt 1 \
-       title 'turn of a corner''s, 1 % more', \
+       title 'rotation of a corner''s, 1 % more', \
      '' using 'radius':'deep' axes x1y2 with lines lt 3 title 'deeper than r (fraction)', \
      '' using 'radius':'without' axes x1y2 with lines lt 4 title 'no gradient (fraction)', \
      'rule.csv' using 'radius':'share' axes x1y2 with lines lt 7 dt 2 title 'the rule'

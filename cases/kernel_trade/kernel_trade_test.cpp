@@ -1,4 +1,4 @@
-// The contact kernel's own trade: what accuracy costs, setting by setting, and which radius r the normal wants.
+// The contact kernel's own trade: the cost of accuracy, setting by setting, and the radius r that the normal needs.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -15,10 +15,10 @@ using verification::Kind;
 
 constexpr std::array targets{1e-2, 1e-4, 1e-6, 1e-9};
 
-// 16 roundings of coordinates of 3 m over slacks of half the thinnest overlap, 5e-5 m: what double arithmetic leaves
+// 16 roundings of coordinates of 3 m over slacks of half the thinnest overlap, 5e-5 m: the error of double arithmetic
 constexpr double rounding_floor = 16 * 1.1e-16 * 3 / 5e-5;
 
-// A decrement λ before the last step leaves at most (λ/(1-λ))² after it, and a point at decrement μ lies within μ/(1-μ)
+// A decrement λ before the last step leaves at most (λ/(1-λ))² after it, and a point at decrement μ is within μ/(1-μ)
 // of the centre (self-concordance: Nesterov & Nemirovskii 1994; Boyd & Vandenberghe 2004, 9.6.4)
 double newton_bound(double tolerance) {
   const double left = std::pow(tolerance / (1 - tolerance), 2);
@@ -60,7 +60,7 @@ void write_settings(const std::string& name, const std::vector<Measured>& all, C
   write_csv("kernel_trade", name + ".csv", header, columns);
 }
 
-// one file for a family, one for a front; and, for horizontal lines, how far other definitions of the point lie away
+// one file per family, one per front; and, for horizontal lines, the distance of other definitions of the point
 void write_tables(const std::vector<Measured>& all) {
   const std::pair<Family, const char*> files[] = {{Family::cold, "cold"},
                                                   {Family::warm, "warm"},
@@ -84,7 +84,7 @@ void write_tables(const std::vector<Measured>& all) {
   write_csv("kernel_trade", "models.csv", names, lines);
 }
 
-// per target the cheapest Newton tolerance, for a new contact and for a standing one
+// per target the cheapest Newton tolerance, for a new contact and for an existing one
 void recommend(CaseReport& report, const std::vector<Measured>& all) {
   std::vector<std::vector<double>> columns(6);
   for (const Family family : {Family::cold, Family::warm})
@@ -117,7 +117,7 @@ void report_failures(CaseReport& report, const std::vector<Measured>& all) {
   report.report("settings that failed", "1", settings, list);
 }
 
-// what the alternatives are worth: another definition of the point, and single precision
+// the alternatives: another definition of the point, and single precision
 void report_alternatives(CaseReport& report, const std::vector<Measured>& all) {
   const Measured* single = nullptr;
   for (const Measured& m : all) {
@@ -209,7 +209,7 @@ TEST(KernelTrade, TheRadiusOfThePotentialParticle) {
       {"contacts without a gradient, not reported as deep",
        "1",
        Kind::exact,
-       "Eqs 3.31-3.35: a part has no gradient only where all its faces are r or more away, so the overlap exceeds r",
+       "Eqs 3.31-3.35: a part has no gradient only if all its faces are r or more away, so the overlap exceeds r",
        0,
        {0.5, 0},
        "a count"},
@@ -220,7 +220,7 @@ TEST(KernelTrade, TheRadiusOfThePotentialParticle) {
                  "geometry: the face's normal",
                  0,
                  {1e-12, 0},
-                 "mean; every point lies farther than r from the edges, so only the rounding of normals is left"},
+                 "mean; every point is farther than r from the edges, so only the rounding of normals remains"},
                 rule.tilt);
   report.report("ruled radius over overlap", "1", rule.radius,
                 "the smallest at which every overlap stays below r and no gradient vanishes");

@@ -31,7 +31,7 @@ std::vector<EdgeTilt> edge_tilts() {
   std::vector<EdgeTilt> tilts;
   for (const double radius : {1e-3, 3e-3, 1e-2, 3e-2, 1e-1, 3e-1})
     for (int k = 1; k <= 24; ++k) {
-      // the blocks' edges overhang by twice the distance; the point lies in the middle, by symmetry
+      // the blocks' edges overhang by twice the distance; the point is in the middle, by symmetry
       const double fraction = k / 16.0, distance = fraction * radius * size, r = radius * size;
       pair.offset = {2 * size - 2 * distance, 0, 2 * size - overlap};
       KernelCounters counters;

@@ -1,11 +1,11 @@
-// What the potential particle's radius r does to the contact normal, and the rule that picks it.
+// The effect of the potential particle's radius r on the contact normal, and the rule for choosing it.
 #pragma once
 
 #include <vector>
 
 namespace voussoir::trade {
 
-// A face contact whose point lies `distance` from an edge of either block, on opposite sides: both gradients turn
+// A face contact whose point is at `distance` from an edge of either block, on opposite sides: both gradients rotate
 // towards their edge, by atan(<r - distance>/(r - overlap/2)), and so does the normal.
 struct EdgeTilt {
   double radius;       // fraction of the size
@@ -14,12 +14,12 @@ struct EdgeTilt {
 };
 std::vector<EdgeTilt> edge_tilts();
 
-// One radius over many contacts of equal overlap. Tilt: of face contacts, against the face's normal; change: how far
-// the normal of a corner or edge contact turns when the overlap grows by a hundredth.
+// One radius over many contacts of equal overlap. Tilt: of face contacts, against the face's normal; change: the
+// rotation of the normal of a corner or edge contact if the overlap grows by a hundredth.
 struct AtRadius {
   double radius;        // over the overlap
   double tilt, change;  // rad, means
-  double without;       // fraction of contacts where a part's gradient vanished: a face's normal stood in
+  double without;       // fraction of contacts at which a part's gradient vanished and a face's normal replaced it
   double deep;          // fraction of contacts reported as deeper than r
   int unsaid;           // contacts without a gradient that were not
 };

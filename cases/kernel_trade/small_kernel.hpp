@@ -1,5 +1,5 @@
-// The contact kernel once more, written plainly for any type of number: float, double and, as the study's reference,
-// long double. It shares no code with the core and has none of its care: world axes, no certificate.
+// A second, plain contact kernel for any type of number: float, double and, as the study's reference,
+// long double. It shares no code with the core and has none of its safeguards: world axes, no proofs.
 #pragma once
 
 #include <Eigen/Core>
@@ -55,7 +55,7 @@ Real newton_step(const Planes<Real>& planes, const Vec<Real>& x, Vec<Real>& step
   Vec<Real> along;
   for (int k = 0; k < 3; ++k) {
     r(k, k) = p.col(k).norm();
-    if (!(r(k, k) > 0)) return std::numeric_limits<Real>::infinity();  // the planes span no ball: rounding
+    if (!(r(k, k) > 0)) return std::numeric_limits<Real>::infinity();  // the planes contain no ball: rounding
     p.col(k) /= r(k, k);
     for (int j = k + 1; j < 3; ++j) {
       r(k, j) = p.col(k).dot(p.col(j));
@@ -150,7 +150,7 @@ Real area(const Planes<Real>& planes, const Vec<Real>& x, const Vec<Real>& norma
   return std::abs(twice) / 2;
 }
 
-// everything from an interior start
+// all quantities from an interior starting point
 template <class Real>
 Answer<Real> solve(const Planes<Real>& planes, const Vec<Real>& start, Real tolerance, Real radius, Real reach) {
   const int limit = 200;

@@ -64,7 +64,7 @@ void place(TouchingPair& pair, bool face_on_face, double tilt, double overlap, R
 
 namespace {
 
-// where the second part stood: 1 % of the overlap away, turned by as much over the size
+// previous position of the second part: 1 % of the overlap away, rotated by as much over the size
 Contact<3> step_before(const TouchingPair& pair, double overlap, Random& random) {
   TouchingPair earlier = pair;
   earlier.offset += 0.01 * overlap * shapes::direction<3>(random);
@@ -77,7 +77,7 @@ Contact<3> step_before(const TouchingPair& pair, double overlap, Random& random)
   return contact;
 }
 
-// to the end in long double, and the area by Lasserre's recursion instead of by clipping
+// converged in long double, and the area by Lasserre's recursion instead of clipping
 void find_exact(TouchingPair& pair) {
   const Planes<long double> planes(pair.planes, pair.faces_a());
   pair.exact = solve<long double>(planes, pair.start.cast<long double>(), 1e-9L,
@@ -96,7 +96,7 @@ Answer<long double> in_long_double(const Contact<3>& contact) {
   return answer;
 }
 
-// asks once for answers and costs, then again and again for the time
+// evaluates once for results and costs, then repeatedly for the time
 Measured study(const std::vector<TouchingPair>& pairs, Family family, double tolerance,
                const std::function<Answer<long double>(const TouchingPair&, double& visits)>& ask) {
   Measured measured{.family = family, .tolerance = tolerance, .pairs = static_cast<int>(pairs.size())};
@@ -229,7 +229,7 @@ template Measured measure_plain<float>(const std::vector<TouchingPair>&, Family,
 template Measured measure_plain<double>(const std::vector<TouchingPair>&, Family, double);
 
 void mark_front(std::vector<Measured>& settings_tried) {
-  // a new contact cannot start warm, and other definitions of the point answer another question
+  // a new contact cannot start warm, and other definitions of the point are not comparable
   const auto rivals = [](const Measured& o, const Measured& other) {
     const auto is_cold = [](Family f) { return f == Family::cold || f == Family::lp_tolerance; };
     return o.family == other.family || (is_cold(o.family) && is_cold(other.family));

@@ -12,12 +12,12 @@
 
 namespace voussoir::trade {
 
-// two touching parts, the same pair a step earlier, and the converged answer in long double
+// two touching parts, the same pair a step earlier, and the converged result in long double
 struct TouchingPair {
   Polytope<3> a, b;
   Matrix<3> turn;
   Vector<3> offset;
-  Contact<3> before;  // resolved to the end where the second part stood 1 % of the overlap (and rotated as much) away
+  Contact<3> before;     // converged with the second part 1 % of the overlap (and rotated as much) away
   HalfSpaces<3> planes;  // in the first part's frame
   Vector<3> start;       // the LP's point in that frame
   double size;           // the smaller inscribed radius
@@ -26,9 +26,9 @@ struct TouchingPair {
   int faces_a() const { return static_cast<int>(a.faces.size()); }
 };
 
-// Places the second part on the first, both with their size and shape set. Face on face: two faces are turned to meet,
-// tilted by `tilt`, spun and moved sideways at random; else both have any orientation. The largest ball in the overlap
-// has `overlap` as its diameter.
+// Places the second part on the first, both with their size and shape set. Face on face: two faces are rotated to meet,
+// tilted by `tilt`, spun and moved sideways at random; otherwise both have any orientation. The largest ball in the
+// overlap has `overlap` as its diameter.
 void place(TouchingPair& pair, bool face_on_face, double tilt, double overlap, shapes::Random& random);
 
 // regular and irregular solids; corners, edges and faces meet; overlaps of 1e-2, 1e-3 and 1e-4 of the size
@@ -67,10 +67,10 @@ Measured measure_lp(const std::vector<TouchingPair>& pairs, double lp_tolerance)
 template <class Real>
 Measured measure_plain(const std::vector<TouchingPair>& pairs, Family family, double newton_tolerance);
 
-// marks those than which no other is both cheaper and more accurate, among the settings that failed nowhere
+// marks the settings than which no other is both cheaper and more accurate, among those that never failed
 void mark_front(std::vector<Measured>& settings_tried);
 
-// the cheapest setting of a family that reaches the error in all four quantities; null when none does
+// the cheapest setting of a family that reaches the error in all four quantities; null if none does
 const Measured* cheapest(const std::vector<Measured>& settings_tried, Family family, double error);
 
 }  // namespace voussoir::trade

@@ -1,4 +1,4 @@
-# The stack 0.1 % below its limit with the forces that carry it, and how its top turns as the overhang grows.
+# The stack 0.1 % below its limit with the forces that carry it, and the rotation of its top as the overhang grows.
 set terminal svg size 760,620 @page
 set multiplot
 
@@ -37,7 +37,7 @@ set ytics nomirror out scale 0.6 textcolor rgb '#202020'
 set grid back lc rgb '#e2e2e2' lw 1 dt 1
 set key at graph 0.36, 0.95 vertical
 set xlabel 'overhang over the harmonic one'
-set ylabel 'turn of the top block (°)'
+set ylabel 'rotation of the top block (°)'
 set xrange [0.905:1.002]
 set yrange [0:1]
 set arrow 2 from 1, 0 to 1, 1 nohead lc rgb '#0072b2' lw 2 dt 2

@@ -1,4 +1,4 @@
-// Stack over an edge: how far equal blocks lean out before they fall, in the plane and in space.
+// Stack over an edge: the largest overhang of equal blocks, in the plane and in space.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -24,15 +24,15 @@ constexpr double hard = 1e11;      // Pa/m
 struct Variant {
   std::string scene, name, test;
   int dimension;
-  double apart;                           // fraction from the limit at which the stack is tried
-  std::vector<std::string> carried = {};  // how the faces are carried: a scene's own points, or an override
+  double apart;                           // distance from the limit at which the stack is tried, as a fraction
+  std::vector<std::string> carried = {};  // contact model of the faces: a scene's own points, or an override
 };
 
 void PrintTo(const Variant& v, std::ostream* out) {
   *out << v.name;
 }
 
-// what turns a scene into a stack that leans out by this fraction
+// overrides of a scene for a stack with this fraction of the overhang
 std::vector<std::string> leaning(double fraction, int dimension) {
   const std::vector<double> overhangs = harmonic_overhangs(stack, fraction);
   std::vector<std::string> overrides;
@@ -66,8 +66,8 @@ bool stands(const SceneRun& run) {
   return run.results.outcome == Outcome::done;
 }
 
-// the top has turned ten times as far as at the limit, and still turns; beyond half a turn the sign of its rotation
-// changes, and a top that has left the stack behind ends the run
+// the top has rotated ten times as far as at the limit, and still rotates; beyond half a turn the sign of its rotation
+// changes, and the run ends when the top has left the stack
 bool falls(const SceneRun& run, const Variant& v) {
   return run.results.outcome == Outcome::incomplete &&
          std::abs(top_turn(run, v)) > 10 * elastic_overhang_limit(stack).turn;
@@ -75,7 +75,7 @@ bool falls(const SceneRun& run, const Variant& v) {
 
 class Overhang : public testing::TestWithParam<Variant> {};
 
-TEST_P(Overhang, EndsWhereElasticJointsEndIt) {
+TEST_P(Overhang, HasTheLimitOfElasticJoints) {
   const Variant& v = GetParam();
   const std::string above = "stands just below the limit, " + v.name, below = "falls just above the limit, " + v.name,
                     turned = "turn of the top block, " + v.name;
@@ -85,13 +85,13 @@ TEST_P(Overhang, EndsWhereElasticJointsEndIt) {
 
   const SceneRun standing = attempt(v, limit.fraction - v.apart), falling = attempt(v, limit.fraction + v.apart);
   const std::string because = text(v.apart) + " of the harmonic overhang from the limit, which is 0.0342 below it";
-  report.record({above, "1", Kind::exact, source, 1, {0, 0}, because + "; it comes to rest"}, stands(standing),
+  report.record({above, "1", Kind::exact, source, 1, {0, 0}, because + "; it reaches equilibrium"}, stands(standing),
                 cost(standing));
   report.record(
-      {below, "1", Kind::exact, source, 1, {0, 0}, because + "; the top turns ten times as far as at the limit"},
+      {below, "1", Kind::exact, source, 1, {0, 0}, because + "; the top rotates ten times as far as at the limit"},
       falls(falling, v), cost(falling));
 
-  // what the reference leaves out is of second order in the turns, as a fraction of what elasticity costs
+  // truncation of the reference: second order in the rotations, as a fraction of the effect of elasticity
   const SceneRun scene = run(v.scene, v.carried);
   const double expected = elastic_overhang(stack, stated).turn;
   const double left_out = limit.turn * limit.turn * (1 - limit.fraction);
@@ -102,8 +102,8 @@ TEST_P(Overhang, EndsWhereElasticJointsEndIt) {
                  source,
                  expected,
                  {elastic_overhang(stack, stated + left_out).turn - expected, 0},
-                 "the reference's turn when the share is larger by what it leaves out: the square of the turn, of the "
-                 "0.0342 that elastic joints cost"},
+                 "the reference's rotation if the fraction is larger by its truncation: the square of the rotation, "
+                 "times the 0.0342 that elastic joints take away"},
                 top_turn(scene, v), cost(scene));
 }
 
@@ -114,7 +114,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Variant{"scene.toml", "3-D, whole faces", "SpaceOnWholeFaces", 3, 0.001, {whole_faces}}),
     [](const auto& chosen) { return chosen.param.test; });
 
-// Hard joints come near the rigid blocks of the closed form: L/2 (1 + 1/2 + … + 1/5).
+// Stiff joints approach the rigid blocks of the closed form: L/2 (1 + 1/2 + … + 1/5).
 TEST(OverhangOfHardBlocks, IsNearlyHarmonic) {
   CaseReport report("overhang", {"stands below the harmonic overhang", "falls above the harmonic overhang"});
   const Variant plane{"plane.toml", "2-D", "", 2, 0};
@@ -132,11 +132,16 @@ TEST(OverhangOfHardBlocks, IsNearlyHarmonic) {
                  source,
                  1,
                  {0, 0},
-                 "joints of 100 GPa/m cost 1.6 % of it; 0.1 % less comes to rest"},
+                 "joints of 100 GPa/m take away 1.6 % of it; 0.1 % less reaches equilibrium"},
                 stands(standing), cost(standing));
-  report.record(
-      {"falls above the harmonic overhang", "1", Kind::limit, source, 1, {0, 0}, "0.1 % more than rigid blocks hold"},
-      falls(falling, plane), cost(falling));
+  report.record({"falls above the harmonic overhang",
+                 "1",
+                 Kind::limit,
+                 source,
+                 1,
+                 {0, 0},
+                 "0.1 % above the limit of rigid blocks"},
+                falls(falling, plane), cost(falling));
 }
 
 // closed outlines of the stack, and its forces, for the figure

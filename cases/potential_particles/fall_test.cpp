@@ -1,5 +1,5 @@
-// The five regular shapes, rounded, fall into a box and come to rest: nothing gives way, and what becomes of the
-// energy.
+// The five regular shapes, rounded, fall into a box and come to rest: no block is penetrated, and the energy is
+// accounted for.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -26,8 +26,8 @@ const char* name_of(Overlap overlap) {
   return overlap == Overlap::bracketed ? ", bracketed overlap" : ", conservative overlap";
 }
 
-// Contacts so stiff that an impact at 7 m/s goes in by v sqrt(m/K) = 13 mm, less than the 67 mm at which inner bodies
-// would meet.
+// Contacts so stiff that an impact at 7 m/s penetrates by v sqrt(m/K) = 13 mm, less than the 67 mm at which inner
+// bodies would meet.
 std::vector<std::string> settings_of(Overlap overlap, double fraction) {
   std::vector<std::string> settings{"joint_properties.rock.normal_stiffness=1e8",
                                     "joint_properties.rock.shear_stiffness=5e7",
@@ -56,13 +56,13 @@ RoundedScene rounded_fall(const FallPlan& plan) {
 struct Fall {
   LoadedScene loaded;
   FallFindings found;
-  double deepest = -INFINITY;  // m, over all frames: of the balls that the blocks hold in plate or walls
+  double deepest = -INFINITY;  // m, over all frames: depth of the blocks' inscribed balls in plate or walls
   double room = 0;             // m: the deepest that an overlap may be
 
   const Prepared<3>& scene() const { return std::get<Prepared<3>>(loaded.prepared); }
 };
 
-// how far the ball of the smallest inscribed radius about any centroid reaches into plate or wall, m
+// depth of the ball of the smallest inscribed radius about any centroid in plate or wall, m
 double deepest_ball(const Model<3>& model, const State<3>& state, double radius, double width) {
   double deepest = -INFINITY;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
@@ -92,35 +92,35 @@ void check(CaseReport& report, const std::string& which, const Fall& fall, Overl
         {which + quantity + name_of(overlap), unit, Kind::limit, source, 0, {limit, 0, Bound::at_most}, reason}, value,
         cost);
   };
-  at_most(": contacts without an answer", "1", "promise: every contact has an answer",
+  at_most(": contacts without an answer", "1", "promise: every contact has a result",
           static_cast<double>(found.counters.unconverged), 0.5, "a count");
   at_most(": deepest in the plate or a wall", "m", "promise: no block goes through", fall.deepest, fall.room,
           "the overlap at which the inner bodies of block and wall would meet: the sum of their radii");
   if (found.kinetic < at_rest)
-    at_most(": kinetic energy at rest", "1", "rest, as a fraction of the energy of the drop", found.kinetic, at_rest,
-            "what was asked of the case; there the fall is ended");
+    at_most(": kinetic energy at rest", "1", "equilibrium: as a fraction of the energy of the drop", found.kinetic,
+            at_rest, "requirement on the case; the fall is ended there");
   else
     report.report(which + ": kinetic energy at the end, not at rest" + name_of(overlap), "1", found.kinetic,
                   "contacts that act at points do not resist a spin about their normal (README.md)", cost);
-  for (const auto& [when, closure] :
+  for (const auto& [when, error] :
        {std::pair(", before the damping starts", found.before), {", at the end", found.end}}) {
     at_most(
         std::string(": energy that the motion does not account for") + when, "1",
         "conservation of energy: work of all forces against kinetic energy, as a fraction of the energy of the drop",
-        closure.motion, motion_closed, "leapfrog closes to the rounding of some ten thousand steps");
+        error.motion, motion_closed, "leapfrog closes to the rounding of some ten thousand steps");
     const std::string quantity = std::string(": energy that the contacts do not account for") + when;
     if (overlap == Overlap::conservative)
       at_most(quantity, "1",
               "conservation of energy: work of the contacts against springs, dashpots and friction, as a fraction of "
               "the energy of the drop",
-              closure.contacts, energy_balanced, "what was asked of the case (README.md)");
+              error.contacts, energy_balanced, "requirement on the case (README.md)");
     else
-      report.report(which + quantity + name_of(overlap), "1", closure.contacts,
-                    "the bracketed overlap changes with the point, which the force does not feel (README.md)", cost);
+      report.report(which + quantity + name_of(overlap), "1", error.contacts,
+                    "the bracketed overlap changes with the point, which does not affect the force (README.md)", cost);
   }
 }
 
-constexpr double balanced_step = 0.12;  // of the limit: what the step leaves open is then 2e-4
+constexpr double balanced_step = 0.12;  // of the limit: the energy error of the step is then 2e-4
 
 FallPlan twenty() {
   FallPlan plan;
@@ -137,14 +137,14 @@ TEST(PotentialParticles, TwentyFall) {
   check(report, "twenty", let_fall(twenty(), settings), Overlap::conservative);
 }
 
-TEST(PotentialParticlesLong, TwoHundredFallAndRest) {
+TEST(PotentialParticlesLong, TwoHundredFallAndComeToRest) {
   CaseReport report("potential_particles");
   for (const Overlap overlap : {Overlap::bracketed, Overlap::conservative})
     check(report, "two hundred", let_fall({}, settings_of(overlap, balanced_step)), overlap);
 }
 
-// Until the damping would start: what the contacts leave open falls with the square of the step where the force has a
-// potential; where it has none, something stays.
+// Until the damping would start: the energy error of the contacts falls with the square of the step if the force has a
+// potential; otherwise a part remains.
 void follow_the_step(const std::string& which, const std::vector<double>& fractions) {
   CaseReport report("potential_particles");
   std::vector<std::vector<double>> open{fractions};
@@ -159,15 +159,15 @@ void follow_the_step(const std::string& which, const std::vector<double>& fracti
           "1", left_open.back(), "before the damping starts, as a fraction of the energy of the drop");
     }
   }
-  report.record(
-      {"twenty: energy left open at the smallest step over that at the largest, conservative overlap",
-       "1",
-       Kind::limit,
-       "convergence: second order in the step",
-       0,
-       {10 * std::pow(fractions.back() / fractions.front(), 2), 0, Bound::at_most},
-       "the square of the steps' ratio; a fall is chaotic, and one differs from the next by some times itself"},
-      open[2].back() / open[2].front());
+  report.record({"twenty: energy left open at the smallest step over that at the largest, conservative overlap",
+                 "1",
+                 Kind::limit,
+                 "convergence: second order in the step",
+                 0,
+                 {10 * std::pow(fractions.back() / fractions.front(), 2), 0, Bound::at_most},
+                 "the square of the steps' ratio; a fall is chaotic, and its error varies by a factor of some units "
+                 "from one fall to the next"},
+                open[2].back() / open[2].front());
   write_csv("potential_particles", "balance.csv", {"fraction", "bracketed", "conservative"}, open);
 }
 
@@ -175,7 +175,7 @@ TEST(PotentialParticles, TheEnergyBalanceClosesWithTheSquareOfTheStep) {
   follow_the_step("twenty", {1, 0.5, 0.25});
 }
 
-TEST(PotentialParticlesLong, TheEnergyBalanceClosesWithTheSquareOfTheStepOnAndOn) {
+TEST(PotentialParticlesLong, TheEnergyBalanceClosesWithTheSquareOfSmallSteps) {
   follow_the_step("twenty, down to small steps", {1, 0.5, 0.25, 0.12, 0.05, 0.02});
 }
 

@@ -26,8 +26,8 @@ double eigenfrequency() {
   return std::sqrt(ball_stiffness / ball_mass);
 }
 
-// From top to top: where the velocity goes through zero downwards. In free flight it is a straight line of time, so
-// that nothing is lost between rows.
+// From top to top: downward zeros of the velocity. In free flight the velocity is linear in time, so interpolation
+// between rows is exact.
 TEST(PotentialParticles, ABallBouncesWithThePeriodOfItsSpring) {
   CaseReport report("potential_particles", {"ball on a plate: period"});
   const SceneRun run = cases::run("scene.toml");
@@ -51,7 +51,7 @@ TEST(PotentialParticles, ABallBouncesWithThePeriodOfItsSpring) {
       (tops.back() - tops.front()) / periods, cost(run));
 }
 
-TEST(PotentialParticles, ADampedImpactGivesBackWhatTheClosedFormDoes) {
+TEST(PotentialParticles, ADampedImpactHasTheRestitutionOfTheClosedForm) {
   CaseReport report("potential_particles");
   constexpr double damping_ratio = 0.2;
   const double expected = reference::bounce({ball_mass, ball_stiffness, damping_ratio, 1, 0}).restitution;
@@ -97,11 +97,11 @@ TEST(PotentialParticles, ARoundedSquareRollsOverItsCorner) {
       report.record({fmt::format("rolling over a corner of {} m: time to lean by {:.0f} deg more", r, lean),
                      "s",
                      Kind::exact,
-                     "conservation of energy, by quadrature: it turns about its point of contact",
+                     "conservation of energy, by quadrature: it rotates about its point of contact",
                      reference::rolling_time(body, start + lean * degree),
                      {0, overlap / (square.arm * start) + overlap / r},
-                     "the corner gives by its overlap, W/k, which moves the pivot against the first lean, and shortens "
-                     "the arc it rolls on"},
+                     "the corner deforms by its overlap, W/k, which moves the pivot against the first lean, and "
+                     "shortens the arc on which it rolls"},
                     time_of(time, turned, lean), cost(run));
     for (std::size_t i = 0; i < time.size() && turned[i] < 36; i += 10) {
       path[0].push_back(r);

@@ -13,10 +13,10 @@ constexpr double carried = 50e3;          // N, by the most loaded contact
 constexpr double pressed = 0.02;          // of r, by that
 constexpr double least_radius = 1e-4;     // of the size
 constexpr double first = 3, again = 0.5;  // s
-// Of all places: the fallen blocks overlap by some 2 mm, which a stiffer contact would throw apart.
+// The fallen blocks overlap by some 2 mm everywhere, and stiffer contacts would throw them apart.
 constexpr double loosened = 5e-3;
 
-// the blocks from where they lie; `radius` in m
+// the blocks at their current positions; `radius` in m
 std::string resting_scene(const Model<3>& model, const State<3>& state, const Rounding& rounding, double radius,
                           double duration) {
   std::string free;

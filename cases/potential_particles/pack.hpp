@@ -1,12 +1,12 @@
-// A settled pack of half-space blocks whose blocks are rounded where they lie, and which then settles again.
+// A settled pack of half-space blocks that are rounded in place and then settle again.
 #pragma once
 
 #include "cases/potential_particles/problems.hpp"
 
 namespace voussoir::cases {
 
-// Forty regular polyhedra have fallen into a box (the case free_fall) and have then settled on contacts as stiff as the
-// least radius that is asked wants them.
+// Forty regular polyhedra have fallen into a box (the case free_fall) and have then settled on contacts with the
+// stiffness that the least radius requires.
 struct Pack {
   Model<3> model;
   State<3> state;
@@ -15,7 +15,7 @@ struct Pack {
 };
 Pack settle_pack();
 
-// By how much the centroids have come down on the mean within half a second, over their height before.
+// Mean settlement of the centroids within half a second, over their height before.
 Trial settled_pack(const Pack& pack, const RelativeRounding& rounding);
 
 }  // namespace voussoir::cases

@@ -1,4 +1,4 @@
-# what the contacts leave open of the energy of the drop, against the time step
+# energy error of the contacts, as a fraction of the energy of the drop, against the time step
 set logscale xy
 set xlabel 'time step, fraction of the estimated limit'
 set ylabel 'energy left open, fraction of that of the drop'

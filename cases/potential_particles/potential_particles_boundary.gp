@@ -1,4 +1,4 @@
-# below which r/size the change stays under 5, 1 and 0.1 %, over k; the column also: above the line it does not stand
+# r/size below which the change stays under 5, 1 and 0.1 %, over k; the column is unstable above its line
 set terminal svg size 1000,720 @page
 set logscale y
 set format y '10^{%T}'
@@ -17,6 +17,6 @@ do for [p=1:words(problems)] {
   plot file using 'sphericity':'five_percent' with linespoints lc 1 pt 7 title '5 %', \
        '' using 'sphericity':'one_percent' with linespoints lc 2 pt 7 title '1 %', \
        '' using 'sphericity':'tenth_percent' with linespoints lc 3 pt 7 title '0.1 %', \
-       (p == 3 ? 'column_stands.csv' : file) using (p == 3 ? column(2) : NaN):1 @theory title 'stands below'
+       (p == 3 ? 'column_stands.csv' : file) using (p == 3 ? column(2) : NaN):1 @theory title 'stable below'
 }
 unset multiplot

@@ -1,4 +1,4 @@
-# what rounding changes, over r/size, one line for each k
+# effect of rounding over r/size, one line for each k
 set terminal svg size 1000,720 @page
 set logscale xy
 set format x '10^{%T}'

@@ -1,4 +1,4 @@
-// Potential particles: where two touch, which way and how far; and how they approach the sharp bodies.
+// Potential particles: contact point, normal and overlap of two; and their convergence to the sharp bodies.
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
@@ -29,7 +29,7 @@ PotentialShape<3> sphere(double radius) {
   return {{}, 1, 1, radius, Vector<3>::Zero()};
 }
 
-// the rounded body shares the faces of the sharp cube at k = 0: its planes lie r inside
+// the rounded body shares the faces of the sharp cube at k = 0: its planes are r inside
 PotentialShape<3> rounded_cube(double r, double k) {
   PotentialShape<3> shape{shapes::cube<3>(half - r), r, k};
   shape.sphere_radius = enclosing_radius<3>(shape.planes, r, Vector<3>::Zero());
@@ -63,7 +63,7 @@ TEST(PotentialParticles, Spheres) {
                  "geometry: the line of centres",
                  0,
                  {8 * ulp * size, 0},
-                 "gradients turn by what rounding moves the point, over the smaller radius of 1 m"},
+                 "gradients rotate by the rounding error of the point over the smaller radius of 1 m"},
                 (found.normal - normal).norm());
 #ifdef VOUSSOIR_HAS_IPOPT
   const ConeAnswer<3> linked = solve_cone_program<3>(pair, ConeReading::linked);
@@ -82,19 +82,19 @@ TEST(PotentialParticles, Spheres) {
                  "Eq. A.10: D_A / R_A + D_B / R_B is least at the smaller sphere's centre",
                  reference::unlinked_spheres(2, 1, distance),
                  {1e-4, 0},
-                 "the program's second cone has its tip there, and Ipopt comes near it as the root of its measure"},
+                 "the program's second cone has its apex there, and Ipopt approaches it as the root of its measure"},
                 unlinked.point.dot(normal));
 #endif
 }
 
 struct Approach {
-  std::vector<double> point, overlap, normal;  // off the sharp bodies', over r
+  std::vector<double> point, overlap, normal;  // deviation from the sharp bodies, over r
 };
 
 // One cube below, another above it: corner on face, or edge across edge.
 struct Stack {
   Matrix<3> lower = Matrix<3>::Identity(), upper;
-  double top, reach;  // m: of the lower one's highest point, and how far the upper one reaches down
+  double top, reach;  // m: height of the lower one's highest point, and downward extent of the upper one
 
   explicit Stack(bool edges)
       : upper(turn(edges ? Vector<3>(0, 1, 1) : Vector<3>(1, 1, 1))),
@@ -108,7 +108,7 @@ struct Stack {
   Vector<3> above(double depth) const { return {0.1, 0.05, top + reach - depth}; }
 };
 
-// Sharp bodies would be `share` r inside one another. The sharp contact point lies midway, its normal is vertical.
+// Sharp bodies would overlap by `share` r. The sharp contact point is midway, its normal is vertical.
 Approach approach(bool edges, double k, const std::vector<double>& radii) {
   const Stack stack(edges);
   Approach result;
@@ -156,7 +156,7 @@ void expect_mixed(CaseReport& report, const std::string& name, bool edges, const
                    "convergence: second order in r",
                    2,
                    {0.1, 0},
-                   "the term after it is smaller by r/R, 1e-2 at the larger radius, with a factor of some units"},
+                   "the next term is smaller by r/R, 1e-2 at the larger radius, with a factor of some units"},
                   1 + std::log10(std::abs(computed[1] - expected) / std::abs(computed[2] - expected)));
   };
   expect("overlap lacking", mixed.overlap, share - form.overlap);
@@ -169,7 +169,7 @@ TEST(PotentialParticles, ApproachSharpBodiesInProportionToTheRadius) {
   const std::vector<double> radii{1e-1, 1e-2, 1e-3, 1e-4};
   for (const bool edges : {false, true}) {
     const std::string name = edges ? "edge across edge" : "corner on face";
-    // what the two features lie inside the sharp ones, and so what the overlap lacks; the point is off by half of their
+    // recess of the two features from the sharp ones, which the overlap lacks; the point is off by half of their
     // difference
     const double lower = reference::recess(edges ? 2 : 1, 1), upper = reference::recess(edges ? 2 : 3, 1);
     const Approach exact = approach(edges, 0, radii);
@@ -205,13 +205,12 @@ TEST(PotentialParticles, ApproachSharpBodiesInProportionToTheRadius) {
           contact_between<3>(cube, {Vector<3>::Zero(), stack.lower}, cube, {stack.above(depth), stack.upper});
       const std::string name =
           fmt::format("{}, half-space kernel, depth {:g} m: ", edges ? "edge across edge" : "corner on face", depth);
-      report.report(
-          name + "overlap lacking over depth", "-", 1 - sharp.geometry.overlap / depth,
-          "the centre answers to all planes, so that it lies off the corner's axis by the square of the depth, "
-          "and the line through it leaves by a face beside the corner");
+      report.report(name + "overlap lacking over depth", "-", 1 - sharp.geometry.overlap / depth,
+                    "the centre depends on all planes, so that it is off the corner's axis by the square of the depth, "
+                    "and the line through it leaves by a face beside the corner");
       report.report(name + "height of the point off over depth", "-",
                     (sharp.origin[2] + sharp.geometry.point[2] - (stack.top - depth / 2)) / depth,
-                    "from midway of the overlap");
+                    "from the middle of the overlap");
       report.report(name + "tilt of the normal", "-", std::hypot(sharp.geometry.normal[0], sharp.geometry.normal[1]),
                     "the mean of two gradients of inner potentials");
     }

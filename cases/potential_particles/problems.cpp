@@ -27,13 +27,13 @@ struct Sharp {
   }
 };
 
-// a spring on which the weight presses a contact by a fraction of r: deeper, and the bodies' inner ones would meet
+// a spring on which the weight compresses a contact by a fraction of r: any deeper, the inner bodies would meet
 double stiffness_for(double weight, double radius, double fraction) {
   return weight / (fraction * radius);
 }
 
 constexpr double pressed = 0.02;       // of r, by a weight
-constexpr double sharp_radius = 1e-2;  // of the size: r that the half-space blocks' numbers are chosen for
+constexpr double sharp_radius = 1e-2;  // of the size: r for which the half-space blocks' numbers are chosen
 
 double radius_of(const RelativeRounding& rounding, double size) {
   return (rounding.radius > 0 ? rounding.radius : sharp_radius) * size;
@@ -65,7 +65,7 @@ stage = [{{ name = "settle", kind = "settle", gravity_ramp_s = 1.0 }},
 
 namespace {
 
-// Pushes the beam as its own case does, to a rotation (rad) within the same time.
+// Pushes the beam as the case hingedbeam does, to a rotation (rad) within the same time.
 Trial push_beam(const RelativeRounding& rounding, double rotation, double viscous_ratio,
                 const std::function<double(const std::vector<reference::HingedBeamLoad>&)>& answer) {
   const Sharp<2> sharp(all_cases / "hingedbeam" / "scene.toml");
@@ -115,7 +115,7 @@ const reference::RoundedHingedBeam sharp_hinge{{}, beam_stiffness, 0};
 double beam_rotation(const RelativeRounding& rounding) {
   constexpr double inscribed = 0.023;   // m, as the blocks of the case are
   constexpr double most_turned = 0.05;  // rad: well before the peak
-  // corners go in by 2/3 of L2 θ/2 where both joints are as stiff
+  // corners penetrate by 2/3 of L2 θ/2 if both joints have the same stiffness
   return std::min(1.5 * radius_of(rounding, inscribed) / sharp_hinge.beam.depth, most_turned);
 }
 
@@ -162,7 +162,7 @@ Trial settled_column(const RelativeRounding& rounding) {
                                          "restrain = [{ all = true, rotation = true }]\n"
                                          "stage = [{ name = \"settle\", kind = \"settle\", gravity_ramp_s = 0.5 }]\n" +
                                              monitor);
-  // the lowest joint gives by `pressed` r, each other one by an eighth less
+  // the lowest joint closes by `pressed` r, each further one by an eighth less
   const double settled = pressed * radius_of(rounding, 0.5) * (column_blocks + 1) / 2.0;
   return ask("study_column", scene,
              [&](const SceneRun& run) { return -column(run, "top_displacement_y_m").back() / settled; });

@@ -1,4 +1,4 @@
-// Three readings of the contact: with the link f_A = f_B, without it, and Eq. A.10 as printed. What they do to point
+// Three readings of the contact: with the link f_A = f_B, without it, and Eq. A.10 as printed. Their effect on point
 // and force.
 #include <gtest/gtest.h>
 
@@ -19,14 +19,14 @@ namespace {
 using verification::CaseReport;
 using verification::Kind;
 
-// Two bodies whose contact lies on the z axis: from where the first one's f + 1 vanishes to where the second one's does
-// is `gap`, and both grow as (t / length)².
+// Two bodies whose contact is on the z axis: `gap` is the distance between the zeros of the first one's and the second
+// one's f + 1, and both grow as (t / length)².
 struct Example {
   std::string name;
   PotentialShape<3> a, b;
   Matrix<3> rotation;
-  double from;  // m: z where the first one's f + 1 vanishes
-  double to;    // m: from the second one's origin down to where its f + 1 does
+  double from;  // m: z at which the first one's f + 1 vanishes
+  double to;    // m: from the second one's origin down to the zero of its f + 1
   double length_a, length_b, gap;
   PotentialPair<3> pair() const { return {&a, &b, rotation, {0, 0, from + gap + to}}; }
 };
@@ -57,7 +57,7 @@ Example corner_on_face(double r_a, double r_b, double depth) {
           r_a + r_b - depth};
 }
 
-// the bracketed overlap through a point by the rule of the method; 0 where the point is not inside both
+// the bracketed overlap through a point by the rule of the method; 0 if the point is not inside both
 double overlap_through(const Example& example, double height) {
   const double a = height / example.length_a, b = (example.gap - height) / example.length_b;
   if (!(a < 1 && b < 1)) return 0;
@@ -100,7 +100,7 @@ TEST(PotentialParticles, ReadingsOfEquationA10) {
     place_is("point without it, least f_A + f_B", squares, rounding, "rounding of coordinates", least_sum(example));
     place_is("overlap with the link", depth, rounding, "rounding of coordinates", found.overlap);
     report.report(name + "overlap without it", "m", overlap_through(example, squares),
-                  "0: the point lies outside one of them, so that no contact is seen");
+                  "0: the point is outside one of them, so that no contact is detected");
 #ifdef VOUSSOIR_HAS_IPOPT
     const auto ipopt = [&](ConeReading reading) {
       return solve_cone_program<3>(example.pair(), reading).point[2] - example.from;
@@ -108,16 +108,16 @@ TEST(PotentialParticles, ReadingsOfEquationA10) {
     const std::string measure = "Ipopt's error measure is brought below 1e-12";
     place_is("point with the link, Ipopt", linked, 1e-9 * size, measure, ipopt(ConeReading::linked));
     place_is("point without it, Ipopt", squares, 1e-9 * size, measure, ipopt(ConeReading::unlinked_squares));
-    // of equal lengths every point between is as good as any other
+    // for equal lengths every point between is optimal
     if (a != b)
       place_is("point of A.10 as printed, Ipopt", reference::unlinked_spheres(a, b, example.gap), 1e-4,
-               "the second cone has its tip there, and Ipopt comes near it as the root of its measure",
+               "the second cone has its apex there, and Ipopt approaches it as the root of its measure",
                ipopt(ConeReading::unlinked));
 #endif
   }
 }
 
-// Any shapes: of pairs that touch, how many the least f_A + f_B does not see, and how far off its point is.
+// Any shapes: of pairs that touch, the share that the least f_A + f_B misses, and the error of its point.
 TEST(PotentialParticles, WithoutTheLinkContactsAreMissed) {
   CaseReport report("potential_particles");
   shapes::Random random(28);
@@ -140,7 +140,7 @@ TEST(PotentialParticles, WithoutTheLinkContactsAreMissed) {
   report.report("without the link: random contacts that are not seen", "-", static_cast<double>(missed) / touching,
                 "r 1e-4 to 0.5 of the size, overlaps 1e-9 to 1e-1");
   report.report("without the link: distance of the points over r_A + r_B, median", "-", off[off.size() / 2],
-                "of the contacts seen and not seen");
+                "of the contacts detected and missed");
 }
 
 }  // namespace

@@ -19,8 +19,8 @@ std::string numbers(const Vector<Dim>& v) {
 
 }  // namespace
 
-// Planes and R settle together: R is that of the planes moved in, and says by how much they are. From one round to the
-// next what is left falls by about k r/R.
+// Planes and R converge together: R is that of the planes moved in, and determines by how much they move. From one
+// iteration to the next the error falls by about k r/R.
 template <int Dim>
 PotentialShape<Dim> rounded(const HalfSpaces<Dim>& faces, const Vector<Dim>& centre, const Rounding& rounding) {
   constexpr int rounds = 60;

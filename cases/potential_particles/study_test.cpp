@@ -1,5 +1,5 @@
-// From which rounding on is the shape acceptable? Four problems whose sharp answers are known, over r/size and k: what
-// rounding changes, what a contact costs, and where the change passes 5, 1 and 0.1 %.
+// Up to which rounding is the shape acceptable? Four problems with known sharp results, over r/size and k: the effect
+// of rounding, the cost of a contact, and the rounding at which the effect passes 5, 1 and 0.1 %.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -41,9 +41,9 @@ double sharp_angle() {
 
 constexpr double beam_stiffness = 100e6, inscribed = 0.023;  // as problems.cpp states them
 
-// --- what is right for k = 0, in closed form
+// --- k = 0, in closed form
 
-TEST(PotentialParticles, RoundedBlocksKeepTheirClosedForms) {
+TEST(PotentialParticles, RoundedBlocksMatchTheirClosedForms) {
   CaseReport report("potential_particles");
   const Trial wedge = sliding_wedge({0.1, 0.1});
   report.record({"wedge, r/size 0.1, k 0.1: critical friction",
@@ -52,7 +52,7 @@ TEST(PotentialParticles, RoundedBlocksKeepTheirClosedForms) {
                  "Hoek & Bray (1974): faces that bulge alike still touch along the sharp ones",
                  sharp_angle(),
                  {0.05, 0},
-                 "bracket 0.005, settlement 0.002; over a face the normal turns by at most k r/(2 R) = 0.0003 rad, R "
+                 "bracket 0.005, settlement 0.002; over a face the normal rotates by at most k r/(2 R) = 0.0003 rad, R "
                  "some 20 r, worth 0.02"},
                 wedge.value, {wedge.evaluations, wedge.seconds});
   for (const double q : {0.01, 0.1}) {
@@ -66,7 +66,7 @@ TEST(PotentialParticles, RoundedBlocksKeepTheirClosedForms) {
                    "equilibrium: arcs of r, forces through their centres",
                    expected,
                    {0, 0.005},
-                   "the push leaves a swing of at most 0.4 % of the weight (case hingedbeam)"},
+                   "the push leaves an oscillation of at most 0.4 % of the weight (case hingedbeam)"},
                   beam.value, {beam.evaluations, beam.seconds});
   }
   const Trial peak = hinged_beam_peak({0.1, 0});
@@ -80,7 +80,7 @@ TEST(PotentialParticles, RoundedBlocksKeepTheirClosedForms) {
                 peak.value, {peak.evaluations, peak.seconds});
   const Trial sharp = hinged_beam({0, 0});
   report.report("hinged beam, half-space blocks: weight over that of the sharp hinge", "1", sharp.value,
-                "4/9 at first: the resultant lies at a third of the overlap, whose depth there is two thirds of the "
+                "4/9 at first: the resultant is at a third of the overlap, whose depth there is two thirds of the "
                 "corner's",
                 {sharp.evaluations, sharp.seconds});
   const Trial column = settled_column({0.1, 0});
@@ -88,20 +88,20 @@ TEST(PotentialParticles, RoundedBlocksKeepTheirClosedForms) {
   report.record({"column, r/size 0.1, k 0: settlement over that of the sharp blocks",
                  "1",
                  Kind::exact,
-                 "equilibrium: the weight of what rounding leaves: 1 - (4 - pi) r2 of a square of 1 m",
+                 "equilibrium: the weight that remains after rounding: 1 - (4 - pi) r2 of a square of 1 m",
                  1 - (4 - std::numbers::pi) * r * r,
                  {1.4e-4, 0},
-                 "rest leaves 4e-5 (case column), the mass is right to 1e-4"},
+                 "equilibrium leaves 4e-5 (case column), the mass is right to 1e-4"},
                 column.value, {column.evaluations, column.seconds});
 }
 
-// The k at which the closed form says that a column of eight no longer stands, at one r/size.
+// The k at which a column of eight is no longer stable in the closed form, at one r/size.
 double critical_sphericity(double radius) {
   const double least = reference::least_joint_radius(8);
   double stands = 1e-6, falls = 0.99;
   for (int i = 0; i < 60; ++i) {
     const double k = (stands + falls) / 2;
-    double joint = 0;  // a body that is too small for this rounding does not stand
+    double joint = 0;  // a body that is too small for this rounding is not stable
     try {
       joint = joint_radius({radius, k});
     } catch (const std::domain_error&) {
@@ -111,7 +111,7 @@ double critical_sphericity(double radius) {
   return stands;
 }
 
-TEST(PotentialParticles, AColumnStandsAsLongAsItsFacesAreFlatEnough) {
+TEST(PotentialParticles, AColumnIsStableIfItsFacesAreFlatEnough) {
   CaseReport report("potential_particles");
   for (const double radius : {0.1, 0.3}) {
     const double critical = critical_sphericity(radius);
@@ -125,7 +125,7 @@ TEST(PotentialParticles, AColumnStandsAsLongAsItsFacesAreFlatEnough) {
                    source,
                    0,
                    {0.01, 0, Bound::at_most},
-                   "a push of 1 mm/s swings it by some mm; nothing grows"},
+                   "a push of 1 mm/s makes it oscillate by some mm, without growth"},
                   std::abs(stands.value), {stands.evaluations, stands.seconds});
     report.record({"column, three halves" + at + ": top sideways",
                    "m",
@@ -133,7 +133,7 @@ TEST(PotentialParticles, AColumnStandsAsLongAsItsFacesAreFlatEnough) {
                    source,
                    0.5,
                    {0.25, 0, Bound::at_least},
-                   "what leans further goes on: a quarter of an edge is far beyond any swing"},
+                   "a growing lean continues: a quarter of an edge is far beyond any oscillation"},
                   std::abs(falls.value), {falls.evaluations, falls.seconds});
   }
 }
@@ -141,11 +141,11 @@ TEST(PotentialParticles, AColumnStandsAsLongAsItsFacesAreFlatEnough) {
 // --- the study
 
 struct Point {
-  double radius, sphericity, error, nanoseconds, load;  // error: NaN without an answer
+  double radius, sphericity, error, nanoseconds, load;  // error: NaN without a result
 };
 
-// where the error passes a level: the largest r up to which all smaller ones stay below, between points on the
-// logarithmic line; none where the smallest is above already
+// the r at which the error passes a level: the largest r up to which all smaller ones stay below, between points on the
+// logarithmic line; none if the smallest is already above
 std::optional<double> boundary(const std::vector<Point>& points, double sphericity, double level) {
   std::optional<double> last;
   double last_error = 0;
@@ -202,7 +202,7 @@ struct Findings {
   std::string unanswered;  // which points
 };
 
-// Where there is no such body, there is no point.
+// If there is no such body, there is no point.
 Findings vary(const Problem& problem, const Grid& grid) {
   Findings found;
   for (const double k : grid.sphericities)
@@ -229,8 +229,8 @@ void write_standing_columns(const Grid& grid) {
   write_csv("potential_particles", "column_stands.csv", {"radius", "sphericity"}, {grid.radii, sphericity});
 }
 
-// the short sibling: a coarse grid, the pack left out
-TEST(PotentialParticles, RoundingChangesWhatItsBoundariesSay) {
+// the short sibling: a coarse grid, without the pack
+TEST(PotentialParticles, EffectOfRoundingIsWithinItsBoundaries) {
   CaseReport report("potential_particles");
   for (const Problem& problem : {wedge_problem(), beam_problem(), column_problem()}) {
     const Findings found = vary(problem, coarse);
@@ -240,7 +240,7 @@ TEST(PotentialParticles, RoundingChangesWhatItsBoundariesSay) {
                    "comparison: a sharp shape's",
                    0,
                    {0.005, 0, Bound::at_most},
-                   "twice r/size, and what its own test leaves: wedge 0.0015, beam 0.004, column 0.0001"},
+                   "twice r/size, and the error of its own test: wedge 0.0015, beam 0.004, column 0.0001"},
                   found.points.front().error);
     report.report("coarse study, " + problem.name + ": error at r/size 0.1, k 0", "1", found.points[2].error,
                   "the study's long sibling has the whole grid");
@@ -270,7 +270,7 @@ void study(CaseReport& report, const Problem& problem, const Grid& grid) {
       const auto limit = boundary(found.points, k, level);
       report.report(fmt::format("study, {}, k {}: largest r/size for an error of {} %", problem.name, k, 100 * level),
                     "1", limit.value_or(0),
-                    limit ? "between points of the study" : "more already at the least r that was answered");
+                    limit ? "between points of the study" : "larger already at the least r with a result");
     }
 }
 
@@ -296,7 +296,7 @@ TEST(PotentialParticlesLong, WhichRoundingIsAcceptableForASettlingPack) {
   const Trial sharp = settled_pack(pack, {});
   ASSERT_TRUE(sharp.answered);
   report.report("study, pack: half-space blocks that settle on, of the height", "1", sharp.value,
-                "below this the study sees nothing");
+                "resolution of the study");
   study(report,
         {"pack", [&](const RelativeRounding& rounding) { return settled_pack(pack, rounding); },
          [&](double drop) { return std::abs(drop - sharp.value); }},

@@ -1,4 +1,4 @@
-// A scene that a study writes, runs and asks for one number.
+// A scene that a study writes and runs for one number.
 #pragma once
 
 #include <functional>
@@ -12,7 +12,7 @@ namespace voussoir::cases {
 struct Trial {
   bool answered = false;      // a number was found
   double value = 0;           // see each problem
-  std::string why;            // where there is none
+  std::string why;            // if there is none
   double load_seconds = 0;    // of the processor: reading, with the cubature of each particle's mass
   double seconds = 0;         // of the processor: simulating
   long long evaluations = 0;  // of contacts

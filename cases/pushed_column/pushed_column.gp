@@ -11,7 +11,7 @@ plot 'theory.csv' using 1:4 with lines lt 1 title '1000 GPa/m', \
      'theory.csv' using 1:3 with lines lt 2 title '10 GPa/m', \
      'found_10.csv' using 1:2 with points lt 2 pt 7 notitle, \
      'theory.csv' using 1:2 with lines lt 3 title '1 GPa/m', \
-     'found_1.csv' using 1:2 with points lt 3 pt 7 title 'DEM, at rest'
+     'found_1.csv' using 1:2 with points lt 3 pt 7 title 'DEM, in equilibrium'
 set xlabel 'normal stiffness of the joint (GPa/m)'
 set logscale x
 set format x '10^{%T}'

@@ -1,5 +1,5 @@
-// Pushed column: the force at which it tips, found by search in the plane and in space; how it leans before; a force
-// that grows, is replaced and ends; blocks in space under forces that change and turn.
+// Pushed column: the force at which it tips, found by search in the plane and in space; its lean before; a force that
+// grows, is replaced and ends; blocks in space under forces that vary and rotate.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -32,7 +32,7 @@ PushedColumn on(double stiffness) {
   return column;
 }
 
-// what a scene is run with
+// settings of a run
 struct Joint {
   double stiffness = 1e10;  // Pa/m, in both directions
   int points = 8;           // along the base
@@ -54,13 +54,13 @@ std::string push_of(const std::string& scene, double force) {
 
 struct Trial {
   bool rests = false;
-  double tilt = 0;  // rad, at the end; where it tipped, when that was seen
+  double tilt = 0;  // rad, at the end; if it tipped, when that was detected
   Results results;
 };
 
 template <int Dim>
 Trial attempt(const std::string& scene, const std::vector<std::string>& overrides) {
-  constexpr double tipped = 0.2;  // rad: beyond any tilt of equilibrium, short of the ground
+  constexpr double tipped = 0.2;  // rad: beyond any tilt of equilibrium, before it reaches the ground
   const auto tilt = [](const Prepared<Dim>& prepared, const State<Dim>& state) {
     return rotation_vector(state.bodies.motions[prepared.model.bodies[0].fixed ? 1 : 0].rotation).norm();
   };
@@ -109,7 +109,7 @@ Push push_of(const Joint& joint) {
   return {corner.x, corner.y, joint.turns};
 }
 
-// what rest leaves of unbalanced force, 1e-6 of the weight, as a fraction of the force
+// the unbalanced force in equilibrium, 1e-6 of the weight, as a fraction of the force
 const double unbalanced = 1e-6 * column_of_scene.weight / rigid_push(column_of_scene, corner);
 
 Found judge_tipping(const std::string& scene, const Joint& joint, CaseReport& report) {
@@ -124,7 +124,7 @@ Found judge_tipping(const std::string& scene, const Joint& joint, CaseReport& re
        source,
        tipping(column, push_of(joint)).force / rigid,
        {found.half_bracket + unbalanced, 0},
-       "half the bracket of the search, and the unbalanced force that counts as rest; over that of a rigid "
+       "half the bracket of the search, and the unbalanced force of the equilibrium criterion; over that of a rigid "
        "joint, W b/(2 h)"},
       found.force, found.cost);
   return found;
@@ -154,20 +154,19 @@ TEST(PushedColumn, TipsEarlierOnSofterJoints) {
        "closed form: the weight's lever loses a/3 + h/2 tilt, least at tilt ~ (W/k)^1/3",
        -1.0 / 3,
        {bracket / stiff / std::log(100) + 2e-3, 0},
-       "the bracket as a fraction of what is lost at 1000 GPa/m; the next power, of the tilt of 5 mrad at 10"},
+       "the bracket as a fraction of the reduction at 1000 GPa/m; the next power, of the tilt of 5 mrad at 10"},
       std::log(stiff / soft) / std::log(100));
-  // what is lost, taken as a line over k^-1/3, where the line meets k = infinity
+  // the reduction as a line over k^-1/3, extrapolated to k = infinity
   const double x_soft = std::pow(stiffness[1], -1.0 / 3), x_stiff = std::pow(stiffness[2], -1.0 / 3);
-  report.record(
-      {"tipping force on a rigid joint",
-       "1",
-       Kind::limit,
-       "equilibrium: W b/(2 h)",
-       1,
-       {1.5 * bracket + 5e-3 * soft * x_stiff / x_soft, 0},
-       "extrapolated over k^-1/3 from 10 and 1000 GPa/m: 1.5 times the bracket, and the tilt of 5 mrad's share "
-       "of what is lost"},
-      1 - (stiff * x_soft - soft * x_stiff) / (x_soft - x_stiff));
+  report.record({"tipping force on a rigid joint",
+                 "1",
+                 Kind::limit,
+                 "equilibrium: W b/(2 h)",
+                 1,
+                 {1.5 * bracket + 5e-3 * soft * x_stiff / x_soft, 0},
+                 "extrapolated over k^-1/3 from 10 and 1000 GPa/m: 1.5 times the bracket, and the tilt of 5 mrad times "
+                 "the reduction"},
+                1 - (stiff * x_soft - soft * x_stiff) / (x_soft - x_stiff));
   write_csv("pushed_column", "found.csv", {"stiffness_GPa_m", "force"}, {in_units_of(1e9, stiffness), force});
 }
 
@@ -176,29 +175,29 @@ TEST(PushedColumn, TipsInSpaceAsInThePlane) {
   judge_tipping("space.toml", {}, report);
 }
 
-// the force that a turning push tips at is 0.4 % above that of one that stays horizontal, at the same corner
-TEST(PushedColumn, TipsLaterUnderAForceThatTurnsWithIt) {
+// the tipping force of a rotating push is 0.4 % above that of one that stays horizontal, at the same corner
+TEST(PushedColumn, TipsLaterUnderAForceThatRotatesWithIt) {
   CaseReport report("pushed_column");
   for (const char* scene : {"scene.toml", "space.toml"})
     judge_tipping(scene, {.stiffness = 1e9, .turns = true}, report);
 }
 
-// what one point a face does to it
+// the effect of one point per face
 TEST(PushedColumn, NeedsMoreThanOnePointAlongItsBase) {
   CaseReport report("pushed_column");
   const Found one = search("scene.toml", {.points = 1});
   report.report("tipping force, one point, 10 GPa/m", "1", one.force,
-                "over that of a rigid joint: the point does not stand at the centre of pressure");
+                "over that of a rigid joint: the point is not at the centre of pressure");
 }
 
-// rad: by how much the tilt changes with the unbalanced force that counts as rest
+// rad: change of the tilt by the unbalanced force of the equilibrium criterion
 double allowed(const PushedColumn& column, const Push& push, double force) {
   return tilt_under(column, push, force * (1 + unbalanced)) - tilt_under(column, push, force);
 }
 
 TEST(PushedColumn, LeansAsItsBaseIsPressed) {
   CaseReport report("pushed_column");
-  const std::string because = "what the unbalanced force that counts as rest would add to it";
+  const std::string because = "effect of the unbalanced force of the equilibrium criterion";
   const auto judge = [&](const std::string& name, const std::string& scene, const Joint& joint) {
     const PushedColumn column = on(joint.stiffness);
     const double force = below_limit * tipping(column, push_of(joint)).force;
@@ -224,7 +223,7 @@ TEST(PushedColumn, LeansAsItsBaseIsPressed) {
   judge("turning", "scene.toml", {.turns = true});
   judge("in space", "space.toml", {});
   judge("in space, turning", "space.toml", {.turns = true});
-  // the scene as it stands, whose force is rounded
+  // the scene as committed, whose force is rounded
   report.reference("column_rotation", -to_degrees(tilt_under(column_of_scene, corner, 11559)), "deg");
 }
 
@@ -252,8 +251,8 @@ TEST(PushedColumn, LeansAsFarWhenItIsPushedSlowly) {
   CaseReport report("pushed_column");
   const double swings = 1e-3;
   const std::string because =
-      "local damping of 0.7 leaves 0.18 of a swing after half of it; the four that ten seconds hold leave a thousandth "
-      "of the last growth";
+      "local damping of 0.7 reduces an oscillation to 0.18 in half a period; the four half periods in ten seconds "
+      "leave a thousandth of the last growth";
   for (const auto& [stiffness, fraction] : {std::pair(1e10, 0.8), {1e10, 0.2}, {1e11, 0.8}}) {
     const PushedColumn joint = on(stiffness);
     const double force = below_limit * tipping(joint, corner).force;
@@ -272,7 +271,7 @@ TEST(PushedColumn, LeansAsFarWhenItIsPushedSlowly) {
     EXPECT_NEAR(forces[forces.size() / 2], force, 1e-9 * force);
 
     if (stiffness != 1e10 || fraction != 0.2) continue;
-    // the ledger's work so far, by a run that ends there
+    // the work of the energy balance so far, from a run that ends there
     const double by_rows = work_at_corner(forces, column(slow, "column_displacement_x_m", push), tilts);
     LoadedScene first = load_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / "slow.toml",
                                    variant({}, {push_of("slow.toml", force), "time.fraction=" + text(fraction)}));
@@ -281,11 +280,11 @@ TEST(PushedColumn, LeansAsFarWhenItIsPushedSlowly) {
     report.record({"work of the push",
                    "J",
                    Kind::exact,
-                   "conservation of energy: the integral of force over the way of its point",
+                   "conservation of energy: the integral of force over the displacement of its point",
                    by_rows,
                    {0, 1e-4},
-                   "rows 20 ms apart, 1e-3 of the push's growth, by the trapezoidal rule; each row's force is "
-                   "a step older than its way"},
+                   "rows 20 ms apart, 1e-3 of the push's growth, by the trapezoidal rule; each row's force is a step "
+                   "older than its displacement"},
                   in_ledger, cost(slow));
 
     // replaced, and ended
@@ -296,30 +295,31 @@ TEST(PushedColumn, LeansAsFarWhenItIsPushedSlowly) {
                    source,
                    tilt_under(joint, corner, smaller),
                    {allowed(joint, corner, smaller), 0},
-                   "what the unbalanced force that counts as rest would add to it"},
+                   "effect of the unbalanced force of the equilibrium criterion"},
                   tilts_of(slow, less).back(), cost(slow));
     const double upright = 1e-6 * joint.weight * height / (joint.stiffness * std::pow(breadth, 3) / 12);
-    report.record({"tilt when it has ended",
-                   "rad",
-                   Kind::exact,
-                   "equilibrium: the weight is carried by the whole base",
-                   0,
-                   {upright, 0},
-                   "the unbalanced force that counts as rest, at the top of the column, over the rocking stiffness of "
-                   "its base"},
-                  tilts_of(slow, none).back(), cost(slow));
+    report.record(
+        {"tilt when it has ended",
+         "rad",
+         Kind::exact,
+         "equilibrium: the whole base carries the weight",
+         0,
+         {upright, 0},
+         "the unbalanced force of the equilibrium criterion, at the top of the column, over the rocking stiffness of "
+         "its base"},
+        tilts_of(slow, none).back(), cost(slow));
     EXPECT_EQ(column(slow, "column_applied_load_x_N", none).back(), 0);
   }
   const double beyond = 1.005 * tipping(column_of_scene, corner).force;
   EXPECT_FALSE(attempt("slow.toml", {push_of("slow.toml", beyond), "time.fraction=0.8"}).rests);
 }
 
-TEST(FreeBlocks, GoAsTheirForcesSay) {
+TEST(FreeBlocks, MoveByNewtonsLaws) {
   CaseReport report("pushed_column");
   const SceneRun free = run("free.toml");
   constexpr double duration = 1.6, step = 5e-4, mass = 2500, inertia = mass / 6;  // s, s, kg, kg m²
   const double pi = std::numbers::pi, w = 2 * pi * 1.25, sine = 10e3, thrust = 2500, arm = 0.4;
-  const std::string because = "leapfrog: a twelfth of the square of the step times the frequency, of the way";
+  const std::string because = "leapfrog: a twelfth of the square of the step times the frequency, of the displacement";
   const reference::Ride ride = reference::shaken_ride(sine / mass, w, 30 * degree, duration);
   report.record({"way of a shaken block",
                  "m",
@@ -357,21 +357,22 @@ TEST(FreeBlocks, GoAsTheirForcesSay) {
                 value(free, "spun_rotation_z"), cost(free));
   EXPECT_LT(free.results.energy.relative_error(), 1e-12);
 
-  // the work of both forces is the motion's energy; the ledger is half a step ahead
+  // the work of both forces is the motion's energy; the energy balance is half a step ahead
   const double pace = thrust / mass;  // of the spun block: its speed by a difference of the closed form
   const reference::Spiral before = reference::spun_up(pace, thrust * arm / inertia, duration - step),
                           after = reference::spun_up(pace, thrust * arm / inertia, duration + step);
   const double speed = std::hypot(after.along - before.along, after.aside - before.aside) / (2 * step);
   const double kinetic = 0.5 * mass * (ride.velocity * ride.velocity + speed * speed) + 0.5 * inertia * spin * spin;
   const double power = std::abs(sine * ride.velocity) + thrust * (speed + arm * spin);
-  report.record({"work in space",
-                 "J",
-                 Kind::exact,
-                 "conservation of energy: kinetic energy of both blocks",
-                 kinetic,
-                 {power * step, 0},
-                 "a step's work: the ledger's last flow is half a step ahead, the positions are a step on"},
-                free.results.energy.flows[Source::applied_forces], cost(free));
+  report.record(
+      {"work in space",
+       "J",
+       Kind::exact,
+       "conservation of energy: kinetic energy of both blocks",
+       kinetic,
+       {power * step, 0},
+       "a step's work: the last work of the energy balance is half a step ahead, the positions are one step ahead"},
+      free.results.energy.flows[Source::applied_forces], cost(free));
 }
 
 // the closed forms, for the figure

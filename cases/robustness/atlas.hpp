@@ -1,4 +1,4 @@
-// What the atlas maps: which kernel, along which axis, with which verdict.
+// The atlas: kernels, axes and verdicts.
 #pragma once
 
 #include <algorithm>
@@ -12,12 +12,12 @@ enum class Kernel { block, cut, decision, centre, normal, overlap, area };
 inline constexpr std::array kernel_names{"block", "cut", "decision", "centre", "normal", "overlap", "area"};
 inline constexpr int kernels = kernel_names.size();
 
-// what is varied beside the depth
+// the parameter varied besides the depth
 enum class Axis { thinness, angle, ratio, placed, made, faces };
 inline constexpr std::array axis_names{"thinness", "angle", "ratio", "placed", "made", "faces"};
 inline constexpr int axes = axis_names.size();
 
-// in ascending order of alarm; not_asked: nothing to answer here (no overlap, so no contact point)
+// in ascending order of alarm; not_asked: no result exists (no overlap, so no contact point)
 enum class Verdict { not_asked, correct, warned, refused, wrong };
 inline constexpr std::array verdict_names{"not asked", "correct", "warned", "refused", "wrong"};
 
@@ -25,11 +25,11 @@ inline Verdict worse(Verdict a, Verdict b) {
   return std::max(a, b);
 }
 
-// one kernel's answer to one instance
+// one kernel's result for one instance
 struct Judgement {
   Verdict verdict = Verdict::not_asked;
-  std::string reason;  // of a wrong answer
-  // error as a fraction of what the promise allows; above 1 is wrong, and 0 when the answer is yes or no
+  std::string reason;  // of a wrong result
+  // error as a fraction of the promise; above 1 is wrong, and 0 if the result is yes or no
   double fraction = 0;
 };
 

@@ -30,7 +30,7 @@ HalfSpaces<3> thin(double thinness, Random& random) {
   return squeezed(shapes::cube<3>(0.5), thinness);
 }
 
-// a cube with one more face, hinged on its top and turned by the angle: a thin wedge is gone
+// a cube with one more face, hinged on its top and rotated by the angle: a thin wedge is cut off
 HalfSpaces<3> with_turned_face(double angle, Random& random) {
   HalfSpaces<3> planes = shapes::cube<3>(0.5);
   const double hinge = shapes::uniform(random, -0.4, 0.4);
@@ -112,7 +112,7 @@ Feature face_of(const Polytope<3>& part, Random& random) {
   return {point / sum, part.faces[face].normal};
 }
 
-// the corner of a face that comes first when the face is tilted by the angle
+// the foremost corner of a face that is tilted by the angle
 Feature tilted_face_of(const Polytope<3>& part, double angle, Random& random) {
   const Feature face = face_of(part, random);
   Feature best = face;
@@ -183,14 +183,14 @@ Meeting meet(const Polytope<3>& a, const Polytope<3>& b, const Place& place, int
   const Feature at_b =
       place.axis == Axis::angle ? tilted_face_of(own_b, place.value, random) : features.b(own_b, random);
 
-  // b is turned so that its feature faces that of a, and about the common direction at random
+  // b is rotated so that its feature faces that of a, and about the common direction at random
   const Eigen::Quaterniond facing = Eigen::Quaterniond::FromTwoVectors(at_b.direction, -at_a.direction);
   const Eigen::Quaterniond spin(Eigen::AngleAxisd(shapes::uniform(random, -3, 3), at_a.direction));
   m.turn.quaternion = (spin * facing).normalized();
   const Vector<3> between =
       at_a.point - place.depth * smaller_diameter(a, b) * at_a.direction - matrix(m.turn) * at_b.point;
 
-  // far from the origin the references take what they can hold and the displacement the rest
+  // far from the origin the references take the part that they can represent and the displacement the remainder
   const Vector<3> far =
       place.axis == Axis::placed ? Vector<3>(place.value * shapes::direction<3>(random)) : Vector<3>(Vector<3>::Zero());
   m.a.reference = far;

@@ -18,14 +18,14 @@ struct Place {
   double depth = 0;  // of the smaller block's inscribed diameter: overlap or cap positive, gap negative
 };
 
-// The planes of the two blocks, each about a place of its own, `made` metres away. The first carries the difficulty.
+// The planes of the two blocks, each about a position of its own, `made` metres away. The first has the difficulty.
 struct Shapes {
   HalfSpaces<3> a, b;
   Vector<3> made = Vector<3>::Zero();  // m
 };
 Shapes random_shapes(const Place& place, Random& random);
 
-// A corner, an edge or a face of a block: a point on it and a direction in which no other point lies farther.
+// A corner, an edge or a face of a block: a point on it and a direction in which no other point is farther.
 struct Feature {
   Vector<3> point, direction;
 };
@@ -34,7 +34,7 @@ struct Feature {
 struct Meeting {
   Body<3> a, b;
   Rotation<3> turn;                              // of b
-  Vector<3> displacement_b = Vector<3>::Zero();  // m; a has none and is not turned
+  Vector<3> displacement_b = Vector<3>::Zero();  // m; a has none and is not rotated
 };
 Meeting meet(const Polytope<3>& a, const Polytope<3>& b, const Place& place, int kind, Random& random);
 

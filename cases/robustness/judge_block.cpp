@@ -22,11 +22,11 @@ constexpr double whole_chain = 64 * unit_rounding;
 // that cuts off no ball larger than this fraction of the inscribed radius is dropped
 constexpr double merged = 1e-10;
 
-// a block called empty leaves no more room than this fraction of the coordinates
+// a block reported as empty contains no ball larger than this fraction of the coordinates
 constexpr double room = 1e-10;
 
-// What dropping such a plane may add to the volume: V >= radius x surface / 3, and a cap that holds only such a ball is
-// a few of its diameters thick
+// Largest increase of the volume by dropping such a plane: V >= radius x surface / 3, and a cap that holds only such a
+// ball is a few of its diameters thick
 constexpr double dropped_volume = 1e-9;
 
 // slice's tolerance: a joint whose section holds no circle larger than this fraction of the inscribed radius does not
@@ -120,9 +120,8 @@ Judgement judge_part(const Polytope<3>& part, double band, double* spread_of_vol
     const double allowed = merged * extent + band;
     support_fraction = std::max({support_fraction, (least - found) / allowed, (found - most) / allowed});
   }
-  if (!(support_fraction <= 1))
-    return wrong(fmt::format("a vertex is off by {:.3g} of what is promised", support_fraction));
-  // a face that bounds nothing may stand only where rounding cannot tell that it does not
+  if (!(support_fraction <= 1)) return wrong(fmt::format("a vertex is off by {:.3g} of the promise", support_fraction));
+  // a face that bounds nothing may remain only if rounding cannot decide it
   for (const HalfSpace<3>& f : part.faces)
     if (support(b.outer.corners, f.normal) < f.offset) return wrong("a face that bounds nothing");
   if (spread_of_volume) *spread_of_volume = spread;
@@ -197,7 +196,7 @@ Judgement judge_pieces(const Polytope<3>& block, const HalfSpace<3>& joint) {
 
 }  // namespace
 
-// the referee throws when the faces of a part do not close it: then the part is wrong
+// the referee throws if the faces of a part do not close it: then the part is wrong
 Judgement judge_block(const HalfSpaces<3>& planes) {
   try {
     return judge_made(planes);

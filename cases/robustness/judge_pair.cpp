@@ -15,8 +15,8 @@ namespace {
 using exact::Quad;
 using exact::to_double;
 
-// Every promise is of one kind: the answer is exact for planes that lie within so many units of rounding (2^-53 of the
-// coordinates) of the given ones. 64 for an answer that went through assembly and solution, 16 for one stage alone.
+// Every promise is of one kind: the result is exact for planes within so many units of rounding (2^-53 of the
+// coordinates) of the given ones. 64 for a result of assembly and solution, 16 for one stage alone.
 constexpr double unit_rounding = std::numeric_limits<double>::epsilon() / 2;
 constexpr double whole_chain = 64 * unit_rounding, one_stage = 16 * unit_rounding;
 
@@ -24,13 +24,13 @@ constexpr double whole_chain = 64 * unit_rounding, one_stage = 16 * unit_roundin
 // constant
 constexpr double newton_remainder = 1e-9;
 
-// up to this many planes cddlib solves the program from nothing; beyond, the kernel's own basis is proven exactly
+// up to this many planes cddlib solves the program from scratch; beyond, the kernel's own basis is proven exactly
 constexpr int most_planes_for_cddlib = 120;
 
 // two gradients of a potential nearer to zero or to each other than this give no direction (core/contact/rounding.hpp)
 constexpr double no_direction = 1e-6;
 
-// all that the stages of one contact need
+// input of the stages of one contact
 struct Scene {
   Pair<3> pair;
   HalfSpaces<3> planes;
@@ -47,10 +47,10 @@ Judgement wrong(std::string reason) {
   return {Verdict::wrong, std::move(reason), 0};
 }
 
-// correct or wrong by the fraction of its promise that the error uses up
+// correct or wrong by the error as a fraction of the promise
 Judgement by_fraction(double fraction, const std::string& what) {
   if (fraction <= 1) return {Verdict::correct, "", fraction};
-  return {Verdict::wrong, fmt::format("{}: {:.3g} of what is promised", what, fraction), fraction};
+  return {Verdict::wrong, fmt::format("{}: {:.3g} of the promise", what, fraction), fraction};
 }
 
 exact::ProgramBounds exact_value(const exact::Planes& planes, const std::array<int, 4>& basis) {
@@ -118,7 +118,7 @@ Decision decide(const Meeting& meeting, const FeasibilityResult<3>& lp, const Sc
 Judgement judge_centre(const Scene& scene, const CentreResult<3>& found) {
   if (found.status != CentreStatus::converged) return {Verdict::refused, "", 0};
   const exact::Centre centre = exact::centre(scene.planes, found.point);
-  if (!centre.interior) return wrong("the contact point lies outside");
+  if (!centre.interior) return wrong("the contact point is outside");
   // each slack carries the rounding of its plane: in the region's metric their squares add up
   double squares = 0;
   for (std::size_t i = 0; i < scene.planes.size(); ++i) {
@@ -149,7 +149,7 @@ Judgement judge_normal(const Scene& scene, const Vector<3>& point, bool found, b
   return by_fraction(error / allowed, fmt::format("the normal is off by {:.3g}", error));
 }
 
-// where the search along the normal may end, given the rounding of slacks and slopes
+// interval of the end of the search along the normal, given the rounding of slacks and slopes
 struct Interval {
   double low = std::numeric_limits<double>::infinity(), high = low;
 };
@@ -181,7 +181,7 @@ Judgement judge_overlap(const Scene& scene, const Vector<3>& point, const Vector
 }
 
 Judgement judge_area(const Scene& scene, const Vector<3>& point, const Vector<3>& normal, double area) {
-  // a section grows with its planes, so planes moved out and in by the rounding bracket the answer
+  // a section grows with its planes, so planes moved out and in by the rounding bracket the result
   exact::Planes outer = exact::planes_of(scene.planes), inner = outer;
   for (std::size_t i = 0; i < outer.size(); ++i) {
     const exact::Rational rounding(one_stage * (scene.rounding(i, point) + scene.reach));
@@ -222,7 +222,7 @@ Judgements judge_pair(const Meeting& meeting) {
   const ContactStatus status = decision.contact.status;
   if (status <= ContactStatus::undecided || status == ContactStatus::lp_not_converged) return all;
 
-  // stage by stage, each judged on what it was given
+  // stage by stage, each judged on its own input
   const CentreResult<3> centre =
       solve_analytic_centre<3>(scene.planes, {lp.point, scene.settings.newton_tolerance, scene.settings.newton_limit});
   of(all, Kernel::centre) = judge_centre(scene, centre);
@@ -243,7 +243,7 @@ Judgements judge_pair(const Meeting& meeting) {
       of(all, k).verdict = Verdict::refused;
     return all;
   }
-  // a normal from the LP's multipliers stands in where the gradients gave none
+  // a normal from the LP's multipliers replaces missing gradients
   if (!found) normal = decision.contact.geometry.normal;
 
   double overlap = 0;

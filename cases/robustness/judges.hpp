@@ -1,4 +1,4 @@
-// Each kernel's answer to an instance, judged by the exact referee against the kernel's promise (README.md).
+// Each kernel's result for an instance, judged by the exact referee against the kernel's promise (README.md).
 #pragma once
 
 #include "cases/robustness/instances.hpp"

@@ -1,4 +1,4 @@
-# the atlas: a row of maps for every kernel, a column for every difficulty; each cell is the worst of its answers
+# the atlas: a row of maps for every kernel, a column for every difficulty; each cell is the worst of its results
 set terminal svg size 1180,1000 @page font 'DejaVu Sans,Helvetica,Arial,sans-serif,11'
 kernels = 'block cut decision centre normal overlap area'
 said = '"block making" "cutting" "touch or apart" "analytic centre" "normal" "overlap" "contact area"'

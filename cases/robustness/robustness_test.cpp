@@ -1,4 +1,4 @@
-// The robustness atlas: no kernel gives a wrong answer unsaid, from thick to thin, near to far, few faces to many.
+// The robustness atlas: no kernel gives a wrong result unreported, from thick to thin, near to far, few faces to many.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -17,16 +17,16 @@ using verification::CaseReport;
 using verification::Kind;
 
 constexpr std::array because{
-    "every block is refused by name or lies within 64 roundings of its planes (volume, centroid, inertia, vertices), "
+    "every block is refused by name or is within 64 roundings of its planes (volume, centroid, inertia, vertices), "
     "and "
-    "within 1e-9 of the volume where a plane was dropped",
-    "a joint cuts when its section holds a circle of 1e-10 of the inscribed radius; both pieces as blocks",
+    "within 1e-9 of the volume if a plane was dropped",
+    "a joint cuts if its section contains a circle of 1e-10 of the inscribed radius; both pieces as blocks",
     "touching or separate as exact arithmetic says, unless the program's value is within 64 roundings of the "
     "coordinates from zero; the value itself within the same 64",
     "Newton's remaining step is 1e-9 of the region, the slacks' rounding comes on top",
     "the gradients of the potentials carry 16 roundings of the slacks",
     "the ends of the search along the normal carry 16 roundings of slack and slope",
-    "the section lies between those of planes moved in and out by 16 roundings",
+    "the section is between those of planes moved in and out by 16 roundings",
 };
 
 std::vector<double> depths(std::initializer_list<double> sizes) {
@@ -96,23 +96,23 @@ void check(CaseReport& report, const Atlas& atlas) {
     report.report(fmt::format("answers, {}", kernel_names[k]), "1", static_cast<double>(t.answers()),
                   fmt::format("{} correct, {} warned, {} refused", t.correct, t.warned, t.refused));
     report.report(fmt::format("largest fraction of the promised error, {}", kernel_names[k]), "1", t.worst_fraction,
-                  "1 would be the promise itself");
+                  "1 is the promise itself");
   }
 }
 
-TEST(Robustness, NoAnswerIsWrongUnsaid) {
+TEST(Robustness, NoWrongResultIsUnreported) {
   CaseReport report("robustness", {"wrong answers, block", "wrong answers, decision"});
   const Grid g = grid(2, {4, 6, 12, 24, 40}, {0.3, 1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14}, 2);
   const Atlas atlas = sweep(g);
   write_map(g, atlas);
   check(report, atlas);
-  // both sides of every question were asked, and most were answered
+  // both sides of every decision were tested, and most had a result
   for (const Tally& t : atlas.tallies)
     EXPECT_GT(t.correct, t.refused);
 }
 
-// what the first maps found, made small: the mass of one block, density chosen so that it is about 1 kg
-TEST(Robustness, FoundBlocksStayMended) {
+// errors of the first maps, reduced: the mass of one block, density chosen so that it is about 1 kg
+TEST(Robustness, FoundErrorsStayCorrected) {
   CaseReport report("robustness");
   const std::vector<std::pair<std::string, double>> found{{"coplanar", 1 - 5e-10 / 8}, {"needle", 1}};
   for (const auto& [name, expected] : found) {

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t most_reasons = 5;
 
-// the same instance whatever else the grid holds
+// the same instance whatever else the grid contains
 Random seeded(const Place& place, int instance) {
   std::uint64_t seed = 0x9e3779b97f4a7c15u + static_cast<std::uint64_t>(instance);
   for (const std::uint64_t part : {static_cast<std::uint64_t>(place.axis), std::bit_cast<std::uint64_t>(place.value),
@@ -30,7 +30,7 @@ void refuse_all(Judgements& all, std::initializer_list<Kernel> list) {
     of(all, k).verdict = Verdict::refused;
 }
 
-constexpr int most_kinds = 60;  // a multiple of how many kinds of meetings and of cuts there are
+constexpr int most_kinds = 60;  // a multiple of the number of kinds of meetings and of cuts
 
 // a solid with one plane more, and the same solid cut by that plane
 void judge_plane(const Shapes& s, const Place& place, Random& random, Judgements& all) {

@@ -1,4 +1,4 @@
-// The sweep over the map: every cell holds the worst verdict of its instances, for each kernel.
+// The sweep over the map: every cell contains the worst verdict of its instances, for each kernel.
 #pragma once
 
 #include <map>
@@ -15,8 +15,8 @@ struct Grid {
 
 struct Tally {
   long long correct = 0, warned = 0, refused = 0, wrong = 0;
-  double worst_fraction = 0;         // of the promised error, among the right answers
-  std::vector<std::string> reasons;  // of the first wrong answers
+  double worst_fraction = 0;         // of the promised error, among the right results
+  std::vector<std::string> reasons;  // of the first wrong results
 
   void add(const Judgement& judgement, const std::string& where);
   long long answers() const { return correct + warned + refused + wrong; }
@@ -33,7 +33,7 @@ struct Atlas {
   std::array<Tally, kernels> tallies;
 };
 
-// every kernel's answer to one seeded instance
+// every kernel's result for one seeded instance
 Judgements judge_instance(const Place& place, int instance);
 
 Atlas sweep(const Grid& grid);

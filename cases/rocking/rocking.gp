@@ -1,18 +1,18 @@
-# the free rocking of the block, and the moment that holds it when it is turned slowly
+# the free rocking of the block, and the moment that holds it when it is rotated slowly
 set terminal svg size 760,680 @page
 set multiplot
 set lmargin 11
 set rmargin 3
 set size 1, 0.5
 set origin 0, 0.5
-set xlabel 'time since the block was let go (s)'
+set xlabel 'time since the release of the block (s)'
 set ylabel 'lean (°)'
 set xrange [0:3.4]
 set yrange [-8:8]
 plot 'housner.csv' using 'time_s':'lean_deg' @theory title 'Housner, restitution 0.912', \
      'rocking.csv' using 'time_s':'lean_deg' every 6 @computed title 'DEM, dashpot 0.2'
 set origin 0, 0
-set xlabel 'lean, turned slowly on a joint of 1 GPa/m (mrad)'
+set xlabel 'lean, rotated slowly on a joint of 1 GPa/m (mrad)'
 set ylabel "moment over weight and breadth"
 set xrange [0:3]
 set yrange [0:0.5]

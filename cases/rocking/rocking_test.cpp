@@ -1,4 +1,4 @@
-// Rocking block: the time it takes back upright, what its impacts leave, and the moment that holds it when it is turned
+// Rocking block: its quarter period, the restitution of its impacts, and the moment that holds it when it is rotated
 // slowly on its base.
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ constexpr double stiffness = 100e9, soft = 1e9;           // Pa/m: of scene.toml
 constexpr double dashpot_ratio = 0.1, turn_speed = 3e-4;  // rad/s: of tilt.toml
 const double start = 0.5 * slenderness(block);
 
-// lean to the right since the block was let go; rows of the history
+// lean to the right since the block was released; rows of the history
 struct Rocking {
   std::vector<double> time, lean, spin;  // s, rad, rad/s, both to the right
 };
@@ -72,7 +72,7 @@ void judge_quarter_period(CaseReport& report, const std::string& which, const st
                  "Housner (1963) on an elastic base: Newton's laws of a rigid block, reference/small",
                  expected,
                  {step, 0},
-                 "one time step, for the block is let go between two; the base's delay is thirty of them"},
+                 "one time step, since the block is released between two; the base's delay is thirty of them"},
                 upright.front().first, cost(fine));
 }
 
@@ -80,13 +80,13 @@ TEST(Rocking, TakesItsQuarterPeriod) {
   CaseReport report("rocking", {"quarter period", "quarter period, whole face"});
   judge_quarter_period(report, "", {});
   judge_quarter_period(report, ", whole face", {whole_faces});
-  const std::string note = "for comparison: the base delays by the length it presses";
+  const std::string note = "for comparison: the base delays the block by its pressed length";
   report.report("quarter period, rigid base", "s", rigid_quarter_period(block, start), note);
   report.report("quarter period, Housner's closed form", "s", housner_quarter_period(block, start),
                 "acosh(2)/p; sines taken as angles");
 }
 
-// energy of a rigid block that stands still at this lean, over its weight; m
+// energy of a rigid block without velocity at this lean, over its weight; m
 double raised(double lean) {
   const double radius = 0.5 * std::hypot(block.breadth, block.height), alpha = slenderness(block);
   return radius * (std::cos(alpha - std::abs(lean)) - std::cos(alpha));
@@ -127,7 +127,7 @@ Rocking judge_impacts(CaseReport& report, const std::string& which, const std::v
                  "Housner (1963): all of the impact at the far corner, the most a rigid base can take",
                  housner_restitution(block),
                  {0.002, 0, Bound::at_least},
-                 "rows of the history stand 5 ms apart: 1e-5 of a peak; the base gives by 0.2 % of the quarter period"},
+                 "rows of the history are 5 ms apart: 1e-5 of a peak; the base delays by 0.2 % of the quarter period"},
                 first, cost(scene));
   report.report("restitution of the second impact" + which, "1", second, "dashpot of 0.2");
   report.report("energy left unexplained" + which, "1", scene.results.energy.relative_error(),
@@ -135,7 +135,7 @@ Rocking judge_impacts(CaseReport& report, const std::string& which, const std::v
   return r;
 }
 
-TEST(Rocking, LosesLessThanHousnerSays) {
+TEST(Rocking, LosesLessThanHousnersRestitution) {
   CaseReport report("rocking", {"restitution of the first impact", "restitution of the first impact, whole face"});
   const Rocking r = judge_impacts(report, "", {});
   judge_impacts(report, ", whole face", {whole_faces});
@@ -146,7 +146,7 @@ TEST(Rocking, LosesLessThanHousnerSays) {
   write_housner();
 }
 
-// One moment of the slow turn: of the force about the middle of the face, over the weight, m.
+// One moment of the slow rotation: of the force about the middle of the face, over the weight, m.
 struct Held {
   double lean = 0, arm = 0;  // rad, m
 };
@@ -184,7 +184,7 @@ std::vector<Held> turned_slowly(const std::string& carried) {
 
 TEST(Rocking, IsHeldByTheMomentOfItsBase) {
   const double mass = block.density * block.breadth * block.height, weight = mass * block.gravity;
-  // the dashpots of the turn, spread along the face, and their moment over the weight's
+  // the dashpots of the rotation, spread along the face, and their moment over the weight's
   const double dashpot = 2 * dashpot_ratio * std::sqrt(soft * block.breadth * mass);
   const double allowed = dashpot * block.breadth / 12 * turn_speed / weight;
   CaseReport report("rocking", {"arm of the base's force, 4 sub-contacts", "arm of the base's force, whole face"});

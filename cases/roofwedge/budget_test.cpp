@@ -48,7 +48,7 @@ bool fits(const std::array<Space, 3>& corner) {
   return true;
 }
 
-// deg, where the reference holds: no joint opens or slips before friction falls, and the search looks that far
+// deg, if the reference applies: no joint opens or slips before friction falls, and the search covers it
 std::optional<double> collapse_of(const reference::RoofWedge& wedge) {
   try {
     if (!fits(corners(wedge, reference::roof_wedge_faces(wedge)))) return {};
@@ -63,7 +63,7 @@ std::optional<double> collapse_of(const reference::RoofWedge& wedge) {
   }
 }
 
-// As scene.toml does: the rock behind each joint closes in until the joint carries what the stress puts on it.
+// As in scene.toml: the rock behind each joint closes in until the joint transfers the traction of the stress.
 std::vector<std::string> overrides(const reference::RoofWedge& wedge) {
   const reference::RoofWedgeFaces faces = reference::roof_wedge_faces(wedge);
   const std::array<Space, 3> corner = corners(wedge, faces);

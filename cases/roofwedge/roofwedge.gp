@@ -1,4 +1,4 @@
-# friction the wedge needs over its weight, at the same horizontal stress
+# critical friction of the wedge over its weight, at the same horizontal stress
 set xlabel 'weight / weight at 9.81 m/s²'
 set ylabel 'critical friction (deg)'
 set xrange [0:2.2]

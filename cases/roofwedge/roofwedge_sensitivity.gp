@@ -1,4 +1,4 @@
-# friction the wedge needs over the joints' stiffness ratio and over the stress that was brought in from outside
+# critical friction of the wedge over the joints' stiffness ratio and over the stress applied from outside
 set terminal svg size 980,430 @page
 set multiplot layout 1,2 margins 0.10,0.98,0.15,0.95 spacing 0.11
 set ylabel 'critical friction (deg)'

@@ -1,5 +1,5 @@
 // A wedge in a roof held by stress on three joints: the friction angle at which it falls, against joint relaxation. The
-// stress is set on the joints, or tractions on the sides of the model bring it in.
+// stress is applied to the joints, or by tractions on the sides of the model.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -49,10 +49,10 @@ void check(CaseReport& report, const std::string& name, double expected, double 
 
 constexpr double tight = 0.005;
 constexpr const char* why =
-    "half the bracket is 0.0004; the wedge sinks by 3 micrometres into overlaps of 40, and what its faces and stresses "
-    "change by that is below 0.002";
+    "half the bracket is 0.0004; the wedge sinks by 3 micrometres into overlaps of 40, and the resulting change of its "
+    "faces and stresses is worth less than 0.002";
 
-TEST(RoofWedge, FallsWhereJointRelaxationSays) {
+TEST(RoofWedge, FallsAtTheAngleOfJointRelaxation) {
   CaseReport report("roofwedge", {"critical friction"});
   struct {
     const char *name, *scene;
@@ -76,7 +76,7 @@ TEST(RoofWedge, OneOfUnequalJointsSlipsLongBefore) {
   CaseReport report("roofwedge");
   const SceneRun run = cases::run("unequal.toml");
   const reference::RoofWedge wedge = roof_wedge(unequal_dips, unequal_directions);
-  // at rest on elastic joints the largest angle mobilised is the one of first slip
+  // in equilibrium on elastic joints the largest angle mobilised is that of first slip
   double mobilised = 0;
   for (const char* joint : {"A", "B", "C"})
     mobilised = std::max(mobilised, column(run, std::string(joint) + "_mobilised_friction_deg", settle).back());
@@ -88,7 +88,7 @@ TEST(RoofWedge, OneOfUnequalJointsSlipsLongBefore) {
         value(run, "critical_friction"), run);
 }
 
-// Stress over weight is what counts: more weight is less stress.
+// Only stress over weight matters: more weight is equivalent to less stress.
 TEST(RoofWedge, NeedsMoreFrictionTheHeavierItIs) {
   CaseReport report("roofwedge");
   std::vector<double> gravity, found, expected;
@@ -108,12 +108,12 @@ TEST(RoofWedge, NeedsMoreFrictionTheHeavierItIs) {
   write_csv("roofwedge", "closed_form.csv", {"weight", "friction_deg"}, {weights, curve});
 }
 
-// ---- the stress comes from outside (traction.toml)
+// ---- the stress is applied from outside (traction.toml)
 
 constexpr int arrived = 2;                                  // the stage
 constexpr double applied = 0.05e6;                          // Pa, as traction.toml states it
 constexpr double stiffness = 1e9, thesis_stiffness = 10e6;  // Pa/m; traction.toml states the first
-constexpr double share_across = 0.75;                       // of a horizontal stress, across a joint that dips 60
+constexpr double share_across = 0.75;                       // of a horizontal stress, normal to a joint that dips 60
 
 reference::RoofWedge under_stress(double stress, double stiffness_ratio = 1) {
   reference::RoofWedge wedge = regular(9.81, 10e6 / stiffness_ratio);
@@ -125,7 +125,7 @@ double slip_deg(const reference::RoofWedge& wedge) {
   return reference::first_slip(wedge).friction / degree;
 }
 
-// softer joints swing more slowly and need as much longer to come to rest
+// softer joints oscillate more slowly and need as much longer to reach equilibrium
 double time_to_rest(double ratio, double normal_stiffness) {
   return 0.1 * std::sqrt(stiffness / normal_stiffness * std::max(1.0, ratio));
 }
@@ -145,7 +145,7 @@ SceneRun press(double stress, double ratio = 1, double normal_stiffness = stiffn
   return press_for(time_to_rest(ratio, normal_stiffness), stress, ratio, normal_stiffness, overrides);
 }
 
-// Pa, on each of the wedge's joints before it takes its weight
+// Pa, on each of the wedge's joints before gravity is applied to it
 std::array<double, 3> arrived_pressure(const SceneRun& run) {
   std::array<double, 3> pressure{};
   for (int i = 0; i < 3; ++i) {
@@ -156,7 +156,7 @@ std::array<double, 3> arrived_pressure(const SceneRun& run) {
   return pressure;
 }
 
-// the horizontal stress in the rock that such pressures mean
+// the horizontal stress in the rock that corresponds to such pressures
 double arrived_stress(const SceneRun& run) {
   const std::array<double, 3> pressure = arrived_pressure(run);
   return (pressure[0] + pressure[1] + pressure[2]) / 3 / share_across;
@@ -164,7 +164,7 @@ double arrived_stress(const SceneRun& run) {
 
 constexpr const char* why_of_arrived =
     "half the bracket is 0.0005; the rock has closed in by 0.1 mm on faces a metre high, up to 0.5 mm under the most "
-    "stress, which changes areas and shear by as much as 0.03 %: 0.004";
+    "stress, which changes areas and shear by up to 0.03 %: 0.004";
 
 void judge_pressure(CaseReport& report, const std::string& name, const SceneRun& run) {
   const std::array<double, 3> pressure = arrived_pressure(run);
@@ -192,7 +192,7 @@ TEST(RoofWedge, FallsAtTheStressThatArrivesFromTheSides) {
   check(report, "critical friction, stress from the sides, blocks free to turn on 16 points a face",
         slip_deg(under_stress(arrived_stress(free))), tight, why_of_arrived, value(free, "critical_friction"), free);
 
-  // where a face carries no moment, or gives way by millimetres, what arrives is another stress
+  // if a face transfers no moment, or deforms by millimetres, another stress arrives
   const auto tell = [&](const std::string& name, const SceneRun& other) {
     const std::array<double, 3> pressure = arrived_pressure(other);
     report.report("critical friction, stress from the sides, " + name, "deg", value(other, "critical_friction"),
@@ -204,7 +204,7 @@ TEST(RoofWedge, FallsAtTheStressThatArrivesFromTheSides) {
   tell("the thesis' 10 MPa/m", press(applied, 1, thesis_stiffness));
 }
 
-TEST(RoofWedgeLong, FallsAtTheStressThatArrivesOnWholeFaces) {
+TEST(RoofWedgeLong, FallsAtTheStressThatArrivesOnIntegratedFaces) {
   CaseReport report("roofwedge");
   const SceneRun whole = press(applied, 1, stiffness, {"restrain.blocks.rotation=false", whole_faces});
   judge_pressure(report, ", blocks free to turn on whole faces", whole);
@@ -212,7 +212,7 @@ TEST(RoofWedgeLong, FallsAtTheStressThatArrivesOnWholeFaces) {
         slip_deg(under_stress(arrived_stress(whole))), tight, why_of_arrived, value(whole, "critical_friction"), whole);
 }
 
-// the thesis' gravity, as for the stress that is set on the joints
+// the thesis' gravity, as for the stress applied to the joints
 TEST(RoofWedge, FallsAtTenMetresPerSecondSquaredByTheSidesToo) {
   CaseReport report("roofwedge");
   const SceneRun run = press(applied, 1, stiffness, {"gravity=[0,0,-10]"});
@@ -221,8 +221,8 @@ TEST(RoofWedge, FallsAtTenMetresPerSecondSquaredByTheSidesToo) {
         run);
 }
 
-// Without weight nothing but the stress comes on, however long that takes.
-TEST(RoofWedge, DoesNotMindHowLongTheStressComesOn) {
+// Without weight only the stress acts, however long it is applied.
+TEST(RoofWedge, DoesNotDependOnTheDurationOfTheStress) {
   CaseReport report("roofwedge");
   for (const double duration : {0.1, 2.0}) {
     const SceneRun run = press_for(duration, applied, 5);

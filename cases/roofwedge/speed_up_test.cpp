@@ -1,4 +1,4 @@
-// What the critical angle of the roof wedge costs: bisection by relaxation against the thesis' constant rate.
+// Cost of the critical angle of the roof wedge: bisection by relaxation against the thesis' constant rate.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,7 +10,7 @@
 namespace voussoir::cases {
 namespace {
 
-// long: the thesis' way takes a million and a half steps
+// long: the thesis' method takes a million and a half steps
 TEST(RoofWedgeSavingLong, BisectionAgainstTheThesisRate) {
   reference::RoofWedge wedge;
   for (int i = 0; i < 3; ++i) {
@@ -19,7 +19,7 @@ TEST(RoofWedgeSavingLong, BisectionAgainstTheThesisRate) {
   }
   wedge.gravity = 9.81;
   const SoughtAngle sought{reference::first_slip(wedge).friction / degree, "Goodman, Shi & Boyle (1982)",
-                           "as demanded; the bracket leaves 0.02"};
+                           "as demanded; the bracket is worth 0.02"};
   verification::CaseReport report("roofwedge", {"critical friction, bisection over ten degrees"});
   const SceneRun thesis = run("thesis_rate.toml");
   expect_honest_bar(report, sought, "the thesis' rate", thesis);

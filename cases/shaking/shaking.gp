@@ -1,4 +1,4 @@
-# way of the block down the shaken plane
+# displacement of the block down the shaken plane
 set xlabel 'time since the shaking began (s)'
 set ylabel 'distance down the plane (mm)'
 set xrange [0:1.7]

@@ -1,4 +1,4 @@
-// Block on a shaken incline: how far it slips, in space and in the plane.
+// Block on a shaken incline: its slip, in space and in the plane.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,7 +20,7 @@ constexpr int settle = 1, shake = 2;
 const reference::ShakenIncline shaken{{10 * degree, 30 * degree, 9.81, 0}, 0.4, 2};
 constexpr double density = 2000, shear_stiffness = 10e9;
 
-// s since the shaking began: the block rests on the plane at both
+// s since the shaking began: the block does not slip at either
 constexpr double first_slip_over = 0.35, end = 1.7;
 constexpr double study_end = 1.75;  // as study.toml states it
 
@@ -33,7 +33,7 @@ void PrintTo(const Variant& v, std::ostream* out) {
   *out << v.name;
 }
 
-// the block's way relative to the base
+// the block's displacement relative to the base
 struct Path {
   std::vector<double> time, distance;
 };
@@ -65,13 +65,13 @@ double distance_at(const Path& path, double time) {
 
 class Shaking : public testing::TestWithParam<Variant> {};
 
-TEST_P(Shaking, SlipsAsNewmarkSays) {
+TEST_P(Shaking, SlipsByNewmarksDistance) {
   const Variant& v = GetParam();
   CaseReport report("shaking", {"first slip, " + v.name, "slip of three more cycles, " + v.name});
   const SceneRun scene = run(v.scene);
   const Path found = path(scene, v.dimension);
 
-  // what the joint gives before it slips, m, and the frequency of the block on it, rad/s
+  // elastic displacement of the joint before it slips, m, and the frequency of the block on it, rad/s
   const double area = v.dimension == 3 ? 4 / std::cos(shaken.incline.angle) : 2 / std::cos(shaken.incline.angle);
   const double mass = density * (v.dimension == 3 ? 4 : 2), stiffness = shear_stiffness * area;
   const double friction = mass * 9.81 * std::cos(shaken.incline.angle) * std::tan(shaken.incline.friction_angle);
@@ -87,20 +87,21 @@ TEST_P(Shaking, SlipsAsNewmarkSays) {
                  "Newmark (1965), sliding block",
                  first,
                  {acceleration / frequency * lasts, 0},
-                 "the shaking begins with full acceleration: until the joint is wound up the plane gains at most that "
-                 "over the block's "
+                 "the shaking begins with full acceleration: until the joint is fully sheared the plane gains at most "
+                 "that over the block's "
                  "frequency on the joint, 3.2 mm/s, and keeps it while the slip lasts, 0.1 s"},
                 distance_at(found, first_slip_over), cost(scene));
-  report.record({"slip of three more cycles, " + v.name,
-                 "m",
-                 Kind::exact,
-                 "Newmark (1965), sliding block",
-                 reference::shaken_block(shaken, end).distance - first,
-                 {3 * (2 * elastic + fastest * step), 0},
-                 "in each cycle the joint winds up and back by 2.2 micrometres, and a step of 0.1 m/s is lost or won"},
-                found.distance.back() - distance_at(found, first_slip_over), cost(scene));
+  report.record(
+      {"slip of three more cycles, " + v.name,
+       "m",
+       Kind::exact,
+       "Newmark (1965), sliding block",
+       reference::shaken_block(shaken, end).distance - first,
+       {3 * (2 * elastic + fastest * step), 0},
+       "in each cycle the joint is sheared and released by 2.2 micrometres, and a step of 0.1 m/s is lost or gained"},
+      found.distance.back() - distance_at(found, first_slip_over), cost(scene));
 
-  // for the study: the block in space when the plane has come to a stop after three cycles and a half
+  // for the study: the block in space when the plane has stopped after three cycles and a half
   if (v.dimension == 2) {
     const double uphill = shaken.speed / (std::numbers::pi * shaken.frequency);
     const double downhill = reference::shaken_block(shaken, study_end).distance;

@@ -1,5 +1,5 @@
 // Time and work against the number of blocks for the joint sets of Table 4.1, persistent and finite, with and without
-// culling; the volume of the blocks, what they share, how many there must be; and one assembly in space.
+// culling; the volume of the blocks, their overlaps, their number; and one assembly in space.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -25,9 +25,9 @@ using verification::Kind;
 
 constexpr double half_box = 50;      // m, of Table 4.1
 constexpr int ellipse_sides = 16;    // none of these joints is one
-constexpr double conserved = 1e-12;  // of the volume: as many terms as there are blocks, each within some ulp of it
+constexpr double conserved = 1e-12;  // of the volume: one term per block, each within some ulp of it
 
-// some ulp of coordinates of 50 m: by as much faces of one plane, seen from two blocks, may lie apart
+// some ulp of coordinates of 50 m: the possible distance of faces of one plane, seen from two blocks
 constexpr double shared_plane = 1e-13;  // m
 
 struct Pattern {
@@ -87,7 +87,7 @@ double total_volume(const std::vector<Polytope<3>>& blocks) {
   return sum;
 }
 
-// what the blocks keep on the heap and off it, per block
+// memory of the blocks on the heap and off it, per block
 double bytes_per_block(const std::vector<Polytope<3>>& blocks) {
   std::size_t bytes = 0;
   for (const Polytope<3>& block : blocks) {
@@ -99,7 +99,7 @@ double bytes_per_block(const std::vector<Polytope<3>>& blocks) {
   return static_cast<double>(bytes) / static_cast<double>(blocks.size());
 }
 
-// Pairs of blocks whose half-spaces have a ball in common. The blocks come sorted along x.
+// Pairs of blocks whose half-spaces have a ball in common. The blocks are sorted along x.
 long long overlapping_pairs(const std::vector<Polytope<3>>& blocks) {
   struct Span {
     Vector<3> low, high;
@@ -193,7 +193,7 @@ void study(CaseReport& report, const Growth& growth) {
   report.record({.quantity = of + "memory of a block",
                  .unit = "B",
                  .kind = Kind::limit,
-                 .source = "demanded: what a machine of 1 GB holds of 5e5 blocks",
+                 .source = "demanded: 5e5 blocks fit into 1 GB",
                  .expected = 2000,
                  .tolerance = {.relative = 1e-9, .bound = Bound::at_most},
                  .because = "a size in bytes"},
@@ -204,7 +204,7 @@ void study(CaseReport& report, const Growth& growth) {
                  .source = "Boon (2013), Fig. 4.4: linear",
                  .expected = 1,
                  .tolerance = {.absolute = 0.1, .bound = Bound::at_most},
-                 .because = "a logarithm beside a linear growth comes to less over these sizes"},
+                 .because = "a logarithm beside a linear growth is smaller over these sizes"},
                 exponent(runs));
   if (growth.culled_too > 0) {
     report.report(of + "linear programs without culling over those with it", "1", programs_saved,
@@ -229,7 +229,7 @@ TEST(SlicingGrowthLong, ToAHundredThousandBlocks) {
   study(report, {"finite", "table_4_1.toml", {0.005, 0.015, 0.042, 0.09, 0.15}, 3});
 }
 
-TEST(SlicingGrowth, PersistentSetsMakeAsManyBlocksAsTheirPlanesSay) {
+TEST(SlicingGrowth, PersistentSetsMakeTheCountedNumberOfBlocks) {
   CaseReport report("slicing");
   const Pattern pattern = pattern_of("table_4_1_persistent.toml", 0.15);
   std::vector<reference::Plane3> planes;
@@ -247,7 +247,7 @@ TEST(SlicingGrowth, PersistentSetsMakeAsManyBlocksAsTheirPlanesSay) {
 
 // ---- the assembly of Fig. 4.5
 
-// of a block: brown where it is small
+// of a block: brown if it is small
 std::uint32_t colour(double share_of_largest) {
   const double large = std::cbrt(share_of_largest);
   std::uint32_t rgb = 0;
@@ -265,7 +265,7 @@ void draw_assembly(const std::vector<Polytope<3>>& blocks, const std::vector<Sha
     kept.push_back(!(c[0] > 0 && c[1] < 0 && c[2] > 0));
     largest = std::max(largest, block.mass.volume);
   }
-  // what a removed neighbour lays bare: joint and side of a block
+  // faces exposed by a removed neighbour: joint and side of a block
   std::set<std::tuple<std::size_t, int, bool>> bare;
   for (const SharedFace& face : shared) {
     if (kept[face.below] && !kept[face.above]) bare.insert({face.below, face.joint, true});
@@ -311,7 +311,7 @@ TEST(SlicingGrowth, AnAssemblyInSpaceFillsItsBoxAndItsFacesMatch) {
                  .source = "geometry: half the area of all faces of joints: each is seen from both sides",
                  .expected = faces / 2,
                  .tolerance = {.relative = 1e-9},
-                 .because = "areas clipped at a joint's other faces, whose slivers below 1e-9 count as none"},
+                 .because = "areas clipped at a joint's other faces, of which slivers below 1e-9 are not counted"},
                 common);
   draw_assembly(done.blocks, shared);
 }

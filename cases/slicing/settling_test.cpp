@@ -1,5 +1,5 @@
-// A rock mass of some 2 500 sliced blocks, and a corner of one with a bench in it, settle under their weight until they
-// rest.
+// A rock mass of some 2 500 sliced blocks, and a corner of one with a bench in it, settle under their weight until
+// equilibrium.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -14,7 +14,8 @@ using verification::Bound;
 using verification::CaseReport;
 using verification::Kind;
 
-// what the fixed blocks carry, the mean force of a contact, and the largest overlap as a fraction of the smaller block
+// the force on the fixed blocks, the mean force of a contact, and the largest overlap as a fraction of the smaller
+// block
 struct Contacts {
   Vector<3> on_fixed = Vector<3>::Zero();  // N
   double mean_force = 0;                   // N
@@ -67,32 +68,32 @@ void check(CaseReport& report, const std::string& which, const RecordedRun<3>& s
     weight -= model.bodies[b].mass * model.gravity[2];
     farthest = std::max(farthest, state.bodies.motions[b].displacement.norm());
   }
-  record("contacts without an answer", "1", Kind::exact, "promise: a contact without an answer fails the run", 0,
+  record("contacts without an answer", "1", Kind::exact, "promise: a contact without a result fails the run", 0,
          {0.5, 0}, "a count", static_cast<double>(results.counters.unconverged));
 
   const double released = -state.ledger.energy.potential();
-  record(
-      "kinetic energy at rest", "1", Kind::limit, "equilibrium: rest, as a fraction of what gravity did", 0,
-      {1e-6, 0, Bound::at_most},
-      "momentum times frequency is below u = 1e-4 of the mean contact force: such a block holds some u² = 1e-8 of what "
-      "its springs do, and a hundred times that where its springs are the softest",
-      kinetic(model, state) / released);
+  record("kinetic energy at rest", "1", Kind::limit, "equilibrium: as a fraction of the work of gravity", 0,
+         {1e-6, 0, Bound::at_most},
+         "momentum times frequency is below u = 1e-4 of the mean contact force: such a block has some u² = 1e-8 of the "
+         "energy of its springs, and a hundred times that if its springs are the softest",
+         kinetic(model, state) / released);
   record("energy that the motion does not account for", "1", Kind::exact,
          "conservation of energy: work of all forces against kinetic energy", 0, {1e-10, 0},
          "leapfrog closes to the rounding of some ten thousand steps",
          std::abs(state.ledger.energy.motion_error) / released);
-  record("energy that is not accounted for", "1", Kind::limit, "demanded: the drift beyond which a run is doubted", 0,
-         {0.05, 0, Bound::at_most}, "core/run/simulate.cpp: areas and normals of contacts change while blocks settle",
+  record("energy that is not accounted for", "1", Kind::limit, "demanded: the drift beyond which a run is not trusted",
+         0, {0.05, 0, Bound::at_most},
+         "core/run/simulate.cpp: areas and normals of contacts change while blocks settle",
          state.ledger.energy.relative_error());
 
   const Contacts now = contacts(model, state);
   const double out_of_balance = blocks * settled.scene().settings.equilibrium.unbalanced * now.mean_force;
   const std::string balance = "every block may be out of balance by u of the mean contact force";
-  record("weight on floor and walls", "N", Kind::exact, "equilibrium of the whole", weight, {out_of_balance, 0},
+  record("weight on floor and walls", "N", Kind::exact, "equilibrium of the assembly", weight, {out_of_balance, 0},
          balance, -now.on_fixed[2]);
-  record("thrust on the walls, eastward", "N", Kind::exact, "equilibrium of the whole", 0, {out_of_balance, 0}, balance,
-         now.on_fixed[0]);
-  record("thrust on the walls, northward", "N", Kind::exact, "equilibrium of the whole", 0, {out_of_balance, 0},
+  record("thrust on the walls, eastward", "N", Kind::exact, "equilibrium of the assembly", 0, {out_of_balance, 0},
+         balance, now.on_fixed[0]);
+  record("thrust on the walls, northward", "N", Kind::exact, "equilibrium of the assembly", 0, {out_of_balance, 0},
          balance, now.on_fixed[1]);
   record("largest overlap", "1", Kind::limit, "geometry: a fraction of the smaller block's inscribed radius", 0,
          {settled.scene().settings.contact.potential_radius, 0, Bound::at_most},
@@ -104,7 +105,7 @@ void check(CaseReport& report, const std::string& which, const RecordedRun<3>& s
                 cost(settled.run));
 }
 
-// whether a face is seen from outside: some point of it, this far in front of it, lies in no block
+// whether a face is visible from outside: some point at this distance in front of it is in no block
 struct Exposure {
   static constexpr double in_front = 2e-3;  // m
   const Model<3>& model;
@@ -135,7 +136,7 @@ struct Exposure {
   }
 };
 
-// by the way a block has gone: to 0.1 mm, 0.3 mm, 1 mm, 10 mm, farther
+// by the displacement of a block: to 0.1 mm, 0.3 mm, 1 mm, 10 mm, farther
 std::uint32_t colour(double way) {
   return way < 1e-4 ? 0xdeebf7 : way < 3e-4 ? 0x9ecae1 : way < 1e-3 ? 0x3182bd : way < 1e-2 ? 0xe69f00 : 0xd55e00;
 }
@@ -161,41 +162,41 @@ TEST(SlicingSettling, ACornerOfItComesToRest) {
   draw(settled);
 }
 
-TEST(SlicingSettling, ThreeHundredBlocksRestByRelaxation) {
+TEST(SlicingSettling, ThreeHundredBlocksReachEquilibriumByRelaxation) {
   CaseReport report("slicing");
-  check(report, ", 327 blocks by relaxation", record<3>("rock_mass.toml", {"damping.statics=\"adaptive\""}));
+  check(report, ", 327 blocks by relaxation", record<3>("rock_mass.toml", {"statics=\"adaptive\""}));
 }
 
-// counts of what coming to rest cost, so that it grows with the rock no faster than core/step/NOTES.md says
+// cost counts of reaching equilibrium, so that they grow with the rock no faster than core/step/NOTES.md states
 void check_cost(CaseReport& report, const std::string& which, const RecordedRun<3>& settled, double most) {
   const State<3>& state = settled.last();
   const auto touching = std::count_if(state.contacts.list.begin(), state.contacts.list.end(),
                                       [](const Contact<3>& c) { return c.touching(); });
   const Counters& counters = settled.run.results.counters;
-  report.record({"settling: evaluations a touching pair" + which,
-                 "1",
-                 Kind::limit,
-                 "promise: core/step/NOTES.md",
-                 0,
-                 {most, 0, Bound::at_most},
-                 "those measured, and half as much again: the order of rounding decides "
-                 "which joints open and close on the way"},
-                static_cast<double>(counters.contact_evaluations) / static_cast<double>(touching), cost(settled.run));
+  report.record(
+      {"settling: evaluations a touching pair" + which,
+       "1",
+       Kind::limit,
+       "promise: core/step/NOTES.md",
+       0,
+       {most, 0, Bound::at_most},
+       "those measured, and half as much again: the order of rounding decides which joints open and close in between"},
+      static_cast<double>(counters.contact_evaluations) / static_cast<double>(touching), cost(settled.run));
   report.record(
       {"settling: left to relaxation" + which, "1", Kind::exact, "demanded: none need be", 0, {0.5, 0}, "a count"},
       static_cast<double>(counters.static_fallbacks), cost(settled.run));
 }
 
-TEST(SlicingSettling, ThreeHundredBlocksRestByNewtonsMethod) {
+TEST(SlicingSettling, ThreeHundredBlocksReachEquilibriumByNewtonsMethod) {
   CaseReport report("slicing");
-  const RecordedRun<3> settled = record<3>("rock_mass.toml", {"damping.statics=\"newton\""});
+  const RecordedRun<3> settled = record<3>("rock_mass.toml", {"statics=\"newton\""});
   check(report, ", 327 blocks by Newton's method", settled);
   check_cost(report, ", 327 blocks by Newton's method", settled, 62);
 }
 
-TEST(SlicingSettlingLong, TwentyFiveHundredBlocksRestByNewtonsMethod) {
+TEST(SlicingSettlingLong, TwentyFiveHundredBlocksReachEquilibriumByNewtonsMethod) {
   CaseReport report("slicing");
-  const RecordedRun<3> settled = record<3>("settling.toml", {"damping.statics=\"newton\""});
+  const RecordedRun<3> settled = record<3>("settling.toml", {"statics=\"newton\""});
   check(report, ", 2500 blocks by Newton's method", settled);
   check_cost(report, ", 2500 blocks by Newton's method", settled, 114);
 }
@@ -208,10 +209,10 @@ TEST(SlicingSettlingLong, TwentyFiveHundredBlocksComeToRest) {
 }
 
 // on four points a face: one point resists no twist, and a block that spins on it does not come to rest (README)
-TEST(SlicingSettlingLong, TwentyFiveHundredBlocksRestByRelaxation) {
+TEST(SlicingSettlingLong, TwentyFiveHundredBlocksReachEquilibriumByRelaxation) {
   CaseReport report("slicing");
   check(report, ", 2500 blocks by relaxation",
-        record<3>("settling.toml", {"damping.statics=\"adaptive\"", "joint_properties.rock.sub_contacts=2"}));
+        record<3>("settling.toml", {"statics=\"adaptive\"", "joint_properties.rock.sub_contacts=2"}));
 }
 
 }  // namespace

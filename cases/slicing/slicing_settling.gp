@@ -1,4 +1,4 @@
-# the rock mass at rest, from the south-east, walls not drawn: by how far each block has gone
+# the rock mass in equilibrium, from the south-east, walls not drawn: displacement of each block
 set terminal svg size 860,560 @page
 @picture
 set key outside bottom center horizontal samplen 1.5

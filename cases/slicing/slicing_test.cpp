@@ -1,5 +1,5 @@
 // Rock slicing: a slope that construction joints shape, one joint pattern cut in four ways, and an assembly in space;
-// what they conserve, and how many blocks there must be.
+// conservation, and the number of blocks.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -42,7 +42,7 @@ double volume_of(const Model<Dim>& model, const Select& select) {
   return sum;
 }
 
-// ---- drawing: outlines of parts, parted by an empty line as gnuplot wants them
+// ---- drawing: outlines of parts, separated by an empty line for gnuplot
 
 template <class Select>
 void draw_parts(const std::string& file, const Model<2>& model, const Select& select) {
@@ -61,7 +61,7 @@ void draw_parts(const std::string& file, const Model<2>& model, const Select& se
   }
 }
 
-// an edge of a part without what it shares with other parts of its body: pieces along it, from 0 to 1
+// an edge of a part without the pieces that it shares with other parts of its body: pieces along it, from 0 to 1
 std::vector<std::array<double, 2>> outer_pieces(const Body<2>& body, std::size_t part, std::size_t edge) {
   const Polytope<2>& own = body.parts[part];
   const Vector<2> from = own.vertices[own.loops[edge][0]], along = own.vertices[own.loops[edge][1]] - from;
@@ -112,7 +112,7 @@ double largest_radius(const Body<2>& body) {
   return radius;
 }
 
-// the joints of a scene in the plane from end to end, as far as its domain's size reaches
+// the joints of a scene in the plane from end to end, as far as its domain extends
 void draw_traces(const std::string& file, const std::string& scene_file) {
   const Scene scene = with_drawn_joints<2>(read_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / scene_file));
   std::vector<std::vector<double>> columns(4);
@@ -135,7 +135,7 @@ Line2 through(double x, double y, double dip_deg) {
           std::sin(dip_deg * degree) * x + std::cos(dip_deg * degree) * y};
 }
 
-// what slope.toml leaves between its slide surface and its outline, by hand
+// the area of slope.toml between its slide surface and its outline, by hand
 double area_of_slide() {
   return reference::enclosed_area({through(718.38, 644, 37.4881), through(818.38, 620, 13.4957), through(0, 620, 0),
                                    through(920, 850, 37.9997), through(0, 850, 0), through(352, 1065, 32.8481),
@@ -195,10 +195,10 @@ TEST(Slicing, ASlopeIsShapedByConstructionJointsAndExcavation) {
                    .because = "a count"},
                   found);
   };
-  count("slope: boundary blocks", "geometry: what lies below each of three boundary joints stays whole", 3,
+  count("slope: boundary blocks", "geometry: the rock below each of three boundary joints is one block", 3,
         persistent.fixed);
   count("slope: blocks cut along the outline alone",
-        "geometry: construction joints through everything, held together again",
+        "geometry: construction joints through the whole domain, their sides one body",
         static_cast<double>(persistent.model.bodies.size()), static_cast<double>(confined.model.bodies.size()));
   const auto blocks = [](const Slope& found) { return static_cast<double>(found.model.bodies.size()); };
   report.report("slope: blocks", "1", blocks(persistent), "persistent joint sets");
@@ -262,7 +262,7 @@ TEST(Slicing, OnePatternCutInFourWays) {
     else
       report.report(quantity, "m", smallest, "inscribed radius");
     report.report("pattern: blocks, " + t.name, "1", static_cast<double>(model.bodies.size()), t.label);
-    // small blocks apart
+    // small blocks separately
     draw_parts("pattern_" + t.name + ".csv", model,
                [](const Body<2>& body) { return largest_radius(body) >= least_radius; });
     draw_parts("pattern_" + t.name + "_small.csv", model,

@@ -1,4 +1,4 @@
-# what the limits on blocks cost and save
+# cost and savings of the limits on blocks
 set terminal svg size 860,640 @page
 set multiplot layout 2,2
 set xlabel 'smallest inscribed radius allowed, m'

@@ -1,4 +1,4 @@
-// What a smallest inscribed radius and a largest aspect ratio cost and save: blocks, the smallest of them, the time
+// Cost and savings of a smallest inscribed radius and a largest aspect ratio: blocks, the smallest of them, the time
 // step that they allow, and the work for a second of simulated time.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -97,18 +97,19 @@ TEST(SlicingTrade, AgainstTheLimits) {
                  {1e-12, 0},
                  "each cut rounds the volumes of two children, some 1e-15 of theirs"},
                 worst_volume);
-  report.record({"trade: smallest inscribed radius over the limit",
-                 "1",
-                 Kind::limit,
-                 "promise: what slicing.hpp promises",
-                 1,
-                 {1e-9, 0, Bound::at_least},
-                 "the box obeys every limit, so every block must, but for the rounding of a finished block's radius"},
-                slimmest);
+  report.record(
+      {"trade: smallest inscribed radius over the limit",
+       "1",
+       Kind::limit,
+       "promise: slicing.hpp",
+       1,
+       {1e-9, 0, Bound::at_least},
+       "the box obeys every limit, so every block must, except for the rounding of a finished block's radius"},
+      slimmest);
   report.record({"trade: largest aspect ratio over the limit",
                  "1",
                  Kind::limit,
-                 "promise: what slicing.hpp promises",
+                 "promise: slicing.hpp",
                  1,
                  {1e-9, 0, Bound::at_most},
                  "likewise"},
@@ -148,11 +149,11 @@ TEST(SlicingTrade, TheTimeStepGrowsWithTheRootOfTheSize) {
                  "closed form: stiffness per area times area over mass",
                  1,
                  {1e-9, 0},
-                 "similar blocks to the last digits; the first step decides, and is taken before anything moves"},
+                 "similar blocks to the last digits; the first step decides, before any motion"},
                 large.step / small.step / std::sqrt(2.0));
 }
 
-// A square of 10 m: a joint that cuts off a small corner, one that lies in that corner, three across the diagonal.
+// A square of 10 m: a joint that cuts off a small corner, one within that corner, three across the diagonal.
 Prepared<2> corner(const std::vector<std::string>& overrides) {
   std::string text = R"(
 dimension = 2
@@ -202,11 +203,11 @@ TEST(SlicingTrade, ALargerLimitCanMakeMoreBlocks) {
                   static_cast<double>(corner(overrides).model.bodies.size()));
   };
   const std::string limit = "slicing.smallest_inscribed_radius=0.5", ignored = "slicing.ends=ignored";
-  // the corner, of 0.29 m, keeps the diagonal to itself; left uncut, the diagonal parts the whole square, and each of
-  // the three joints parts both halves
+  // the corner, of 0.29 m, confines the diagonal; left uncut, the diagonal divides the whole square, and each of the
+  // three joints divides both halves
   count(", joints with an end, no limit", 6, {});
   count(", joints with an end, 0.5 m", 8, {limit});
-  // joints without an end: refusing a cut can only leave cells of their arrangement together
+  // joints without an end: refusing a cut can only merge cells of their arrangement
   count(", joints without an end, no limit", 10, {ignored});
   count(", joints without an end, 0.5 m", 8, {limit, ignored});
 }

@@ -31,7 +31,7 @@ double truth_of(const reference::LayeredSlope& slope) {
   return 0.5 * (collapse.stands + collapse.collapses) / degree;
 }
 
-// slopes 20 to 50 m high, face and bedding as steep as each other, on 5 to 20 GPa/m
+// slopes 20 to 50 m high, face and bedding of the same dip, on 5 to 20 GPa/m
 std::vector<BudgetScene> draw(unsigned seed, std::size_t count, int most_layers,
                               const std::vector<std::string>& overrides) {
   boost::random::mt19937_64 random(seed);
@@ -78,11 +78,11 @@ void try_budgets(unsigned seed, std::size_t count, int most_layers, const std::v
   for (const BudgetScene& scene : scenes)
     largest = std::max(largest, std::abs(by_limit_analysis(scene) - scene.truth));
   report.report(fmt::format("limit analysis off the reference, most of {} random slopes", count), "deg", largest,
-                "0.0026 where blocks are lost as their joints open, too");
+                "0.0026 for slopes that fail with opening joints, too");
   judge_budgets(report, "slump", "random slopes", source, scenes);
 }
 
-// of one layer, on whole faces and by a coarse search, so that every build can afford them
+// of one layer, on integrated face contacts and by a coarse search, so that every build can afford them
 TEST(SlumpBudget, EnclosesBlocksThatDoNotDilate) {
   try_budgets(52618, 3, 1, {"stage.critical.tolerance_deg=0.2", whole_faces});
 }
@@ -91,7 +91,7 @@ TEST(SlumpBudgetLong, EnclosesBlocksThatDoNotDilate) {
   try_budgets(52619, 40, 4, {});
 }
 
-// the scene as it stands
+// the scene as committed
 TEST(SlumpBudgetLong, OfTheWholeSearchEnclosesTheReference) {
   CaseReport report("slump");
   const reference::LayeredSlope slope{60 * degree, 5 * degree, 4, 8, 50, 3, 2500, 9.81, 10e9, 10e9};

@@ -1,4 +1,4 @@
-// A slope that the distinct element method loses: how every block moved.
+// A slope that fails by the distinct element method: the motion of every block.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace voussoir::cases {
 
-// The distinct element run: at rest before friction is lowered, and as the last trial that failed left it.
+// The distinct element run: in equilibrium before friction is lowered, and at the end of the last failed trial.
 template <int Dim>
 struct Collapse {
   SceneRun run;

@@ -1,4 +1,4 @@
-# the slope as the distinct element run lost it: settled, and in the last trial that failed, its motion magnified
+# failure of the slope in the distinct element run: settled, and in the last failed trial, its motion magnified
 set size ratio -1
 set xlabel 'x (m)'
 set ylabel 'y (m)'

@@ -1,5 +1,5 @@
 // The slumping slope S0 by rigid-block limit analysis, by blocks that slip without opening and by the distinct element
-// method: the angle at which it is lost, and who moves.
+// method: the angle at which it fails, and the blocks that move.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -45,12 +45,12 @@ bool in_outer_layer(const Vector<2>& place) {
   return place[0] * std::sin(slope.dip) - place[1] * std::cos(slope.dip) < slope.thickness;
 }
 
-// closed outlines, blocks parted by an empty line as gnuplot wants them
+// closed outlines, blocks separated by an empty line for gnuplot
 class Outlines {
  public:
   explicit Outlines(const std::string& file) : out_(verification::case_output("slump") / file) { out_ << "x_m,y_m\n"; }
 
-  // moved and turned about its centroid
+  // moved and rotated about its centroid
   void add(const Model<2>& model, const Body<2>& body, const Vector<2>& move, double turn) {
     const Polytope<2>& part = body.parts.front();
     for (const int vertex : closed_ring(part)) {
@@ -93,7 +93,7 @@ void draw(const LimitAnalysis& analysis, const reference::SlopeCollapse& collaps
       plastic.add(model, *outer.at(block.row), drawn_motion * Vector<2>(block.x, block.y), drawn_motion * block.turn);
 }
 
-TEST(Slump, IsLostWhereBlocksThatDoNotDilateLoseIt) {
+TEST(Slump, FailsAtTheAngleOfBlocksThatDoNotDilate) {
   CaseReport report("slump", {"critical friction, limit analysis", "blocks that move, limit analysis"});
   const LimitAnalysis analysis = by_limit_analysis();
   ASSERT_EQ(analysis.status, LimitStatus::found);
@@ -107,7 +107,7 @@ TEST(Slump, IsLostWhereBlocksThatDoNotDilateLoseIt) {
                  expected,
                  {0.0003, 0},
                  "half the reference's bracket, 0.00025; its trials leave up to 1e-7 of a block's weight at each of 63 "
-                 "freedoms, where a degree is worth 0.3 weights: 0.00002; limit analysis is bracketed to 1e-6"},
+                 "freedoms, with 0.3 weights per degree: 0.00002; limit analysis is bracketed to 1e-6"},
                 analysis.values.front().second.value);
 
   report.report("duality gap, limit analysis", "1", analysis.evidence.gap,
@@ -115,7 +115,7 @@ TEST(Slump, IsLostWhereBlocksThatDoNotDilateLoseIt) {
                 "program's own numbers");
   EXPECT_LT(analysis.evidence.gap, 1e-3 * analysis.values.back().second.value) << "or the lower end is not proven";
 
-  // who moves: the outer layer alone, and its blocks turn alike
+  // only the outer layer moves, and its blocks rotate alike
   int outer = 0;
   double least = 1e300, most = -1e300;
   for (const BlockMotion& moving : analysis.mechanism.moving) {
@@ -133,11 +133,11 @@ TEST(Slump, IsLostWhereBlocksThatDoNotDilateLoseIt) {
                  {0, 0},
                  "a count"},
                 outer);
-  EXPECT_LT(most - least, 1e-6 * std::abs(least)) << "the layer's blocks turn alike";
+  EXPECT_LT(most - least, 1e-6 * std::abs(least)) << "the layer's blocks rotate alike";
   for (const reference::SlopeBlockMotion& block : collapse.motion)
     EXPECT_EQ(block.layer == 0, block.largest > 0.1) << "layer " << block.layer << ", row " << block.row;
 
-  // how fast they turn is not the same: dilation lifts every block off the one below
+  // their rates of rotation differ: dilation lifts every block off the one below
   const std::string note = "per metre that the fastest corner moves; mean of the outer layer's blocks";
   report.report("turn of the outer layer, limit analysis", "1/m", least / largest_corner_speed(analysis), note);
   report.report("turn of the outer layer, without dilation", "1/m", mean_turn_of_outer_layer(collapse), note);
@@ -146,20 +146,19 @@ TEST(Slump, IsLostWhereBlocksThatDoNotDilateLoseIt) {
   draw(analysis, collapse);
 }
 
-// that the slope is lost where the reference loses it, and as it loses it; returns the blocks' motions
+// checks that the slope fails at the angle and by the mechanism of the reference; returns the blocks' motions
 template <int Dim>
 std::vector<CollapsedBlock> judge_collapse(CaseReport& report, const std::string& name, const Collapse<Dim>& collapse) {
   const reference::SlopeCollapse sought = without_dilation();
-  report.record(
-      {"critical friction, " + name,
-       "deg",
-       Kind::limit,
-       "elastic, perfectly plastic blocks without dilation, reference/slump",
-       expected_deg(sought),
-       {0.2, 0},
-       "half the short search's bracket is 0.175; its last trials are 0.14 below and 0.21 above the reference, farther "
-       "than the 0.1 by which elastic corners raise the angle (README)"},
-      value(collapse.run, "critical_friction"), cost(collapse.run));
+  report.record({"critical friction, " + name,
+                 "deg",
+                 Kind::limit,
+                 "elastic, perfectly plastic blocks without dilation, reference/slump",
+                 expected_deg(sought),
+                 {0.2, 0},
+                 "half the short search's bracket is 0.175; its last trials are 0.14 below and 0.21 above the "
+                 "reference, farther than the 0.1 by which elastic corners raise the angle (README)"},
+                value(collapse.run, "critical_friction"), cost(collapse.run));
   const std::vector<CollapsedBlock> moved = motions_at_collapse(collapse);
   double most = 0;
   for (const CollapsedBlock& block : moved)
@@ -211,7 +210,7 @@ void draw_collapse(const Collapse<2>& collapse, const std::vector<CollapsedBlock
 }
 
 // a short search, so that every build can afford it
-TEST(Slump, IsLostByDistinctElements) {
+TEST(Slump, FailsByDistinctElements) {
   CaseReport report("slump", {"critical friction, DEM", "blocks that move, DEM", "blocks that turn backwards, DEM",
                               "turn of the outer layer, DEM"});
   const Collapse<2> collapse =
@@ -219,15 +218,15 @@ TEST(Slump, IsLostByDistinctElements) {
   draw_collapse(collapse, judge_collapse(report, "DEM", collapse));
 }
 
-TEST(Slump, IsLostByDistinctElementsOnWholeFaces) {
+TEST(Slump, FailsByDistinctElementsOnIntegratedFaces) {
   CaseReport report("slump", {"critical friction, DEM, whole faces"});
   judge_collapse(report, "DEM, whole faces",
                  run_to_collapse<2>("scene.toml",
                                     {"stage.critical.to_deg=15.2", "stage.critical.tolerance_deg=0.4", whole_faces}));
 }
 
-// What relaxation alone cannot decide: the slide goes far before it rests, or flutters. The angles are 0.37 degrees
-// above the reference, where the slope is known to stand, and 0.23 below it, where it is known to fall.
+// Cases that relaxation alone cannot decide: the slide moves far before equilibrium, or flutters. The angles are 0.37
+// degrees above the reference, with a slope known to be stable, and 0.23 below it, with one known to fail.
 void judge_hard_search(const std::string& name, const std::vector<std::string>& overrides) {
   CaseReport report("slump");
   const SceneRun done = run("scene.toml", overrides);
@@ -238,7 +237,7 @@ void judge_hard_search(const std::string& name, const std::vector<std::string>& 
                  "elastic, perfectly plastic blocks without dilation, reference/slump",
                  expected_deg(without_dilation()),
                  {bar + 0.13, 0},
-                 "half the bracket, and what the way until failure is worth: 15.22 at 0.2 m and 10 GPa/m (README)"},
+                 "half the bracket, and the effect of the failure displacement: 15.22 at 0.2 m and 10 GPa/m (README)"},
                 value(done, "critical_friction"), cost(done));
   EXPECT_LE(bar, 0.301);
 }
@@ -254,31 +253,31 @@ std::vector<std::string> in_a_short_search(std::vector<std::string> overrides) {
   return overrides;
 }
 
-TEST(Slump, IsLostAtTenTimesTheStiffness) {
+TEST(Slump, FailsAtTenTimesTheStiffness) {
   judge_hard_search("ten times the stiffness", in_a_short_search(stiff));
 }
 
-TEST(Slump, IsLostByTheDefaultFailureDisplacement) {
+TEST(Slump, FailsByTheDefaultFailureDisplacement) {
   judge_hard_search("default failure displacement", in_a_short_search(default_displacement));
 }
 
-TEST(SlumpLong, IsLostAtTenTimesTheStiffnessByTheWholeSearch) {
+TEST(SlumpLong, FailsAtTenTimesTheStiffnessByTheWholeSearch) {
   std::vector<std::string> overrides = stiff;
   overrides.emplace_back("stage.critical.tolerance_deg=0.2");
   judge_hard_search("ten times the stiffness, whole search", overrides);
 }
 
-TEST(SlumpLong, IsLostByTheDefaultFailureDisplacementByTheWholeSearch) {
+TEST(SlumpLong, FailsByTheDefaultFailureDisplacementByTheWholeSearch) {
   judge_hard_search("default failure displacement, whole search", default_displacement);
 }
 
-// the scenes as they stand
-TEST(SlumpLong, IsLostByTheWholeSearch) {
+// the scenes as committed
+TEST(SlumpLong, FailsByTheWholeSearch) {
   CaseReport report("slump");
   judge_collapse(report, "DEM, whole search", run_to_collapse<2>("scene.toml"));
 }
 
-TEST(SlumpLong, IsLostAsASliceInSpace) {
+TEST(SlumpLong, FailsAsASliceInSpace) {
   CaseReport report("slump");
   judge_collapse(report, "DEM, slice in space", run_to_collapse<3>("slice.toml"));
 }

@@ -1,4 +1,4 @@
-# the angle at which each variant of the slope is lost, by three methods
+# the angle at which each variant of the slope fails, by three methods
 set ylabel 'critical friction (deg)'
 set xrange [-0.6:13.6]
 set yrange [0:30]

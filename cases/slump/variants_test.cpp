@@ -1,5 +1,5 @@
-// The slumping slope with other dips, layers and spacings: the angle at which each is lost and how, by limit analysis,
-// by blocks that slip without opening and by distinct elements.
+// The slumping slope with other dips, layers and spacings: the angle and the mechanism at which each fails, by limit
+// analysis, by blocks that slip without opening and by distinct elements.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -22,14 +22,14 @@ using verification::CaseReport;
 using verification::Kind;
 
 constexpr double reference_bracket = 0.005;  // deg
-constexpr double moves = 0.1;   // of the farthest corner's way: as the reference's blocks are distinguished
+constexpr double moves = 0.1;   // of the farthest corner's displacement: as the reference's blocks are distinguished
 constexpr double turns = 1e-3;  // fraction of rotation in the kinetic energy: more than settling and rounding leave
 
 struct Variant {
   double dip, base_dip;       // deg
   double thickness, spacing;  // m
   int layers;
-  std::string label;  // what differs from S0
+  std::string label;  // differences from S0
 
   reference::LayeredSlope slope() const {
     return {dip * degree, base_dip * degree, thickness, spacing, 50, layers, 2500, 9.81, 10e9, 10e9};
@@ -40,7 +40,7 @@ struct Variant {
   }
 };
 
-// S0 first; then one thing varied at a time. One base dips out of the slope
+// S0 first; then one parameter varied at a time. One base dips out of the slope
 const std::vector<Variant> variants{{60, 5, 4, 8, 3, "S0"},
                                     {50, 5, 4, 8, 3, "dip 50°"},
                                     {55, 5, 4, 8, 3, "dip 55°"},
@@ -65,7 +65,7 @@ std::filesystem::path write_scene(const Variant& v) {
   return file;
 }
 
-// How a slope is lost: which of its layers, and whether by rotation.
+// The failure of a slope: its layers, and whether by rotation.
 struct Manner {
   double friction = 0;           // deg
   double rotation_fraction = 0;  // of the kinetic energy
@@ -144,7 +144,7 @@ std::string words(const Manner& m) {
                      m.rotates() ? "rotation" : "translation", layers, 100 * m.rotation_fraction);
 }
 
-// as each method lost a variant; only limit analysis is cheap enough for all of them in every build
+// failure of a variant by each method; only limit analysis is cheap enough for all of them in every build
 struct Answers {
   Manner limit;
   std::optional<Manner> plastic, dem;
@@ -180,23 +180,22 @@ void judge(CaseReport& report, const Variant& v, const Answers& found) {
                  source,
                  plastic.friction,
                  {0.0026, 0},
-                 "half the reference's bracket, 0.0025, and what its trials leave unbalanced. " + words(limit)},
+                 "half the reference's bracket, 0.0025, and the unbalanced force of its trials. " + words(limit)},
                 limit.friction);
   EXPECT_EQ(limit.of_layers, plastic.of_layers) << v.label;
   EXPECT_TRUE(plastic.rotates()) << v.label;
   if (!found.dem) return;
-  report.record(
-      {"critical friction, DEM" + name,
-       "deg",
-       Kind::limit,
-       source,
-       plastic.friction,
-       {0.2, 0},
-       "elastic corners give way before they carry what rigid ones do: 0.1 for S0 at this stiffness (README), "
-       "twice that where blocks are larger. " +
-           words(*found.dem)},
-      found.dem->friction);
-  // the second layer is as weak as the first one and may follow where it has gone
+  report.record({"critical friction, DEM" + name,
+                 "deg",
+                 Kind::limit,
+                 source,
+                 plastic.friction,
+                 {0.2, 0},
+                 "elastic corners deform before they carry the force of rigid ones: 0.1 for S0 at this stiffness "
+                 "(README), twice that for larger blocks. " +
+                     words(*found.dem)},
+                found.dem->friction);
+  // the second layer is as weak as the first one and may follow it
   EXPECT_EQ(found.dem->of_layers.front(), plastic.of_layers.front()) << v.label;
   EXPECT_TRUE(found.dem->rotates()) << v.label;
 }
@@ -221,7 +220,7 @@ void try_variants(CaseReport& report, const Choice& methods_of) {
   write_table(all);
 }
 
-TEST(SlumpVariants, AreLostAsBlocksThatDoNotDilate) {
+TEST(SlumpVariants, FailAsBlocksThatDoNotDilate) {
   CaseReport report("slump", {"critical friction, limit analysis, dip 70°", "critical friction, DEM, 1 layer"});
   try_variants(report, [](const Variant& v) {
     if (v.layers == 1) return Methods::three;
@@ -229,7 +228,7 @@ TEST(SlumpVariants, AreLostAsBlocksThatDoNotDilate) {
   });
 }
 
-TEST(SlumpVariantsLong, AreLostByDistinctElements) {
+TEST(SlumpVariantsLong, FailByDistinctElements) {
   CaseReport report("slump");
   try_variants(report, [](const Variant&) { return Methods::three; });
 }

@@ -1,4 +1,4 @@
-# how far a face on n x n points is from the distributed joint, and what a contact then costs in a step; dashed: a whole face
+# error of a face on n x n points against the distributed joint, and cost of a contact in a step; dashed: integrated face contact
 set terminal svg size 980,460 @page
 set logscale xy
 set multiplot layout 1,2 margins 0.09,0.98,0.14,0.79 spacing 0.1
@@ -17,6 +17,6 @@ set yrange [0.3:100]
 set format y '%g'
 plot 'square.csv' using 'along':(column('nanoseconds')/1000) with linespoints lt 1 title 'square, n × n points', \
      'strip.csv' using 'along':(column('nanoseconds')/1000) with linespoints lt 2 title 'in the plane, n points', \
-     'whole.csv' using 'along':(column('square')/1000) with lines lt 1 dt 2 title 'square, whole face', \
-     'whole.csv' using 'along':(column('strip')/1000) with lines lt 2 dt 2 title 'in the plane, whole face'
+     'whole.csv' using 'along':(column('square')/1000) with lines lt 1 dt 2 title 'square, integrated', \
+     'whole.csv' using 'along':(column('strip')/1000) with lines lt 2 dt 2 title 'in the plane, integrated'
 unset multiplot

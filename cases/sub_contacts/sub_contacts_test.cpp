@@ -1,4 +1,4 @@
-// What the number of points that carry a joint face buys and costs: stiffness and strength of a square face against the
+// Accuracy and cost of the number of points on a joint face: stiffness and strength of a square face against the
 // distributed joint, and the time of a step.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -26,9 +26,10 @@ using verification::Kind;
 constexpr std::array numbers{1, 2, 4, 8, 16};  // of points along a face
 constexpr double width = 1, arm = 0.25;        // m: of the face; of the centroid above it
 constexpr double depth = 3e-6;                 // m: of the face in the plate
-constexpr double small = 1e-7;           // rad, m: keeps the whole face closed, and every point below its strength
-constexpr double small_of_whole = 4e-6;  // the same for a face carried as a whole, whose answer is linear farther
-constexpr double slide = 1e-2;           // rad: far beyond the strength of every point
+constexpr double small = 1e-7;  // rad, m: keeps the whole face closed, and every point below its strength
+constexpr double small_of_whole =
+    4e-6;                       // the same for an integrated face contact, whose response is linear over a larger range
+constexpr double slide = 1e-2;  // rad: far beyond the strength of every point
 constexpr double kn = 1e9, ks = 5e8, friction_deg = 40;  // as the scenes state them
 
 // about the middle of the face
@@ -38,7 +39,7 @@ struct Answer {
   Spin<Dim> moment;
 };
 
-// A block of the scene, pressed into the plate; the answer of its joint to small motions, one after the other.
+// A block of the scene, pressed into the plate; the response of its joint to small motions, one after the other.
 template <int Dim>
 struct Pressed {
   LoadedScene scene;
@@ -70,7 +71,7 @@ struct Pressed {
     return {load.force, load.moment + moment(from_face, load.force)};
   }
 
-  // the face's middle goes by `way` while the block turns by `turn` about it, within a second
+  // the face's middle moves by `way` while the block rotates by `turn` about it, within a second
   Answer<Dim> go(const Vector<Dim>& way, const Spin<Dim>& turn) {
     Motion<Dim>& motion = state.bodies.motions[block];
     const Rotation<Dim> turned_to = turned(motion.rotation, turn);
@@ -128,7 +129,7 @@ double step_nanoseconds(const std::string& carried) {
   constexpr int rounds = 20, steps = 100;
   Pressed<Dim> pressed(carried);
   Body<Dim>& body = pressed.model.bodies[pressed.block];
-  body.free_translation.fill(false);  // it stays where it is
+  body.free_translation.fill(false);  // it does not move
   body.free_rotation.fill(false);
   double least = std::numeric_limits<double>::infinity();
   for (int r = 0; r < rounds; ++r) {
@@ -148,7 +149,7 @@ void judge(CaseReport& report, const std::string& what, double expected, double 
   report.record({what, "1", Kind::exact, "closed form: distributed joint", expected, {tolerance, 0}, because}, found);
 }
 
-// the normal of a tilted contact lies between the two faces', and its point is known to rounding over the tilt
+// the normal of a tilted contact is between the two faces', and its point is accurate to rounding over the tilt
 constexpr double measured_to = 1e-5;
 
 template <int Dim>
@@ -172,7 +173,7 @@ void measure(CaseReport& report, const std::string& file) {
             "each cell lacks its own spin, which together is 1/n² of the face's", s.spin);
     if (Dim == 3) report.report("spin strength" + name, "1", s.spin_strength, "of the distributed joint");
     report.report_time("contact in a step" + name, "ns", time, "processor time, fastest of twenty rounds of this run");
-    // what a logarithmic axis can show: rounding stands at 1e-8
+    // for a logarithmic axis: rounding is drawn at 1e-8
     const auto error = [](double fraction) { return std::max(1e-8, std::abs(fraction - 1)); };
     const std::array row{static_cast<double>(along),
                          std::pow(along, Dim - 1),
@@ -189,16 +190,16 @@ void measure(CaseReport& report, const std::string& file) {
             {"along", "points", "normal", "shear", "rocking", "spin", "spin_strength", "nanoseconds"}, columns);
 }
 
-// what a face is that no point stands for
+// the integrated face contact
 template <int Dim>
 double measure_whole(CaseReport& report) {
   const Stiffness s = stiffness_of<Dim>(whole_faces, small_of_whole);
   const std::string name = fmt::format(", whole face in {}-D", Dim);
   constexpr double tolerance = 1e-9;
   const std::string because =
-      "the integrals are exact; their polygon lies half the overlap within the block and turns with it, and its edges "
-      "pull, which moves rocking by some 13 times the square of the overlap over the width, 1e-10; places are known to "
-      "1e-16 m of two micrometres";
+      "the integrals are exact; their polygon is half the overlap within the block and rotates with it, and its edges "
+      "pull, which changes rocking by some 13 times the square of the overlap over the width, 1e-10; positions are "
+      "accurate to 1e-16 m of two micrometres";
   judge(report, "normal stiffness" + name, 1, tolerance, because, s.normal);
   judge(report, "shear stiffness" + name, 1, tolerance, because, s.shear);
   judge(report, "rocking stiffness" + name, 1, tolerance, because, s.rocking);
@@ -211,7 +212,7 @@ double measure_whole(CaseReport& report) {
   return time;
 }
 
-TEST(SubContacts, AWholeFaceIsTheDistributedJoint) {
+TEST(SubContacts, AnIntegratedFaceIsTheDistributedJoint) {
   CaseReport report("sub_contacts", {"rocking stiffness, whole face in 2-D", "spin stiffness, whole face in 3-D"});
   const double strip = measure_whole<2>(report), square = measure_whole<3>(report);
   write_csv("sub_contacts", "whole.csv", {"along", "square", "strip"}, {{0.85, 19}, {square, square}, {strip, strip}});

@@ -1,4 +1,4 @@
-# what a bar carries whose bond slips as its joint opens
+# force of a bar whose bond slips as its joint opens
 set xlabel 'opening of the joint (mm)'
 set ylabel 'force of the bar (kN)'
 set xrange [0:1.02]

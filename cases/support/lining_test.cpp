@@ -1,4 +1,4 @@
-// Linings: a ring that is pressed, and a plate that hangs from its interface.
+// Linings: a ring that is pressed, an invert in its bed, and a plate that hangs from its interface.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ namespace {
 using verification::CaseReport;
 using verification::Kind;
 
-// Beam on an elastic foundation that is pressed by 1 mm, twelve sides that give with each other's thrust: the closed
+// Beam on an elastic foundation that is pressed by 1 mm, twelve sides that deform with each other's thrust: the closed
 // form of reference/tunnel/network_test.cpp, twelve_sides_pressed_inwards.
 struct PressedRing {
   const char *scene, *interface;
@@ -29,16 +29,15 @@ const char* const foundation = "equilibrium: EI w'''' + K w = K d on each side, 
 void check_ring(CaseReport& report, const PressedRing& ring) {
   const SceneRun run = cases::run(ring.scene);
   for (const auto& [place, moment] : {std::pair("corner", ring.vertex), std::pair("middle", ring.middle)}) {
-    report.record(
-        {fmt::format("thrust of the pressed ring, {}, K_L {}", place, ring.interface),
-         "N",
-         Kind::exact,
-         foundation,
-         ring.thrust,
-         {0, 1e-3},
-         "the form is one of small displacements: a millimetre is 2e-4 of the radius, and the thrust is 2e-3 of "
-         "what would buckle the sides on their foundation, which adds to their deflections by that"},
-        value(run, fmt::format("{}_thrust", place)), cost(run));
+    report.record({fmt::format("thrust of the pressed ring, {}, K_L {}", place, ring.interface),
+                   "N",
+                   Kind::exact,
+                   foundation,
+                   ring.thrust,
+                   {0, 1e-3},
+                   "the form is one of small displacements: a millimetre is 2e-4 of the radius, and the thrust is 2e-3 "
+                   "of the buckling load of the sides on their foundation, which increases their deflections by that"},
+                  value(run, fmt::format("{}_thrust", place)), cost(run));
     report.record(
         {fmt::format("moment of the pressed ring, {}, K_L {}", place, ring.interface),
          "N m",
@@ -47,12 +46,12 @@ void check_ring(CaseReport& report, const PressedRing& ring) {
          moment,
          {0, 1e-2},
          "pressure lumped at nodes leaves out the fixed-end moment q l²/12 of beams of l = 134 mm: 1.5 N m of 298, "
-         "290 of 32,401 where the interface is stiff; the thrust adds 2e-3"},
+         "290 of 32,401 if the interface is stiff; the thrust adds 2e-3"},
         value(run, fmt::format("{}_moment", place)), cost(run));
   }
 }
 
-// at a tenth of the millimetre, where the thrust adds a tenth to the deflections
+// at a tenth of the millimetre, at which the thrust adds a tenth to the deflections
 void check_order(CaseReport& report, const PressedRing& ring) {
   const std::string less = "stage.press.duration_s=0.0004";
   const SceneRun fine = cases::run(ring.scene, {less}),
@@ -67,7 +66,7 @@ void check_order(CaseReport& report, const PressedRing& ring) {
          foundation,
          moment / 10,
          {0, 1e-3},
-         "second order: (4 M20 - M10)/3; what is left is of the fourth, (l/λ)⁴ = 1.4e-3 where the interface is stiff "
+         "second order: (4 M20 - M10)/3; the remainder is of fourth order, (l/λ)⁴ = 1.4e-3 if the interface is stiff "
          "(λ = 0.69 m) times the 0.15 that the second order shows, and 2e-4 by the thrust"},
         (4 * value(fine, column) - value(coarse, column)) / 3, cost(fine));
   }
@@ -82,7 +81,7 @@ TEST(Lining, RigidSidesPressARing) {
   }
 }
 
-// An even pressure on a polygon bends it, on a ring it does not: what the smoothing takes away.
+// Uniform pressure bends a polygon, but not a ring: the smoothing removes this bending.
 TEST(Lining, SmoothingTakesTheRippleOfThePolygon) {
   CaseReport report("support");
   const SceneRun run = cases::run("ring_soft.toml");
@@ -92,20 +91,19 @@ TEST(Lining, SmoothingTakesTheRippleOfThePolygon) {
     smoothed = std::max(smoothed, std::abs(node.smoothed_moment.value()));
     raw = std::max(raw, std::abs(node.forces.moment));
   }
-  report.record(
-      {"smoothed moment of a ring of twelve sides under even pressure, of the largest before",
-       "1",
-       Kind::exact,
-       "equilibrium: a ring under even pressure is not bent",
-       0,
-       {1e-6, 0},
-       "by symmetry all sides have one pressure but for what Newton's method leaves, 1e-8 of the forces, times "
-       "N a over M, 40"},
-      smoothed / raw, cost(run));
+  report.record({"smoothed moment of a ring of twelve sides under even pressure, of the largest before",
+                 "1",
+                 Kind::exact,
+                 "equilibrium: uniform pressure does not bend a ring",
+                 0,
+                 {1e-6, 0},
+                 "by symmetry all sides have one pressure except for the residual of Newton's method, 1e-8 of the "
+                 "forces, times N a over M, 40"},
+                smoothed / raw, cost(run));
 }
 
-// An arc over a bed of n sides a turn. A node at a corner rests on two sides, each turned by π/n away from it: what of
-// the bed's normal stiffness acts along the arc there holds it besides the shear stiffness, and the other way round.
+// An arc over a bed of n sides per revolution. A node at a corner is on two sides, each rotated by π/n: a part of the
+// bed's normal stiffness acts along the arc there besides the shear stiffness, and vice versa.
 reference::BeddedArc invert(double shear_stiffness, int sides, double half_angle_deg) {
   constexpr double thickness = 0.3, modulus = 25e9, normal_stiffness = 1e7, density = 2400, gravity = 9.81;
   const double turn = std::numbers::pi / sides, along = std::pow(std::sin(turn), 2);
@@ -118,7 +116,7 @@ reference::BeddedArc invert(double shear_stiffness, int sides, double half_angle
           density * gravity * thickness};
 }
 
-// largest at a node but for the ends, of the largest
+// largest at a node except the ends, of the largest
 struct ArcError {
   double thrust = 0, moment = 0;
 };
@@ -155,29 +153,29 @@ void check_invert(CaseReport& report, double shear_stiffness) {
        form,
        0,
        {1.5e-3, 0},
-       "beams of 2°: a thrust that changes with γ a cos θ, γ a = 35 kN, is known to (2°)²/2 of that, 21 N of 15 kN"},
+       "beams of 2°: a thrust that changes with γ a cos θ, γ a = 35 kN, is accurate to (2°)²/2 of that, 21 N of 15 kN"},
       fine.thrust, cost(run));
-  report.record(
-      {"moment of an invert, largest error of the largest, " + name,
-       "1",
-       Kind::exact,
-       form,
-       0,
-       {2e-2, 0},
-       "the largest thrust, 15 to 17 kN, times l²/8a = 0.76 mm that a beam's middle lies off the circle: 13 N m of 700 "
-       "to 800"},
-      fine.moment, cost(run));
+  report.record({"moment of an invert, largest error of the largest, " + name,
+                 "1",
+                 Kind::exact,
+                 form,
+                 0,
+                 {2e-2, 0},
+                 "the largest thrust, 15 to 17 kN, times l²/8a = 0.76 mm, the distance of a beam's middle from the "
+                 "circle: 13 N m of 700 "
+                 "to 800"},
+                fine.moment, cost(run));
   report.record({"error of an invert's moment with 30 beams over that with 59, " + name,
                  "1",
                  Kind::limit,
                  "convergence: second order, 4",
                  3,
                  {0, 0, verification::Bound::at_least},
-                 "half way between the first order's 2 and 4: it is the largest error, not that of one place"},
+                 "half way between the first order's 2 and 4: it is the largest error, not that at one place"},
                 rough.moment / fine.moment, cost(coarse));
 }
 
-TEST(Lining, AnInvertLiesInItsBed) {
+TEST(Lining, AnInvertOnItsElasticBed) {
   CaseReport report("support");
   for (const double shear_stiffness : {1e6, 1e4})
     check_invert(report, shear_stiffness);
@@ -193,27 +191,26 @@ TEST(Lining, APlateHangsFromItsInterface) {
     bending = std::max(bending, std::abs(node.forces.moment));
     length = std::max(length, std::abs(node.x));
   }
-  report.record(
-      {"pull between a hanging lining and its roof, the node farthest from it",
-       "Pa",
-       Kind::exact,
-       "equilibrium: ρ g t",
-       weight,
-       {0, 1e-6},
-       "rest leaves 1e-9 of the mean force; a node's mass and the length that it stands for come from the same "
-       "beams, whatever joint lies in the roof"},
-      pull, cost(run));
+  report.record({"pull between a hanging lining and its roof, the node farthest from it",
+                 "Pa",
+                 Kind::exact,
+                 "equilibrium: ρ g t",
+                 weight,
+                 {0, 1e-6},
+                 "equilibrium leaves 1e-9 of the mean force; a node's mass and tributary length are of the same beams, "
+                 "whatever joint is in the roof"},
+                pull, cost(run));
   report.record({"bending of the hanging lining, of its weight times its half length",
                  "1",
                  Kind::exact,
-                 "equilibrium: a load held where it is bends nothing",
+                 "equilibrium: a load supported at its own points causes no bending",
                  0,
                  {1e-6, 0},
                  "the same"},
                 bending / (weight * length * length), cost(run));
 }
 
-TEST(Lining, APlateFallsWhereItsInterfaceIsTooWeak) {
+TEST(Lining, APlateFallsIfItsInterfaceIsTooWeak) {
   CaseReport report("support");
   const auto ends = [](double of_weight) {
     return run_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / "hung_lining.toml",
@@ -228,7 +225,7 @@ TEST(Lining, APlateFallsWhereItsInterfaceIsTooWeak) {
                  "equilibrium: tension > ρ g t",
                  1,
                  {0, 0},
-                 "the first rests, the second does not"},
+                 "the first reaches equilibrium, the second does not"},
                 (holds.results.outcome == Outcome::done) + (falls.results.outcome == Outcome::done), cost(falls));
 }
 

@@ -1,4 +1,4 @@
-# what a bolt's spring carries as its joint slips and opens by a twentieth of the slip
+# force of a bolt's spring as its joint slips and opens by a twentieth of the slip
 set xlabel 'slip of the joint (mm)'
 set ylabel 'force of the bolt (kN)'
 set xrange [0:20.5]

@@ -1,4 +1,5 @@
-// Bolts: what a spring carries over a joint, what a hung slab, a pretensioned column and a bolted slope need.
+// Bolts: the force of a spring across a joint, of bolts of a hung slab and of a pretensioned column, and the friction
+// of a bolted slope.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -25,7 +26,7 @@ TEST(Support, SpringsFollowAnOpeningAndSlippingJoint) {
   const std::vector<double> time = column(run, "time_s");
   struct Anchors {
     const char *name, *column;
-    double length;  // m; 0: along the bolt alone
+    double length;  // m; 0: only along the bolt
   };
   std::vector<double> slip;
   for (const double t : time)
@@ -46,7 +47,7 @@ TEST(Support, SpringsFollowAnOpeningAndSlippingJoint) {
                    "Eqs 5.1 and 5.2: K (s|d| - l0) + F0",
                    expected.back(),
                    {0, 1e-6},
-                   "nothing but rounding of positions, and of the sum of the steps' times, moves it"},
+                   "only rounding of positions, and of the sum of the steps' times"},
                   force.back(), cost(run));
     names.push_back(fmt::format("{}_N", a.column));
     names.push_back(fmt::format("{}_closed_form_N", a.column));
@@ -79,7 +80,7 @@ TEST(Support, GroutedBarsFollowAnOpeningJoint) {
                  "closed form: sqrt(EA k) tanh(l sqrt(k/EA)) and EA over the free length, one behind the other",
                  opened / (1 / pull_out + free_length / axial_stiffness),
                  {0, 0.01},
-                 "nodes h apart make what is bonded h2 k/8EA too soft: 0.26 %, of the whole 0.15 %"},
+                 "nodes h apart make the bonded part h2 k/8EA too soft: 0.26 %, the whole bar 0.15 %"},
                 last("pulled"), cost(run));
   report.record({"bar with a bond that slips",
                  "N",
@@ -88,7 +89,7 @@ TEST(Support, GroutedBarsFollowAnOpeningJoint) {
                  reference::bar_over_opening(axial_stiffness, stiff_bond, bond_strength, opened),
                  {0, 0.01},
                  "a node of 20 mm slips as one: of the 0.5 m that slip on a side, at most half a node too many or too "
-                 "few, 2 %, move the force by the square of that"},
+                 "few, 2 %, changes the force by the square of that"},
                 last("slipping"), cost(run));
   report.record({"bar with a bond that slips, against a rigid bond",
                  "N",
@@ -123,7 +124,7 @@ TEST(Support, GroutedBarsAreOfSecondOrder) {
                  "convergence: log2 of two errors, nodes 0.2 and 0.1 m apart",
                  2,
                  {0.05, 0},
-                 "a half-infinite row of rods and bonds, 1/sqrt(1 + h2 k/4EA) of the bar, has 1.983"},
+                 "a half-infinite row of segments and bonds, 1/sqrt(1 + h2 k/4EA) of the bar, has 1.983"},
                 std::log2(coarse / fine), {});
 }
 
@@ -140,12 +141,12 @@ TEST(Support, ASlabHangsFromItsBolts) {
                  "equilibrium: W/3",
                  share,
                  {0, 1e-6},
-                 "rest leaves 1e-9 of the mean force"},
+                 "equilibrium leaves 1e-9 of the mean force"},
                 worst, cost(run));
 }
 
 // Three bolts that yield at a total of a thousandth more than the weight hold it, at a thousandth less they do not.
-TEST(Support, ASlabFallsWhereItsBoltsYield) {
+TEST(Support, ASlabFallsIfItsBoltsYield) {
   CaseReport report("support");
   const auto ends = [](double of_weight) {
     const double yield = of_weight * 1.5 * 4 * 2500 * 9.81 / 3;
@@ -159,11 +160,11 @@ TEST(Support, ASlabFallsWhereItsBoltsYield) {
                  "equilibrium: m Fy > W",
                  1,
                  {0, 0},
-                 "the first rests, the second does not"},
+                 "the first reaches equilibrium, the second does not"},
                 (holds.results.outcome == Outcome::done) + (falls.results.outcome == Outcome::done), cost(falls));
 }
 
-TEST(Support, JointsGiveWayUnderAPretension) {
+TEST(Support, JointsCloseUnderAPretension) {
   CaseReport report("support");
   const SceneRun run = cases::run("pretension.toml");
   const double expected = reference::pretension_left(100e3, 2e8, 1e9, 1);
@@ -176,7 +177,7 @@ TEST(Support, JointsGiveWayUnderAPretension) {
                  "equilibrium: F0 kn A/(kn A + K)",
                  expected,
                  {0, 1e-4},
-                 "rest leaves 1e-8; the overlap of 83 micrometres does not change the joints' area"},
+                 "equilibrium leaves 1e-8; the overlap of 83 micrometres does not change the joints' area"},
                 worst, cost(run));
   report.record({"joints crossed", "1", Kind::exact, "demanded: the scene", 10, {0, 0}, "a count"},
                 static_cast<double>(run.results.bolts.size()), cost(run));
@@ -192,7 +193,7 @@ TEST(Support, ABoltHoldsABlockOnASlope) {
                  "equilibrium: tan = (W sin 40 - Fy cos 30)/(W cos 40 + Fy sin 30)",
                  expected,
                  {0.02, 0},
-                 "half the bracket is 0.005; a slip of s turns the bolt by s sin 30/67 mm, 0.01 deg at 1.5 mm"},
+                 "half the bracket is 0.005; a slip of s rotates the bolt by s sin 30/67 mm, 0.01 deg at 1.5 mm"},
                 value(run, "critical_friction"), cost(run));
   report.record({"critical friction under a grouted bar",
                  "deg",
@@ -200,7 +201,7 @@ TEST(Support, ABoltHoldsABlockOnASlope) {
                  "equilibrium: tan = (W sin 40 - Fy cos 30)/(W cos 40 + Fy sin 30)",
                  expected,
                  {0.02, 0},
-                 "as of the bolted block: the bar, too, bends over 67 mm"},
+                 "as for the bolted block: the bar, too, bends over 67 mm"},
                 value(grouted, "critical_friction"), cost(grouted));
 }
 

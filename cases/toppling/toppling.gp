@@ -1,4 +1,4 @@
-# modes of a block on an incline: the map of dynamics, that of statics, and what the runs did
+# modes of a block on an incline: the map of dynamics, that of statics, and the modes of the runs
 set terminal svg size 760,560 @page
 set xlabel 'slope of the plane (°)'
 set ylabel 'friction angle (°)'

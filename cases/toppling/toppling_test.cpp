@@ -22,8 +22,8 @@ using verification::Kind;
 // as the scenes state it
 constexpr double breadth = 1, height = 2, weight = 2500 * 9.81 * breadth * height, stiffness = 100e9;
 
-// What counts as moved. A hinge gives by T/(k_s a) = 0.07 mm at most while the block turns by 0.1 rad, where the start
-// ends; at rest it turns by 0.002 rad.
+// Thresholds of motion. A hinge deforms by T/(k_s a) = 0.07 mm at most while the block rotates by 0.1 rad, the end of
+// the start; in equilibrium it rotates by 0.002 rad.
 constexpr double slid = 2e-4, turned = 0.02, started = 0.1;  // m, rad, rad
 constexpr double duration = 1.2;                             // s, as the scenes state it
 
@@ -34,14 +34,14 @@ struct Point {
 struct Variant {
   std::string scene, name, test;
   int dimension;
-  std::vector<std::string> carried = {};  // how the faces are carried: a scene's own points, or an override
+  std::vector<std::string> carried = {};  // contact model of the faces: a scene's own points, or an override
 };
 
 void PrintTo(const Variant& v, std::ostream* out) {
   *out << v.name;
 }
 
-// deg: the slope, or where it slides the friction angle, at which the block overturns on its elastic joint
+// deg: the slope, or for a sliding block the friction angle, at which the block overturns on its elastic joint
 double overturns_at(double slope_deg) {
   return to_degrees(reference::overturning_angle(breadth, height, weight * std::cos(slope_deg * degree), stiffness));
 }
@@ -72,7 +72,7 @@ std::vector<Point> points() {
                        0.3);
 }
 
-// the reference's mode, on elastic joints: the borders of overturning lie where the joint puts them
+// the reference's mode, on elastic joints: the joint decides the borders of overturning
 BlockMode expected_mode(const Point& p) {
   const InclinedBlock block{breadth, height, p.slope * degree, p.friction * degree};
   const double overturns = overturns_at(p.slope);
@@ -88,7 +88,7 @@ BlockMode mode_of(double slip, double turn) {
   return turn > turned ? BlockMode::topples : BlockMode::stays;
 }
 
-// the same of the block whose joint is carried as a whole, loaded as the scenes load it
+// the same for the block on an integrated face contact, loaded as in the scenes
 reference::JointStart start_on_joint(const Point& p, double until) {
   reference::BlockOnJoint block{breadth, height, p.slope * degree, p.friction * degree};
   block.normal_stiffness = block.shear_stiffness = stiffness;
@@ -102,7 +102,7 @@ BlockMode mode_on_joint(const Point& p) {
   return mode_of(start.slip, start.turn);
 }
 
-// the number within half a degree of `near` where the block changes its mode, to 0.001 degrees
+// the angle within half a degree of `near` at which the block changes its mode, to 0.001 degrees
 template <typename At>
 double changes_mode(double near, const At& at) {
   double low = near - 0.5, high = near + 0.5;
@@ -115,7 +115,7 @@ double changes_mode(double near, const At& at) {
   return low;
 }
 
-// deg: whole faces stand so far from their borders, twenty times what these are searched to
+// deg: distance of points on integrated face contacts from their borders, twenty times the bracket of these
 constexpr double apart_on_joint = 0.02;
 
 const Borders& borders_on_joint() {
@@ -129,7 +129,7 @@ const Borders& borders_on_joint() {
   return borders;
 }
 
-// how the lower corner and the block have moved when the start is over
+// motion of the lower corner and of the block at the end of the start
 struct Start {
   double slip = 0, turn = 0;  // m down the plane, rad down the slope
   SceneRun run;
@@ -198,7 +198,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 class TopplingFoot : public testing::TestWithParam<Variant> {};
 
-// the foot of a toppling block, 0.1 degrees below what holds it and 0.1 above
+// the foot of a toppling block, 0.1 degrees below the friction angle that holds it and 0.1 above
 TEST_P(TopplingFoot, SlipsAsFarAsOnAJointThatIsIntegrated) {
   const Variant& v = GetParam();
   CaseReport report("toppling");
@@ -222,7 +222,7 @@ INSTANTIATE_TEST_SUITE_P(All, TopplingFoot,
                                          Variant{"scene.toml", "3-D, whole faces", "Space", 3, {whole_faces}}),
                          [](const auto& chosen) { return chosen.param.test; });
 
-// What the map says of points where statics says something else: inertia enters the balance.
+// The map at points for which statics gives another mode: inertia enters the balance.
 TEST(TopplingMap, IsNotThatOfStatics) {
   std::vector<double> slope, least;
   const double rigid = to_degrees(std::atan(breadth / height)), end = 50;
@@ -235,10 +235,11 @@ TEST(TopplingMap, IsNotThatOfStatics) {
   CaseReport report("toppling");
   const double elastic = overturns_at(26);
   report.report("slope that overturns the block on its elastic joint", "deg", elastic,
-                "26.565 for a rigid block; the points stand on either side of the elastic border");
+                "26.565 for a rigid block; the points are on either side of the elastic border");
   const Borders& loaded = borders_on_joint();
-  report.report("slope at which the block turns by 0.02 rad within the scene", "deg", loaded.overturns,
-                "Newton's laws of a block on an elastic joint; whole faces stand on either side");
+  report.report(
+      "slope at which the block turns by 0.02 rad within the scene", "deg", loaded.overturns,
+      "Newton's laws of a block on an elastic joint; the points on integrated face contacts are on either side");
   report.report("friction angle at which the block turns by 0.02 rad within the scene as it slides", "deg",
                 loaded.sliding, "the same");
   report.report("friction angle that holds the foot of a toppling block", "deg", loaded.both, "the same");
@@ -250,8 +251,8 @@ TEST(TopplingMap, IsNotThatOfStatics) {
   EXPECT_GE(apart, 3) << "the points distinguish the two maps";
 }
 
-// A stage of kind run at its defaults: nothing holds the column up but its inertia. As a fraction of the time of a
-// rigid block about its corner, by how much it falls sooner; within `allowed`.
+// A stage of kind run at its defaults: only inertia delays the fall of the column. As a fraction of the time of a rigid
+// block about its corner, by how much it falls sooner; within `allowed`.
 double judge_column(const std::string& which, const std::vector<std::string>& overrides, double allowed,
                     const std::string& because) {
   CaseReport report("toppling");
@@ -276,41 +277,42 @@ double judge_column(const std::string& which, const std::vector<std::string>& ov
 }
 
 TEST(TopplingColumn, FallsAsFastAsARigidBlock) {
-  const std::string because =
-      "the start leans by 1.6 deg only, which elastic joints and the weight that comes on at once change";
+  const std::string because = "the initial lean is only 1.6 deg, which elastic joints and the sudden weight change";
   judge_column("", {}, 0.1, because);
   const double sooner = judge_column(", whole faces", {whole_faces}, 0.1, because);
   judge_column(
       ", whole faces, ten times as stiff",
       {whole_faces, "joint_properties.rock.normal_stiffness=100e9", "joint_properties.rock.shear_stiffness=10e9"},
       std::pow(10, -1.0 / 3) * std::abs(sooner),
-      "by how much an elastic joint lets a block overturn sooner goes by the power -1/3 of its stiffness");
+      "the time by which a block overturns sooner on an elastic joint is proportional to the power -1/3 of its "
+      "stiffness");
 }
 
-// Goodman & Bray's slope: an angle at which it is known to stand, one at which it is known to fall, and a bracket
+// Goodman & Bray's slope: an angle at which it is known to be stable, one at which it is known to fail, and a bracket
 SceneRun judge_columns(const std::string& which, const std::vector<std::string>& overrides) {
   CaseReport report("toppling");
   const double expected = to_degrees(reference::stepped_columns_friction({}));
   report.reference("stepped columns, critical friction", expected, "deg");
   SceneRun done = run("columns.toml", overrides);
   const double bar = *done.results.find("critical_friction")->error_bar;
-  report.record({"critical friction of columns on steps" + which,
-                 "deg",
-                 Kind::limit,
-                 "Goodman & Bray (1976): limit equilibrium",
-                 expected,
-                 {bar + 0.1, 0},
-                 "half the bracket, and what 0.14 m of way and elastic corners are worth: 0.05 at a bracket of 0.08"},
-                value(done, "critical_friction"), cost(done));
+  report.record(
+      {"critical friction of columns on steps" + which,
+       "deg",
+       Kind::limit,
+       "Goodman & Bray (1976): limit equilibrium",
+       expected,
+       {bar + 0.1, 0},
+       "half the bracket, and the effect of 0.14 m of displacement and of elastic corners: 0.05 at a bracket of 0.08"},
+      value(done, "critical_friction"), cost(done));
   EXPECT_LE(bar, 0.3);
   return done;
 }
 
-TEST(SteppedColumns, ColumnsOnASteppedBaseFallWhereLimitEquilibriumSays) {
+TEST(SteppedColumns, ColumnsOnASteppedBaseFallAtTheAngleOfLimitEquilibrium) {
   judge_columns("", {"stage.critical.from_deg=40", "stage.critical.to_deg=36", "stage.critical.tolerance_deg=0.51"});
 }
 
-// the scene as it stands
+// the scene as committed
 TEST(SteppedColumnsLong, ColumnsOnASteppedBaseFallByTheWholeSearch) {
   judge_columns(", whole search", {});
   judge_columns(", whole search on whole faces", {whole_faces});

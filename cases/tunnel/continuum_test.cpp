@@ -1,5 +1,5 @@
-// One isotropic jointed mass: what bolts carry together and a ring, against a continuum with smeared bolts and an even
-// ring, both held at 7 a.
+// One isotropic jointed mass: total forces of bolts and of a ring, against a continuum with smeared bolts and a uniform
+// ring, both fixed at 7 a.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -87,7 +87,7 @@ TEST(Continuum, BoltsOfOneIsotropicMass) {
                  {0.01, 0},
                  as_single_forces},
                 total / sum(both.linear.bolts), cost(run.run));
-  const SupportedRun late = run_supported("isotropic_bolts.toml", {"stage.dig.let_off.share=0.85"});
+  const SupportedRun late = run_supported("isotropic_bolts.toml", {"stage.dig.excavation_forces.remaining=0.85"});
   report.record({"sum of bolt forces where 0.3 is let off before, of all",
                  "1",
                  Kind::exact,

@@ -13,7 +13,7 @@ namespace {
 
 const std::array<std::string, 4> places{"roof", "left_wall", "right_wall", "floor"};
 
-// the first word of what moved in a roof for which the table has this letter
+// the first word of the mechanism of a roof for which the table has this letter
 std::string kind_word(char first) {
   return first == 'W' ? "wedge" : first == 'm' ? "fall" : "slide";
 }
@@ -22,7 +22,7 @@ bool holds(const std::string& letters, char letter) {
   return letters.find(letter) != std::string::npos;
 }
 
-// one draw held against what the table says of an opening
+// one draw compared with the table's entry of an opening
 void add(DrawsAgree& sum, const DrawRow& row, const OpeningRow& said, double weight) {
   sum.draws += weight;
   sum.roof += weight * (row.words[0] != "-");
@@ -52,7 +52,7 @@ std::string roofs(const std::vector<DrawRow>& rows, int number) {
   return counted(all);
 }
 
-// of both; walls that lose little are left out
+// of both; walls that lose little are omitted
 std::string walls(const std::vector<DrawRow>& rows, int number) {
   std::vector<std::string> all;
   for (const DrawRow& row : rows)

@@ -1,4 +1,4 @@
-// Several draws of the 24 openings: a row each, kept as they are done, and how often they agree with the thesis.
+// Several draws of the 24 openings: a row each, kept when completed, and how often they agree with the thesis.
 #pragma once
 
 #include <array>
@@ -13,8 +13,8 @@ struct DrawRow {
   int number = 0, draw = 0;  // of the opening; seed of its three sets
   std::array<std::string, 4> words;
   std::array<double, 4> area{};               // m2 lost, by place
-  std::string roof_kind;                      // letters of the table that say what the roof does
-  std::string second_place, second_kind;      // and what happens besides: where, and how
+  std::string roof_kind;                      // letters of the table for the mechanism of the roof
+  std::string second_place, second_kind;      // and for the second mechanism: place and kind
   double above_springline = 0, farthest = 0;  // m2 lost there; m
   long long evaluations = 0;
   std::string inputs;  // fingerprint of scene and program
@@ -26,7 +26,7 @@ DrawRow draw_row(const Opening& opening, int draw, const std::string& inputs);
 std::string draws_csv(const std::vector<DrawRow>& rows);
 std::vector<DrawRow> read_draws(const std::string& csv);
 
-// How many of the draws of an opening agree with table 5.1, or how many are to be expected to (see `by_chance`).
+// How many of the draws of an opening agree with table 5.1, or the expected number (see `by_chance`).
 struct DrawsAgree {
   double draws = 0;
   double roof = 0, roof_kind = 0, roof_sets = 0;  // fails; by the same kind; of the same sets
@@ -34,8 +34,8 @@ struct DrawsAgree {
 };
 DrawsAgree draws_agree(const std::vector<DrawRow>& rows, int number);
 
-// What all draws would agree to in the mean were the mechanisms of the table dealt out to the openings at random: each
-// draw is held against those of the 23 others.
+// Mean agreement of all draws if the mechanisms of the table were assigned to the openings at random: each draw is
+// compared with those of the 23 others.
 DrawsAgree by_chance(const std::vector<DrawRow>& rows);
 
 // one line for each opening that has a row, and their sums, in Markdown

@@ -13,7 +13,7 @@ using reference::Kind;
 using reference::Mechanism;
 using reference::Place;
 
-// opening 1: 60E 40E 80W; wedge of 40E and 80W, nothing besides
+// opening 1: 60E 40E 80W; wedge of 40E and 80W, no second mechanism
 Opening made(Mechanism roof, Mechanism right = {Place::right_wall}) {
   Opening opening{opening_rows()[0], {}, {}};
   for (const int dip : opening.row.dips)
@@ -47,7 +47,7 @@ TEST(Draws, ReadBackAsWritten) {
   EXPECT_THROW(read_draws(unknown), FileFault);
 }
 
-TEST(Draws, AgreementIsCountedAndHeldAgainstChance) {
+TEST(Draws, AgreementIsCountedAndComparedWithChance) {
   const std::vector<DrawRow> rows{draw_row(as_published, 0, ""), draw_row(otherwise, 1, ""), draw_row(holds, 2, "")};
   const DrawsAgree found = draws_agree(rows, 1);
   EXPECT_EQ(found.draws, 3);
@@ -57,7 +57,7 @@ TEST(Draws, AgreementIsCountedAndHeldAgainstChance) {
   EXPECT_EQ(found.second_place, 2);
   EXPECT_EQ(found.second_kind, 2);
   EXPECT_EQ(draws_agree(rows, 2).draws, 0);
-  // of the 23 others 8 have the wedge of the widest pair, 5 nothing besides
+  // of the 23 others 8 have the wedge of the widest pair, 5 no second mechanism
   const DrawsAgree chance = by_chance({rows[0]});
   EXPECT_NEAR(chance.draws, 1, 1e-12);
   EXPECT_NEAR(chance.roof_sets, 8.0 / 23, 1e-12);

@@ -16,7 +16,7 @@ using verification::Kind;
 
 const Overrides coarse{"slicing.smallest_inscribed_radius=0.5"};
 const std::string thesis = "Boon (2013), table 5.3, Eqs 5.12 and 5.13",
-                  network = "independent network of blocks so made, reference/tunnel";
+                  network = "independent network of the same kind of blocks, reference/tunnel";
 const std::string of_draws =
     "seven draws of 0.25 m differ by a standard deviation of 5 %, by how long their longest blocks are (NOTES.md)";
 
@@ -48,7 +48,7 @@ TEST(Oedometer, TheRockMassIsAsStiffAsPublished) {
                  thesis + ": 0.529 over 0.527",
                  1,
                  {0.01, 0},
-                 "few joints slip; the thesis finds 0.4 %, and half a per cent is its rounding"},
+                 "few joints slip; the thesis finds 0.4 %, and its rounding is half a per cent"},
                 rough.shear / found.shear, rough.cost);
 }
 

@@ -23,7 +23,7 @@ using reference::Place;
 
 constexpr double inscribed_radius = 5;  // m, of the opening, as the scene states it
 
-// the rock just before it is dug, and as it moves
+// the rock just before the excavation, and during its motion
 struct Dug {
   std::optional<Model<2>> before_model, after_model;
   std::optional<State<2>> before, after;
@@ -54,7 +54,7 @@ std::vector<BlockMotion> motions(const Dug& dug) {
     BlockMotion block{at[0], at[1], volume(body)};
     if (body.present && !body.fixed) {
       const Motion<2>& now = dug.after->bodies.motions[b];
-      // a piece that the opening parted from its block has settled with it by some millimetres: that is left out
+      // a piece that the opening cut from its block has settled with it by some millimetres, which are not counted
       const Motion<2> then = b < dug.before->bodies.motions.size() ? dug.before->bodies.motions[b] : Motion<2>{};
       block.dx = now.displacement[0] - then.displacement[0];
       block.dy = now.displacement[1] - then.displacement[1];
@@ -70,7 +70,7 @@ int set_of(const std::string& joint) {
   return joint.size() > 2 && joint[1] == '-' && joint[0] >= 'A' && joint[0] <= 'C' ? joint[0] - 'A' : -1;
 }
 
-// the joints that touch before the opening is dug, but for those inside it
+// the joints in contact before the excavation, except those inside the opening
 std::vector<JointStretch> stretches(const Dug& dug) {
   const Model<2>& model = *dug.before_model;
   std::vector<JointStretch> joints;
@@ -87,7 +87,7 @@ std::vector<JointStretch> stretches(const Dug& dug) {
   return joints;
 }
 
-// what of a polygon lies in the picture, m from the centre: gnuplot fills badly what leaves it
+// the part of a polygon within the picture, m from the centre: gnuplot fills polygons that leave it badly
 std::vector<Vector<2>> in_picture(std::vector<Vector<2>> ring) {
   const HalfSpaces<2> sides{{{1, 0}, 14}, {{-1, 0}, 14}, {{0, 1}, 15}, {{0, -1}, 11}};
   for (const HalfSpace<2>& side : sides) {
@@ -104,7 +104,7 @@ std::vector<Vector<2>> in_picture(std::vector<Vector<2>> ring) {
 }
 
 void draw(const Dug& dug, const std::vector<BlockMotion>& blocks, const std::string& file) {
-  const reference::MechanismRule rule;  // what it counts as lost
+  const reference::MechanismRule rule;  // lost by the criterion
   const Model<2>& model = *dug.after_model;
   std::array<std::ofstream, 2> out;
   for (std::size_t k = 0; k < out.size(); ++k) {

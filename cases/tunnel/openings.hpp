@@ -33,10 +33,10 @@ struct Opening {
   double lost_area() const;  // m2
 };
 
-// The scene of a row in `seed`'s draw of its joints, watched for `seconds` after it is dug.
+// The scene of a row in `seed`'s draw of its joints, followed for `seconds` after the excavation.
 LoadedScene opening_scene(const OpeningRow& row, int seed, double seconds, const std::vector<std::string>& more = {});
 
-// Digs it. Where `file` is not empty its blocks are left for a figure, in <file>_left.csv and <file>_lost.csv.
+// Excavates it. If `file` is not empty its blocks are written for a figure, in <file>_left.csv and <file>_lost.csv.
 Opening dig(const OpeningRow& row, const LoadedScene& scene, const std::string& file = "");
 Opening dig(const OpeningRow& row, int seed, double seconds, const std::string& file = "",
             const std::vector<std::string>& more = {});
@@ -44,18 +44,19 @@ Opening dig(const OpeningRow& row, int seed, double seconds, const std::string& 
 // "wedge 85E/65W", "slide 25W", ...
 std::string words(const Opening& opening, reference::Place place);
 
-// what table 5.1 has, in the same words: in the roof; besides
+// the entry of table 5.1, in the same words: in the roof; second mechanism
 std::string published(const OpeningRow& row);
 
 inline constexpr double minor_area = 1;  // m2: a wall that loses less has no mechanism of its own
 
-// Whether what was found is what the thesis has: in the roof, and besides. By place, and by kind of what moved there.
+// Whether the result agrees with the thesis: in the roof, and in the second mechanism. By place, and by kind of
+// mechanism.
 struct Agreement {
   bool roof_kind = false, second_place = false, second_kind = false;
 };
 Agreement agreement(const Opening& opening);
 
-// all letters of the table, and whether what was found is what two of them say
+// all letters of the table, and whether the result agrees with two of them
 inline constexpr const char *first_letters = "WSTm", *second_letters = "-s2wrtb";
 Agreement agreement(const Opening& opening, char first, char second);
 

@@ -1,6 +1,6 @@
-// tunnel_openings_study: several draws of the 24 openings of Boon (2013), table 5.1, each dug in a process of its own,
-// as many at a time as asked for. A row that is done is kept; one that other blocks or another program made is done
-// again.
+// tunnel_openings_study: several draws of the 24 openings of Boon (2013), table 5.1, each excavated in a process of its
+// own, as many at a time as requested. Completed rows are kept; a row of other blocks or of another program is
+// repeated.
 //
 //   tunnel_openings_study FOLDER [--draws 5] [--jobs 2]    FOLDER/openings_draws.csv, openings_draws.md
 #include <fmt/format.h>
@@ -26,13 +26,13 @@ using namespace voussoir;
 using namespace voussoir::cases;
 
 constexpr std::uintmax_t largest_row = 1 << 20;              // bytes
-constexpr std::chrono::milliseconds time_between_looks{50};  // short beside a row's seconds
+constexpr std::chrono::milliseconds time_between_looks{50};  // short compared with a row's seconds
 
 struct Asked {
   fs::path folder;
   int draws = 5, jobs = 1;
   double seconds = 0.5;      // of motion
-  int number = 0, draw = 0;  // of the one row that a child does; 0: all
+  int number = 0, draw = 0;  // of the one row of a child process; 0: all
 };
 
 fs::path file_of(const Asked& asked, int number, int draw) {
@@ -52,11 +52,11 @@ void do_row(const Asked& asked) {
   const fs::path file = file_of(asked, asked.number, asked.draw);
   const std::optional<DrawRow> kept = kept_row(file);
   if (kept && kept->inputs == inputs) return;
-  remove_file(file);  // no older row may pass for one of these inputs
+  remove_file(file);  // no older row may count as one of these inputs
   write_file(file, draws_csv({draw_row(dig(row, scene), asked.draw, inputs)}));
 }
 
-// what is done so far
+// rows completed so far
 void write_tables(const Asked& asked) {
   std::vector<DrawRow> rows;
   for (const OpeningRow& row : opening_rows())
@@ -84,7 +84,7 @@ bool look_after(const Asked& asked, const Child& child, int& failed) {
   return true;
 }
 
-// draw by draw, so that what is done when time runs out is about the same for all openings; returns how many failed
+// draw by draw, so that all openings have about the same number of draws when time runs out; returns how many failed
 int do_all(const Asked& asked) {
   std::vector<Child> active;
   int failed = 0;
@@ -112,11 +112,11 @@ int do_all(const Asked& asked) {
 int main(int argc, char** argv) {
   CLI::App app{"Several draws of the 24 openings of Boon (2013), table 5.1."};
   Asked asked;
-  app.add_option("folder", asked.folder, "where rows and tables go")->required();
+  app.add_option("folder", asked.folder, "folder of rows and tables")->required();
   app.add_option("--draws", asked.draws, "of each opening")->check(CLI::Range(1, 1000));
   app.add_option("--jobs", asked.jobs, "openings at the same time")->check(CLI::Range(1, 1000));
-  app.add_option("--seconds", asked.seconds, "of motion after the opening is dug")->check(CLI::PositiveNumber);
-  app.add_option("--row", asked.number, "this opening alone")->check(CLI::Range(1, 24));
+  app.add_option("--seconds", asked.seconds, "of motion after the excavation")->check(CLI::PositiveNumber);
+  app.add_option("--row", asked.number, "only this opening")->check(CLI::Range(1, 24));
   app.add_option("--draw", asked.draw, "of it")->check(CLI::NonNegativeNumber);
   CLI11_PARSE(app, argc, argv);
   try {

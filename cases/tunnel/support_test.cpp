@@ -1,4 +1,4 @@
-// Bolts and lining of an opening in jointed rock beside Boon (2013), section 5.4.
+// Bolts and lining of an opening in jointed rock, compared with Boon (2013), section 5.4.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -83,7 +83,7 @@ void write_bolts(const std::string& file, const SceneRun& run) {
   write_csv("tunnel", file, {"angle_deg", "force"}, {found.angles, found.forces});
 }
 
-// what section 5.4.5 calls the mean of the normalised maximum bolt forces
+// the mean of the normalised maximum bolt forces of section 5.4.5
 double mean_over_bolts(const SceneRun& run) {
   const std::vector<double> forces = largest_forces(run).forces;
   return std::accumulate(forces.begin(), forces.end(), 0.0) / static_cast<double>(forces.size());
@@ -122,7 +122,7 @@ void write_walls(const std::string& file, const std::vector<std::string>& names,
 // of three draws of 21 bolts, merged: their standard deviation, and that of their mean
 constexpr double published_mean = 0.030, published_deviation = 0.009, published_bolts = 63;
 
-TEST(Support, BoltsCarryWhatIsPublished) {
+TEST(Support, BoltsCarryThePublishedForces) {
   const std::string ratio =
       "mean over bolts of the largest force of each, sudden removal (published) over let off in steps to rest";
   CaseReport report("tunnel", {ratio});
@@ -135,8 +135,8 @@ TEST(Support, BoltsCarryWhatIsPublished) {
                  thesis + ".5",
                  1.5,
                  {0.5 + bar, 0},
-                 "a spring loaded at once is stretched once to twice as far as one loaded slowly; two standard "
-                 "deviations of the published mean"},
+                 "the extension of a suddenly loaded spring is one to two times that of one loaded slowly; two "
+                 "standard deviations of the published mean"},
                 published_mean / mean, cost(found));
   report.report("mean over bolts of the largest force of each, over p0 D, 7 m at 11.25°, let off in steps to rest", "1",
                 mean, "sudden removal: 0.030, three draws (section 5.4.5)");
@@ -144,10 +144,10 @@ TEST(Support, BoltsCarryWhatIsPublished) {
                 "of all 21 bolts: not the mean that is published");
   write_bolts("support_bolts.csv", found);
   report.report("convergence, mean, 7 m bolts at 11.25°", "m", mean_convergence(found),
-                "beside figure 5.15, which is not printed as numbers");
+                "compare figure 5.15, which has no printed numbers");
 }
 
-TEST(Support, AnchorsHardlyMatterAndBoltsMeetWhatIsLeft) {
+TEST(Support, AnchorsHardlyMatterAndBoltsMeetTheRemainingConvergence) {
   CaseReport report("tunnel");
   const SceneRun offset = run("bolts.toml", large_blocks);
   const SceneRun midway = run("bolts.toml", with(large_blocks, {R"(bolts.bolts.anchors="midway")"}));
@@ -167,24 +167,24 @@ TEST(Support, AnchorsHardlyMatterAndBoltsMeetWhatIsLeft) {
                  {0, 0.04},
                  "the largest difference that the thesis found along the wall"},
                 mean_convergence(midway) / mean_convergence(offset), cost(midway));
-  const SceneRun late = run("bolts.toml", with(large_blocks, {"stage.dig.let_off.share=0.4"}));
+  const SceneRun late = run("bolts.toml", with(large_blocks, {"stage.dig.excavation_forces.remaining=0.4"}));
   report.record({"mean bolt force put in after 60 % is let off, over that wished in place, blocks of 0.5 m",
                  "1",
                  Kind::limit,
                  "comparison: bolts meet the convergence that is left",
                  1,
                  {0, 0, Bound::at_most},
-                 "0.4 in elastic rock; slip, which grows with what is let off, makes it more"},
+                 "0.4 in elastic rock; slip, which grows with the released share, increases it"},
                 value(late, "bolts_mean_force") / value(offset, "bolts_mean_force"), cost(late));
 }
 
-TEST(Support, LiningStopsTheWall) {
+TEST(Support, LiningReducesTheConvergence) {
   CaseReport report("tunnel");
   double thrust = 0;
   for (const double stiffness : {1e8, 1e9}) {
     const SceneRun lined = run("lining.toml", with(large_blocks, interface(stiffness)));
     report.report(fmt::format("mean hoop force, K_L {:.0e} Pa/m, blocks of 0.5 m", stiffness), "N", mean_thrust(lined),
-                  "beside figure 5.45", cost(lined));
+                  "compare figure 5.45", cost(lined));
     if (thrust > 0)
       report.record({"mean hoop force, K_L 1 over 0.1 GPa/m, blocks of 0.5 m",
                      "1",
@@ -218,7 +218,7 @@ TEST(Support, LiningStopsTheWall) {
 }
 
 // Eq. 5.14 with the shear moduli between which the thesis found its hoop forces.
-TEST(Support, LiningCarriesWhatIsPublished) {
+TEST(Support, LiningCarriesThePublishedForces) {
   CaseReport report("tunnel", {"mean hoop force, 0.3 m, K_L 1 GPa/m, against the softest rock"});
   const SceneRun lined = run("lining.toml");
   const auto rock = reference::network::spaced_joints_moduli(0.77, 5e9, 0.5e9, 0.2);  // m, Pa/m, 1: table 5.3
@@ -242,7 +242,7 @@ TEST(Support, LiningCarriesWhatIsPublished) {
   write_lining("support_lining.csv", lined);
 }
 
-// The thesis' way, three draws: the largest force within 0.15 s, and where Newton's method leaves it.
+// The thesis' method, three draws: the largest force within 0.15 s, and the force of Newton's method.
 TEST(SupportLong, SuddenRemoval) {
   CaseReport report("tunnel", {"largest bolt force, let off in steps over sudden removal, blocks of 0.5 m"});
   constexpr int draws = 3;
@@ -267,7 +267,7 @@ TEST(SupportLong, SuddenRemoval) {
   report.record({"largest bolt force, let off in steps over sudden removal, blocks of 0.5 m",
                  "1",
                  Kind::limit,
-                 "comparison: a spring loaded at once is stretched further",
+                 "comparison: a suddenly loaded spring extends further",
                  1,
                  {0, 0, Bound::at_most},
                  "the sign of a trend"},
@@ -278,7 +278,7 @@ TEST(SupportLong, SuddenRemoval) {
 TEST(SupportLong, Trends) {
   CaseReport report("tunnel");
   const auto follow = [&](const std::string& what, const SceneRun& found) {
-    report.report("mean convergence, " + what, "m", mean_convergence(found), "beside section 5.4.8", cost(found));
+    report.report("mean convergence, " + what, "m", mean_convergence(found), "compare section 5.4.8", cost(found));
     return found;
   };
   const SceneRun both = follow("10 cm", run("both.toml", large_blocks));

@@ -36,9 +36,9 @@ Difference difference(const std::vector<double>& computed, const std::vector<dou
 const char* const network = "linear network of the same blocks (reference/tunnel/network.hpp)";
 
 const char* const why =
-    "of a hundred joints two to three do not press when the rest is bonded, and have no bond: the network holds them "
-    "whole; what such a joint 7 m and more from the centre does to the opening falls with the square of the distance "
-    "over a block's size, 1/50; displacements over block sizes are 1e-4";
+    "of a hundred joints two to three are not in compression when the others are bonded, and have no bond: in the "
+    "network they are intact; the effect of such a joint 7 m and more from the centre on the opening falls with the "
+    "square of the distance over a block's size, 1/50; displacements over block sizes are 1e-4";
 
 void compare(CaseReport& report, const std::string& what, const std::vector<double>& program,
              const std::vector<double>& linear, verification::Cost cost) {
@@ -51,7 +51,8 @@ void compare(CaseReport& report, const std::string& what, const std::vector<doub
       apart.largest, cost);
 }
 
-// `which` mass, to tell several in one table; empty: the only one, small enough for its bolts to cross the same joints.
+// `which` mass, to distinguish several in one table; empty: the only one, small enough for its bolts to cross the same
+// joints.
 void compare(CaseReport& report, const std::string& which, const SupportedRun& run, const Twins& both) {
   const verification::Cost cost = cases::cost(run.run);
   std::vector<double> program, linear;
@@ -61,19 +62,23 @@ void compare(CaseReport& report, const std::string& which, const SupportedRun& r
     linear.push_back(both.linear.bolts[both.twin_of_spring[i]]);
   }
   const BondCount& bonds = run.run.results.bonds.value();
-  report.record(
-      {"bonds that break" + which, "1", Kind::exact, "equilibrium: bonds hold what is let off", 0, {0, 0}, "a count"},
-      static_cast<double>(bonds.broken), cost);
+  report.record({"bonds that break" + which,
+                 "1",
+                 Kind::exact,
+                 "equilibrium: bonds hold the released forces",
+                 0,
+                 {0, 0},
+                 "a count"},
+                static_cast<double>(bonds.broken), cost);
   const auto unmatched = static_cast<double>(both.program.bolts.size() + both.linear.bolts.size() - 2 * program.size());
   const std::string springs = "springs of bolts that the network has not, or the program" + which;
   if (which.empty())
     report.record({springs, "1", Kind::exact, network, 0, {0, 0}, "a count"}, unmatched, cost);
   else
-    report.report(
-        springs, "1", unmatched,
-        "of some 370: blocks stand some 5 mm from where they were cut, so near to a face's end a bolt crosses "
-        "another joint",
-        cost);
+    report.report(springs, "1", unmatched,
+                  "of some 370: blocks are some 5 mm from their initial positions, so near to a face's end a bolt "
+                  "crosses another joint",
+                  cost);
   report.record({"mean convergence that supports meet" + which,
                  "m",
                  Kind::exact,
@@ -101,11 +106,11 @@ TEST(Supported, TheSameBlocksAsTheNetwork) {
   compare(report, "", run, twins(run, 2));
 }
 
-// Half of what was to come is let off before the supports go in: they get half.
-TEST(Supported, WhatIsLetOffBeforeIsNotTheirs) {
+// Half of the forces is released before the supports are installed: they get half.
+TEST(Supported, ForcesReleasedBeforeAreNotCarriedBySupports) {
   CaseReport report("tunnel");
   const Increment all = twins(run_supported("same_blocks.toml"), 2).program;
-  const SupportedRun run = run_supported("same_blocks.toml", {"stage.dig.let_off.share=0.885"});
+  const SupportedRun run = run_supported("same_blocks.toml", {"stage.dig.excavation_forces.remaining=0.885"});
   const Increment half = twins(run, 2).program;
   const auto check = [&](const char* what, double computed) {
     report.record({fmt::format("{} where half is let off before, of all", what),
@@ -124,7 +129,7 @@ TEST(Supported, WhatIsLetOffBeforeIsNotTheirs) {
 
 // ---- the chapter's mass, bonded -------------------------------------------------------------------------------------
 
-// of a draw's mass whose joints stay closed: means of vertical and horizontal oedometer tests
+// of a draw's mass with closed joints: means of vertical and horizontal oedometer tests
 Moduli moduli_of(int seed) {
   const Overrides rough = draw(seed, {"joint_properties.rock.friction_deg=89"});
   const Moduli down = pressed_down(rough), across = pressed_across(rough);
@@ -132,9 +137,9 @@ Moduli moduli_of(int seed) {
 }
 
 // of bonded.toml
-constexpr double let_off = 0.05 * 662175, bolt_length = 7, bolt_stiffness = 2e8;
+constexpr double relieved = 0.05 * 662175, bolt_length = 7, bolt_stiffness = 2e8;
 constexpr int bolt_count = 32;
-// of circles of the area of the twelve sides, and of the square that is held
+// of circles of the area of the twelve sides, and of the square that is fixed
 const double wall_radius = 5 * std::sqrt(12 * std::tan(std::numbers::pi / 12) / std::numbers::pi),
              held_radius = 70 / std::sqrt(std::numbers::pi);
 
@@ -142,7 +147,7 @@ const double wall_radius = 5 * std::sqrt(12 * std::tan(std::numbers::pi / 12) / 
 double bolts_of_smeared(const Increment& program, const Moduli& rock) {
   const double crossings = static_cast<double>(program.bolts.size()) / (bolt_count * bolt_length);
   reference::BoltedRing ring{wall_radius,
-                             let_off,
+                             relieved,
                              rock.shear,
                              rock.poisson,
                              bolt_stiffness,
@@ -158,7 +163,7 @@ double bolts_of_smeared(const Increment& program, const Moduli& rock) {
 }
 
 double thrust_of_smeared(const SupportedRun& run, const Moduli& rock) {
-  reference::SoftLining lining{wall_radius, let_off, rock.shear, 25e9, 0.3, 1e8, 0};
+  reference::SoftLining lining{wall_radius, relieved, rock.shear, 25e9, 0.3, 1e8, 0};
   lining.fixed_radius = held_radius;
   lining.ground_poisson_ratio = rock.poisson;
   double mean = 0;
@@ -167,7 +172,7 @@ double thrust_of_smeared(const SupportedRun& run, const Moduli& rock) {
   return mean / reference::lining_hoop_force(lining);
 }
 
-// Draws 3, which is the model, 0 and 1, chosen before any had been run.
+// Draws 3, which is the model, 0 and 1, chosen before any run.
 TEST(SupportedLong, TheChaptersMassBonded) {
   CaseReport report("tunnel", {"sum of bolt forces in the chapter's bonded mass, of the smeared ring's"});
   double bolts = 0, thrust = 0;
@@ -188,8 +193,8 @@ TEST(SupportedLong, TheChaptersMassBonded) {
     thrust += of_ring / 3;
   }
   const char* const within =
-      "blocks of 0.6 m on a wall of 5 m, in a mass that is a fifth stiffer across than down: the network's isotropic "
-      "masses keep within 15 % at s/a 0.2";
+      "blocks of 0.6 m on a wall of 5 m, in a mass that is a fifth stiffer horizontally than vertically: the network's "
+      "isotropic masses keep within 15 % at s/a 0.2";
   report.record({"sum of bolt forces in the chapter's bonded mass, of the smeared ring's",
                  "1",
                  Kind::limit,
@@ -208,7 +213,7 @@ TEST(SupportedLong, TheChaptersMassBonded) {
                 thrust, cost);
 }
 
-// How often another draw of the small mass passes: a joint of the wall that does not press is not bonded.
+// How often another draw of the small mass passes: a joint of the wall that is not in compression is not bonded.
 TEST(SupportedLong, OtherDrawsOfTheSameBlocks) {
   CaseReport report("tunnel");
   for (int seed = 1; seed <= 8; ++seed) {

@@ -1,4 +1,4 @@
-# how far the wall comes in with bolts of 4 m at 15 degrees, and with 10 cm of lining besides
+# convergence of the wall with bolts of 4 m at 15 degrees, and with 10 cm of lining in addition
 set xlabel 'angle from the springline to the right (°)'
 set ylabel 'convergence (mm)'
 set xrange [-90:270]

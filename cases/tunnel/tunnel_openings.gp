@@ -1,4 +1,4 @@
-# openings 12 and 11 of table 5.1, four tenths of a second after they are dug
+# openings 12 and 11 of table 5.1, four tenths of a second after the excavation
 set terminal svg size 1000,520 @page
 @picture
 unset key

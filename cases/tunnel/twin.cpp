@@ -12,14 +12,14 @@ namespace {
 
 using namespace voussoir::reference::network;
 
-// Blocks as they are cut have their common edges in one line, but for rounding.
+// Common edges of blocks as cut are on one line, except for rounding.
 constexpr double same_line = 1e-7;  // m
 
 Point point(const Vector<2>& v) {
   return {v[0], v[1]};
 }
 
-// the blocks of bodies that are there and are rock; `number` of each body, -1: none
+// the blocks of bodies that exist and are rock; `number` of each body, -1: none
 std::vector<Block> blocks_of(const Model<2>& model, std::vector<int>& number) {
   std::vector<Block> blocks;
   number.assign(model.bodies.size(), -1);
@@ -45,8 +45,8 @@ Freedoms motion_between(const Motion<2>& from, const Motion<2>& to) {
   return {way[0], way[1], to.rotation.angle - from.rotation.angle};
 }
 
-// What a stage lets off is taken away: the load that held the block falls.
-void let_off_held(const StageEnd& before, const StageEnd& after, const std::vector<int>& number,
+// A stage removes the forces that it releases: the load that held the block falls.
+void relieve_held(const StageEnd& before, const StageEnd& after, const std::vector<int>& number,
                   std::vector<Block>& blocks) {
   for (std::size_t i = 0; i < after.state.loads.relief.size(); ++i) {
     const ReliefLoad<2>& held = after.state.loads.relief[i];
@@ -58,12 +58,12 @@ void let_off_held(const StageEnd& before, const StageEnd& after, const std::vect
   }
 }
 
-// the bolts of which the run has springs, and which springs are between the same two blocks
+// the bolts that have springs in the run, and the springs between the same two blocks
 void add_bolts(const StageEnd& after, const std::vector<Face>& joints, const std::vector<int>& number, Twins& both) {
   const Model<2>& model = after.model;
   auto& bolts = both.network.bolts;
   int last = -1;
-  std::size_t next = 0;  // of the network's along this bolt, not yet met
+  std::size_t next = 0;  // of the network's along this bolt, not yet matched
   for (const BoltSpring<2>& spring : after.state.supports.bolt_springs) {
     if (spring.bolt != last) {
       last = spring.bolt;
@@ -146,7 +146,7 @@ Twins twins(const SupportedRun& run, int cells) {
   Network& network = both.network;
   std::vector<int> number;
   network.blocks = blocks_of(model, number);
-  let_off_held(before, after, number, network.blocks);
+  relieve_held(before, after, number, network.blocks);
   const std::vector<Face> joints = faces(network.blocks, same_line);
   const JointProperties& joint = model.properties[model.joints.front().properties];
   network.springs = springs(joints, cells, joint.normal_stiffness, joint.shear_stiffness);
@@ -157,7 +157,7 @@ Twins twins(const SupportedRun& run, int cells) {
     add_lining(model, model.linings[lined.lining], around, network);
 
   const Solution solution = solve(network);
-  Solution moved = solution;  // of the program: what its blocks do
+  Solution moved = solution;  // of the program: motion of its blocks
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
     if (number[b] >= 0)
       moved.blocks[number[b]] = motion_between(before.state.bodies.motions[b], after.state.bodies.motions[b]);

@@ -19,16 +19,16 @@ struct SupportedRun {
   SceneRun run;
   std::vector<StageEnd> ends;  // by stage
 
-  const StageEnd& before() const { return ends[ends.size() - 2]; }  // supports go in at the last stage
+  const StageEnd& before() const { return ends[ends.size() - 2]; }  // the last stage installs the supports
   const StageEnd& after() const { return ends.back(); }
 };
 
 // Runs <case>/<scene>, whose last stage installs the supports, with the end of each stage kept. Throws
-// std::runtime_error where a stage misses its goal.
+// std::runtime_error if a stage misses its goal.
 SupportedRun run_supported(const std::string& scene, const std::vector<std::string>& overrides = {});
 
-// What the last stage changed, by the program or by the network: increments from the state before. Of the network all
-// supports are linear, so that its forces are increments too.
+// Changes by the last stage, of the program or of the network: increments from the state before. All supports of the
+// network are linear, so its forces are increments too.
 struct Increment {
   std::vector<double> convergence;  // m, of the wall towards the centre, every degree
   std::vector<double> bolts;        // N, by bolt and joint from the collar
@@ -40,13 +40,13 @@ struct Increment {
 struct Twins {
   reference::network::Network network;
   Increment program, linear;
-  // By spring of a bolt of the program, the network's between the same two blocks; -1 where it has none: bolts are put
-  // through blocks as they stand in the one and as they were cut in the other.
+  // For each spring of a bolt of the program, the network's between the same two blocks; -1 if it has none: bolts cross
+  // the blocks in their current positions in the one and as cut in the other.
   std::vector<int> twin_of_spring;
 };
 
-// The network of the blocks of the run as they are cut, on the joints of `cells` points that lie between them, with the
-// run's bolts and lining, loaded by what the last stage let off of the forces by which excavated rock held the rest.
+// The network of the blocks of the run as cut, on joints of `cells` points between them, with the run's bolts and
+// lining, loaded by the share of the excavation forces that the last stage released.
 Twins twins(const SupportedRun& run, int cells);
 
 }  // namespace voussoir::cases

@@ -1,4 +1,4 @@
-// Openings without support: what falls, slides and topples, named by a rule, beside Boon (2013), table 5.1.
+// Openings without support: mechanisms of failure, named by a rule, compared with Boon (2013), table 5.1.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -34,7 +34,7 @@ void check_lower_friction(CaseReport& report, const Opening& lower, const Openin
                  "comparison: the same blocks: less friction holds no more",
                  1,
                  {0.05, 0, Bound::at_least},
-                 "a block of the mean size of 2.3 m2 of some fifty may be held by another way of falling"},
+                 "a block of the mean size of 2.3 m2 of some fifty may be held by another mechanism"},
                 lower.lost_area() / higher.lost_area(), cost(lower));
 }
 
@@ -74,7 +74,7 @@ TEST(UnsupportedLong, TwentyFourOpenings) {
   for (const OpeningRow& r : opening_rows()) {
     int seed = 0;
     openings.push_back(dig(r, seed, 0.5, fmt::format("opening_{}", r.number)));
-    // where nothing comes down in this draw, in another one of a few
+    // if no block falls in this draw, in another one of a few
     constexpr int most_draws = 3;
     while (openings.back().above_springline == 0 && ++seed < most_draws)
       openings.back() = dig(r, seed, 0.5, fmt::format("opening_{}", r.number));
@@ -117,7 +117,7 @@ TEST(UnsupportedLong, TwentyFourOpenings) {
     check_lower_friction(report, openings[lower - 1], openings[higher - 1]);
 }
 
-// What holding the rock beyond 20 m and long time steps are worth.
+// Effect of fixing the rock beyond 20 m and of long time steps.
 TEST(UnsupportedLong, HeldRockAndTimeSteps) {
   CaseReport report("tunnel");
   const auto dug = [](const std::vector<std::string>& more) { return dig(row(1), 0, 0.5, "", more); };

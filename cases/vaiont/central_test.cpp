@@ -1,5 +1,5 @@
 // The central analysis of chapter 6: bonds, a slide that softens, friction that falls by 0.025 degrees a second; by the
-// published way and by a shorter one, and what chapter 6.4 varies.
+// published path and by a shorter one, and the parameters that chapter 6.4 varies.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,26 +16,25 @@ using verification::Kind;
 
 const std::string thesis = "Boon (2013), chapter 6.4";
 
-// the short way begins some three degrees above what is looked for
+// the short path begins some three degrees above the result
 Overrides from(double degrees) {
   return {fmt::format("stage.bond.friction.slide.friction_deg={}", degrees),
           fmt::format("stage.critical.from_deg={}", degrees)};
 }
 
 void judge_published(CaseReport& report, const std::string& of, double published, const SceneRun& found) {
-  report.record(
-      {"critical friction, " + of,
-       "deg",
-       Kind::published,
-       thesis,
-       published,
-       {0.5, 0},
-       "as demanded: read from a curve, and half a degree is what 50 m of the slide's middle plane, which are "
-       "ours, are worth"},
-      value(found, "critical_friction"), cost(found));
+  report.record({"critical friction, " + of,
+                 "deg",
+                 Kind::published,
+                 thesis,
+                 published,
+                 {0.5, 0},
+                 "as demanded: read from a curve, and 50 m of the length of the slide's middle plane, which is our "
+                 "choice, are worth half a degree"},
+                value(found, "critical_friction"), cost(found));
 }
 
-// way of a block against the friction of the slide, as the published figures have it
+// displacement of a block against the friction of the slide, as in the published figures
 void draw_fall(const SceneRun& found) {
   constexpr int fall = 3;  // stage
   std::vector<std::vector<double>> columns{column(found, "friction_slide_deg", fall)};
@@ -50,8 +49,8 @@ void draw_fall(const SceneRun& found) {
   write_csv("vaiont", "fall.csv", {"friction_deg", "back_m", "front_m"}, columns);
 }
 
-// Bonds can only hold; with all of them whole and ductile, and no softening, limit analysis has 16.56 degrees.
-TEST(VaiontCentral, LiesBetweenNoBondAndAllBondsAt80Metres) {
+// Bonds can only add strength; with all of them intact and ductile, and no softening, limit analysis has 16.56 degrees.
+TEST(VaiontCentral, IsBetweenNoBondAndAllBondsAt80Metres) {
   CaseReport report("vaiont", {"critical friction, central analysis, 80 m, the short way"});
   const SceneRun found = run("central_fast.toml", spacing(80) + Overrides{"stage.settle.remove=[]"});
   draw_fall(found);
@@ -61,7 +60,7 @@ TEST(VaiontCentral, LiesBetweenNoBondAndAllBondsAt80Metres) {
                  "comparison: elastic-plastic blocks with softening, no bonds",
                  20.5,
                  {0.3, 0, Bound::at_most},
-                 "as without bonds, which only hold"},
+                 "as without bonds, which only add strength"},
                 value(found, "critical_friction"), cost(found));
   report.record({"critical friction, central analysis, 80 m, over that of whole bonds",
                  "deg",
@@ -69,11 +68,11 @@ TEST(VaiontCentral, LiesBetweenNoBondAndAllBondsAt80Metres) {
                  "rigid-block limit analysis, all bonds ductile",
                  16.56,
                  {0, 0, Bound::at_least},
-                 "bonds that break and a slide that softens hold less"},
+                 "bonds that break and a slide that softens have less strength"},
                 value(found, "critical_friction"));
 }
 
-TEST(VaiontCentralLong, TakesAThirdByTheShortWay) {
+TEST(VaiontCentralLong, TakesAThirdByTheShortPath) {
   CaseReport report("vaiont");
   const SceneRun slow = run("central.toml"), fast = run("central_fast.toml");
   report.report("critical friction, central analysis", "deg", value(slow, "critical_friction"),
@@ -84,7 +83,7 @@ TEST(VaiontCentralLong, TakesAThirdByTheShortWay) {
                  "comparison: central analysis as published",
                  value(slow, "critical_friction"),
                  {0.15, 0},
-                 "as demanded: bonds that break early on one way may not on the other"},
+                 "as demanded: bonds that break early on one path may not on the other"},
                 value(fast, "critical_friction"), cost(fast));
   report.record({"contact evaluations of the published way over those of the short one",
                  "1",
@@ -92,19 +91,19 @@ TEST(VaiontCentralLong, TakesAThirdByTheShortWay) {
                  "demanded: at most a third",
                  3,
                  {0, 0, Bound::at_least},
-                 "no room: evaluations are counted"},
+                 "no margin: evaluations are counted"},
                 static_cast<double>(slow.results.counters.contact_evaluations) /
                     static_cast<double>(fast.results.counters.contact_evaluations));
 }
 
-TEST(VaiontCentralLong, IsNearWhatWasPublishedDry) {
+TEST(VaiontCentralLong, IsNearThePublishedAngleDry) {
   CaseReport report("vaiont");
   judge_published(report, "central analysis, dry, the short way", 18.8,
                   run("central_fast.toml", water_above_the_seat(0) + from(22)));
 }
 
 // 6.4.4, after Sitar et al. (2005): dry, no bonds, no softening
-TEST(VaiontCentralLong, IsNearWhatWasPublishedForSitar) {
+TEST(VaiontCentralLong, IsNearThePublishedAngleForSitar) {
   CaseReport report("vaiont");
   Overrides sitar{"stage.bond.bond=false", "joint_properties.rock.cohesion=0", "joint_properties.rock.tension=0",
                   "joint_properties.slide.softening_drop=1e-9"};
@@ -116,7 +115,7 @@ TEST(VaiontCentralLong, IsNearWhatWasPublishedForSitar) {
                   run("central_fast.toml", water_above_the_seat(0) + from(20) + sitar));
 }
 
-// at rest after each fall of friction, 80 m, no bonds, water
+// in equilibrium after each step of friction, 80 m, no bonds, water
 double at_rest(const Overrides& overrides) {
   return value(run("softening.toml", water_above_the_seat(90) + overrides), "critical_friction");
 }
@@ -128,7 +127,7 @@ void judge_sign(CaseReport& report, const std::string& of, double published, dou
                  thesis + fmt::format(": {:+g} deg", published),
                  0,
                  {0, 0, Bound::at_least},
-                 "the sign alone"},
+                 "only the sign"},
                 std::copysign(1.0, published) * difference);
 }
 

@@ -1,5 +1,5 @@
-// Three blocks on the back (figures 6.13 to 6.15): below their friction angle they creep while their joints ring, and
-// stand where nothing rings.
+// Three blocks on the back (figures 6.13 to 6.15): below their friction angle they creep while their joints vibrate,
+// and are in equilibrium without vibration.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +15,7 @@ using verification::Kind;
 
 struct Creep {
   SceneRun run;
-  std::vector<double> time, way;  // s, mm: of the bottom block, from the moment on when nothing more is damped
+  std::vector<double> time, way;  // s, mm: of the bottom block, from the end of the damping on
 
   double last() const { return way.back(); }
 };
@@ -36,7 +36,7 @@ Creep creep(const std::string& scene, const std::vector<std::string>& overrides 
 
 TEST(VaiontColumn, CreepsWhileItRings) {
   CaseReport report("vaiont", {"way of the column from rest", "way of the column that rings"});
-  const std::string bound = "equilibrium: 37.49 deg are below 40 deg: what is at rest stays";
+  const std::string bound = "equilibrium: 37.49 deg are below 40 deg: a column in equilibrium stays";
   const Creep rough = creep("column.toml"), rest = creep("column_relaxed.toml"),
               damped = creep("column.toml", {"stage.free.damping.viscous_ratio=0.1"});
   report.record({"way of the column from rest", "mm", Kind::limit, bound, 0, {1e-6, 0}, "1e-9 of unbalanced force"},
@@ -47,15 +47,15 @@ TEST(VaiontColumn, CreepsWhileItRings) {
                  "Boon (2013), figure 6.14: sliding becomes obvious after 30 s",
                  10,
                  {0, 0, Bound::at_least},
-                 "the way itself is not legible"},
+                 "the displacement itself is not legible"},
                 rough.last(), cost(rough.run));
   report.record({"way of the column at 0.1 of critical damping",
                  "mm",
                  Kind::limit,
-                 "comparison: what rings dies away within some periods",
+                 "comparison: the vibration decays within some periods",
                  0.1 * rough.last(),
                  {0, 0, Bound::at_most},
-                 "a tenth of the undamped way: it ends after a second, of 60"},
+                 "a tenth of the undamped displacement: it ends after a second, of 60"},
                 damped.last(), cost(damped.run));
   report.record({"energy of the column unexplained",
                  "1",

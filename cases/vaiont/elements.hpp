@@ -1,4 +1,4 @@
-// What the tests of the section by distinct elements share: its settings for another spacing and another water.
+// Shared by the tests of the section by distinct elements: its settings for another spacing and another water level.
 #pragma once
 
 #include <fmt/format.h>
@@ -20,8 +20,8 @@ inline Overrides operator+(Overrides first, const Overrides& second) {
   return first;
 }
 
-// cross joints and beds every `metres`, the rock mass as stiff as at any other spacing (Boon 2013, Eqs 6.1 and 6.2,
-// table 6.4)
+// cross joints and beds every `metres`, with the stiffness of the rock mass independent of the spacing (Boon 2013,
+// Eqs 6.1 and 6.2, table 6.4)
 inline Overrides spacing(double metres) {
   Overrides settings;
   for (const char* set : {"cross", "beds above the back", "beds above the middle", "beds above the seat"})
@@ -35,7 +35,7 @@ inline Overrides water_above_the_seat(double metres) {
   return {fmt::format("water.reservoir.level={}", seat_m + metres)};
 }
 
-// deg: what rigid-block limit analysis finds for the same blocks
+// deg: by rigid-block limit analysis of the same blocks
 inline double by_limit_analysis(const std::string& scene, const Overrides& settings) {
   const LimitAnalysis found =
       analyse_limit(load_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / scene, settings), {{}, {"slide"}});

@@ -1,5 +1,5 @@
-// The section by distinct elements, without bonds: on a slide of constant friction it needs what limit analysis says,
-// on one that softens what elastic-plastic blocks that move little need.
+// The section by distinct elements, without bonds: its critical friction against limit analysis on a slide of constant
+// friction, and against elastic-plastic blocks with small displacements on one that softens.
 #include <gtest/gtest.h>
 
 #include "cases/vaiont/elements.hpp"
@@ -37,7 +37,7 @@ Expected limit_analysis(const Ground& ground) {
   return {"rigid-block limit analysis of the same blocks", by_limit_analysis("dem.toml", settings_of(ground))};
 }
 
-// for many blocks, of which limit analysis takes a minute, and finds no answer at 40 m under water (NOTES.md)
+// for many blocks, for which limit analysis takes a minute and has no result at 40 m under water (NOTES.md)
 Expected closed_form(const Ground& ground) {
   constexpr double vertical = 90 * degree, rock = 40 * degree;
   reference::SectionLoads loads;
@@ -59,11 +59,11 @@ void judge(CaseReport& report, const Ground& ground, const Expected& expected, c
                  expected.angle,
                  {0.2, 0},
                  "half the bracket is 0.06; joints that are not rigid let the blocks move by up to 1.4 m before the "
-                 "slide is lost, which turns the forces between them by some 0.1 deg"},
+                 "slide fails, which rotates the forces between them by some 0.1 deg"},
                 value(found, "critical_friction"), cost(found));
 }
 
-TEST(VaiontElements, NeedWhatLimitAnalysisSays) {
+TEST(VaiontElements, NeedTheFrictionOfLimitAnalysis) {
   CaseReport report("vaiont", {"critical friction, DEM, 80 m, dry, Newton"});
   report.reference("critical_friction", by_limit_analysis("dem.toml", {}), "deg");
   for (const double metres : {150, 80})
@@ -71,7 +71,7 @@ TEST(VaiontElements, NeedWhatLimitAnalysisSays) {
       judge(report, {metres, water}, limit_analysis({metres, water}), newton);
 }
 
-TEST(VaiontElementsLong, NeedWhatTheClosedFormSaysOfManyBlocks) {
+TEST(VaiontElementsLong, NeedTheFrictionOfTheClosedFormWithManyBlocks) {
   CaseReport report("vaiont");
   for (const double metres : {40, 20})
     for (const double water : {0, 90})
@@ -81,7 +81,7 @@ TEST(VaiontElementsLong, NeedWhatTheClosedFormSaysOfManyBlocks) {
 TEST(VaiontElementsLong, NeedTheSameByRelaxation) {
   CaseReport report("vaiont");
   const Ground dry{80, 0};
-  judge(report, dry, limit_analysis(dry), relaxation, {"damping.statics=adaptive"});
+  judge(report, dry, limit_analysis(dry), relaxation, {"statics=adaptive"});
 }
 
 // a slice in space, whose blocks could leave the plane
@@ -101,7 +101,7 @@ TEST(VaiontElements, NeedTheSameAsASliceInSpace) {
   }
 }
 
-// what the section's distinct elements at 80 m and limit analysis find, with blocks half as large
+// the results of the section's distinct elements at 80 m and of limit analysis, with blocks half as large
 TEST(VaiontElementsLong, NeedTheSameAsASliceOfSmallBlocksInSpace) {
   CaseReport report("vaiont");
   Overrides small{"joint_properties.rock.normal_stiffness=1.92e8", "joint_properties.rock.shear_stiffness=7.68e7"};
@@ -120,7 +120,7 @@ TEST(VaiontElementsLong, NeedTheSameAsASliceOfSmallBlocksInSpace) {
   }
 }
 
-// by other ways the same, within their error bars and 0.1 degrees
+// the same by other paths, within their error bars and 0.1 degrees
 void judge_way(CaseReport& report, const std::string& scene, const std::string& way) {
   const SceneRun found = run(scene);
   report.record({"critical friction, DEM, 80 m, dry, " + way,
@@ -143,9 +143,9 @@ TEST(VaiontElementsLong, NeedTheSameAtTwoRates) {
   judge_way(report, "dem_rates.toml", "two rates");
 }
 
-// Cross joints that dip into the slope: as the rock gets stiffer, what distinct elements need falls towards what limit
-// analysis says, for soft joints let the blocks go metres before the slide is lost.
-TEST(VaiontElements, NeedMoreOfSoftRockBehindLeaningJoints) {
+// Cross joints that dip into the slope: as the rock gets stiffer, the critical friction of distinct elements falls
+// towards that of limit analysis, since soft joints let the blocks move by metres before the slide fails.
+TEST(VaiontElements, NeedMoreInSoftRockBehindInclinedJoints) {
   CaseReport report("vaiont");
   const Overrides leaning{"joints.upper cross.dip=50", "joints.lower cross.dip=50", "joint_sets.cross.dip=50",
                           "stage.critical.failure_displacement=1"};
@@ -161,7 +161,7 @@ TEST(VaiontElements, NeedMoreOfSoftRockBehindLeaningJoints) {
                    "rigid-block limit analysis of the same blocks",
                    by_limit_analysis("dem.toml", leaning),
                    {0, 0, Bound::at_least},
-                   "dilation, which limit analysis implies, only holds"},
+                   "dilation, which limit analysis implies, only adds strength"},
                   angle, cost(found));
     EXPECT_LT(angle, softer) << "stiffer rock needs less";
     softer = angle;
@@ -181,7 +181,7 @@ TEST(VaiontElementsLong, WholeCornersHoldTheSlopeUp) {
   }
 }
 
-// the path to the answer must not matter
+// the path to the result must not matter
 struct Path {
   std::string scene, name;
   Overrides settings;
@@ -199,7 +199,7 @@ double judge_softening(CaseReport& report, double water, const Path& path) {
                  water > 0 ? 20.5 : 18.8,
                  {0.3, 0},
                  "half a bracket or step is 0.1, half the reference's step 0.05; the reference's blocks move little, "
-                 "these by a metre before the slide is lost"},
+                 "these by a metre before the slide fails"},
                 angle, cost(found));
   return angle;
 }
@@ -228,7 +228,7 @@ TEST(VaiontElementsLong, NeedTheSameByOtherRampsAndBrackets) {
     least = std::min(least, angle);
     most = std::max(most, angle);
   }
-  EXPECT_LE(most - least, 0.22) << "further apart than two brackets of 0.22 deg are";
+  EXPECT_LE(most - least, 0.22) << "farther apart than two brackets of 0.22 deg";
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// The section as it is lost and after (figures 6.26 to 6.29): which joints slip and open, what the contacts carry, how
-// far and how fast the slope goes across the gorge.
+// The section during and after its failure (figures 6.26 to 6.29): which joints slip and open, the contact forces, the
+// displacement and speed of the slope across the gorge.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ int properties(const Model<2>& model, const std::string& name) {
   throw std::out_of_range("no joint properties " + name);
 }
 
-// m: how far the free blocks have gone, mean by mass
+// m: displacement of the free blocks, mean by mass
 double mean_way(const Model<2>& model, const State<2>& state) {
   double sum = 0, mass = 0;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
@@ -37,7 +37,7 @@ double mean_way(const Model<2>& model, const State<2>& state) {
   return sum / mass;
 }
 
-// the rock joints that touch, by their parts: their lengths, m
+// the rock joints in contact, by their parts: their lengths, m
 std::map<std::pair<int, int>, double> closed_joints(const Model<2>& model, const State<2>& state) {
   std::map<std::pair<int, int>, double> lengths;
   for (const Contact<2>& c : state.contacts.list)
@@ -45,10 +45,10 @@ std::map<std::pair<int, int>, double> closed_joints(const Model<2>& model, const
   return lengths;
 }
 
-// What has become of the rock joints that touched at first, as shares of their length then.
+// The rock joints initially in contact, as shares of their initial length.
 struct Mechanism {
-  double sheared = 0;  // touch, and have slipped plastically by more than a decimetre
-  double opened = 0;   // touch no more
+  double sheared = 0;  // in contact, and slipped plastically by more than a decimetre
+  double opened = 0;   // no longer in contact
   long long bonds = 0;
   double largest = 0, mean = 0;  // N/m, of the contacts' forces
 };
@@ -108,7 +108,7 @@ void write_blocks(const Model<2>& model, const State<2>& state, const std::strin
   if (!out) throw std::runtime_error("cannot write " + file);
 }
 
-// each contact's force as a bar through its point, along the force, as long as `metres_per_newton` says
+// each contact's force as a bar through its point, along the force, with the length scale `metres_per_newton`
 void write_forces(const Model<2>& model, const State<2>& state, const std::string& file) {
   constexpr double metres_per_newton = 60 / 2e8;
   std::vector<std::vector<double>> bars(4);
@@ -131,7 +131,7 @@ struct Moment {
 
 // ---- the tests ----
 
-// From 35.65 degrees to the loss, four times as fast as published, and on at 5 degrees, which carry the blocks past the
+// From 35.65 degrees to the failure, four times as fast as published, then at 5 degrees, at which the blocks pass the
 // bends of the slide (README).
 TEST(VaiontSlide, ShearsFirstAndOpensThen) {
   CaseReport report("vaiont", {"share of the rock joints sheared, 118 m, 80 m"});
@@ -167,8 +167,8 @@ TEST(VaiontSlide, ShearsFirstAndOpensThen) {
                 cost(fall.run));
 }
 
-// The friction that is left decides how fast it goes; observed: 25 to 30 m/s.
-TEST(VaiontSlideLong, GoesAsItsFrictionLetsIt) {
+// The remaining friction decides its speed; observed: 25 to 30 m/s.
+TEST(VaiontSlideLong, HasASpeedThatDependsOnItsFriction) {
   CaseReport report("vaiont");
   for (const double friction : {20.0, 15.0, 10.0, 5.0, 0.0}) {
     Overrides settings{"stage.slide.duration_s=40"};

@@ -1,4 +1,4 @@
-// The Vaiont slide in space as its friction falls and as its reservoir fills: what chapter 6.5 shows.
+// The Vaiont slide in space while its friction falls and while its reservoir fills, as in chapter 6.5.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -21,18 +21,18 @@ using verification::Kind;
 const std::string thesis = "Boon (2013), section 6.5";
 const std::vector<std::string> places{"west", "centre", "east"};
 
-// what three blocks have moved by since a stage began, against what drives them
+// displacements of three blocks since the beginning of a stage, against the driver
 struct Movement {
   std::vector<double> driver;             // of friction in degrees, of the reservoir's level in m
   std::vector<std::vector<double>> ways;  // of each place, m
 
-  // the driver when a place has moved by `way`; NaN where it never does
+  // the driver when a place has moved by `way`; NaN if it never does
   double when(std::size_t place, double way) const {
     for (std::size_t row = 0; row < driver.size(); ++row)
       if (ways[place][row] >= way) return driver[row];
     return std::numeric_limits<double>::quiet_NaN();
   }
-  // when the first of them has
+  // when the first of them has moved
   double onset(double way) const {
     for (std::size_t row = 0; row < driver.size(); ++row)
       for (const std::vector<double>& moved : ways)
@@ -68,14 +68,14 @@ Movement fall_of(const SceneRun& run) {
   return movement(run, "friction_slide_deg", 3);
 }
 
-// a block has begun to move when the published figures would show it, and is lost when it goes by itself
+// a block has begun to move when the published figures would show it, and has failed when it accelerates by itself
 constexpr double begun = 0.3, lost = 3;  // m
 
 void judge_soundness(CaseReport& report, const std::string& of, const SceneRun& run) {
   report.record({"contacts without an answer" + of,
                  "1",
                  Kind::limit,
-                 "promise: the kernel answers or says so",
+                 "promise: the kernel has a result or reports the failure",
                  0,
                  {0.5, 0, Bound::at_most},
                  "a count"},
@@ -92,7 +92,7 @@ void judge_soundness(CaseReport& report, const std::string& of, const SceneRun& 
 
 void judge_at_least(CaseReport& report, const std::string& quantity, const std::string& unit, double found,
                     const std::string& published) {
-  report.record({quantity, unit, Kind::limit, thesis + ": " + published, 0, {0, 0, Bound::at_least}, "the sign alone"},
+  report.record({quantity, unit, Kind::limit, thesis + ": " + published, 0, {0, 0, Bound::at_least}, "only the sign"},
                 found);
 }
 
@@ -114,7 +114,7 @@ void report_fall(CaseReport& report, const std::string& of, const SceneRun& run)
                  fmt::format("it has moved by {} m", lost));
 }
 
-// Where a vertical plane to the east cuts the blocks, seen from the south: east to the right, the elevation up.
+// The section of the blocks by a vertical plane to the east, seen from the south: east to the right, the elevation up.
 std::vector<PictureFace> section(const Model<3>& model, const State<3>& state, double north,
                                  const std::function<std::uint32_t(std::size_t)>& colour) {
   std::vector<PictureFace> cuts;
@@ -178,10 +178,10 @@ TEST(VaiontInSpaceFalls, EastFirstThenWest) {
   draw(found);
 }
 
-// Four times the published rate but where stated.
+// Four times the published rate, unless stated otherwise.
 const Overrides faster{"stage.critical.rate_deg_per_s=0.1"};
 
-TEST(VaiontInSpaceFallsLong, RateAndStepMoveTheFallThusMuch) {
+TEST(VaiontInSpaceFallsLong, RateAndStepChangeTheFall) {
   CaseReport report("vaiont");
   report_fall(report, ", 160 m, 0.1°/s", run("space_fall_160.toml", faster));
   report_fall(report, ", 160 m, 0.025°/s", run("space_fall_160.toml"));
@@ -217,7 +217,7 @@ Overrides blocks_of_160_m() {
   return settings;
 }
 
-// the ways while the reservoir fills, and whether they end
+// the displacements while the reservoir fills, and whether they end
 void report_filling(CaseReport& report, double friction_deg, double duration_s, const Overrides& settings = {}) {
   const std::string of = fmt::format(", 160 m, filling at {:g}°", friction_deg);
   const SceneRun found =
@@ -234,16 +234,16 @@ void report_filling(CaseReport& report, double friction_deg, double duration_s, 
     report.record({"way of the " + places[k] + of + ", then",
                    "m",
                    Kind::limit,
-                   "comparison: west and centre need less than 19°, the east rests on them",
+                   "comparison: west and centre need less than 19°, and support the east",
                    0,
                    {0.01, 0, Bound::at_most},
-                   "rest within 50 s, as in figure 6.36"},
+                   "equilibrium within 50 s, as in figure 6.36"},
                   waiting.ways[k].back());
   }
 }
 
 // four times as fast as published; at 35 degrees as published, without softening
-TEST(VaiontInSpaceFallsLong, RestsAfterTheReservoirHasFilled) {
+TEST(VaiontInSpaceFallsLong, ReachesEquilibriumAfterTheReservoirHasFilled) {
   CaseReport report("vaiont");
   report_filling(report, 26, 250);
   report_filling(report, 35, 50, {"joint_properties.slide.softening_drop=1e-9"});

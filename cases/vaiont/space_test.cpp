@@ -1,4 +1,4 @@
-// Vaiont slide in space: how much rock the planes of the slide and of the ground enclose, in all and below the
+// Vaiont slide in space: the volume of rock between the planes of the slide and of the ground, in total and below the
 // reservoir.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ double free_volume(const Model<3>& model) {
   return sum;
 }
 
-// m3, of the blocks that may move, from what the water lifts
+// m3, of the blocks that may move, from the uplift of the water
 double submerged_volume(const Model<3>& model) {
   const std::vector<Load<3>> loads = water_loads_at_reference(model);
   double lift = 0;
@@ -38,16 +38,16 @@ double submerged_volume(const Model<3>& model) {
   return lift / model.waters.front().unit_weight;
 }
 
-// by the grid, within what halving its cells changes
+// by the grid, within the change by halving its cells
 void judge_volume(CaseReport& report, const std::string& name, const reference::SlideInSpace& slide, double found) {
   const double expected = slide_volumes(slide, grid).all;
   const double apart = std::abs(expected - slide_volumes(slide, 2 * grid).all);
   report.record(
-      {name, "m3", Kind::exact, source, expected, {apart, 0}, "the grid's error: what half its spacing changes"},
+      {name, "m3", Kind::exact, source, expected, {apart, 0}, "the grid's error: the change by half its spacing"},
       found);
 }
 
-// as in the thesis: blocks go whole, or stay whole, by where their centroids are
+// as in the thesis: the position of its centroid decides whether a block is removed or kept
 std::vector<std::string> block_by_block() {
   std::vector<std::string> settings;
   for (const char* strip : {"west 1 1", "west 1 2", "west 2", "west 3", "centre 1", "centre 2", "centre 3", "centre 4",
@@ -56,8 +56,8 @@ std::vector<std::string> block_by_block() {
   return settings;
 }
 
-// Cut along the outline, the slide has the volume between its planes. Of one that is cut into blocks those go of which
-// the outline leaves less than 10 m inscribed radius.
+// Cut along the outline, the slide has the volume between its planes. If it is cut into blocks, pieces with an
+// inscribed radius below 10 m at the outline are removed.
 TEST(VaiontInSpace, HasTheVolumeBetweenItsPlanes) {
   const std::string all = "free volume", flexible = "free volume, flexible east",
                     cut = "free volume, 80 m, blocks of any size", coarse = "pieces of blocks that go, 160 m",
@@ -77,7 +77,7 @@ TEST(VaiontInSpace, HasTheVolumeBetweenItsPlanes) {
   for (const auto& [name, scene] : {std::pair(coarse, "space_fall_160.toml"), {fine, "space_80.toml"}})
     report.report(name, "1", 1 - free_volume(model_of(scene)) / whole, "as a fraction of the free volume");
   report.report(whole_blocks, "m3", free_volume(model_of("space_80.toml", block_by_block())),
-                "as in the thesis, by where their centroids are");
+                "as in the thesis, by the positions of their centroids");
 }
 
 TEST(VaiontInSpace, HasTheVolumesBelowTheReservoir) {
@@ -88,7 +88,7 @@ TEST(VaiontInSpace, HasTheVolumesBelowTheReservoir) {
     const double expected = slide_volumes(slide, grid, level).below;
     const double apart = std::abs(expected - slide_volumes(slide, 2 * grid, level).below);
     report.record(
-        {quantity, "m3", Kind::exact, source, expected, {apart, 0}, "the grid's error: what half its spacing changes"},
+        {quantity, "m3", Kind::exact, source, expected, {apart, 0}, "the grid's error: the change by half its spacing"},
         submerged_volume(model_of("space.toml", {fmt::format("water.reservoir.level={}", level)})));
   }
 }

@@ -1,4 +1,4 @@
-# how far two blocks have gone against the friction of the slide: the central analysis on blocks of 80 m, the short way
+# displacement of two blocks against the friction of the slide: the central analysis on blocks of 80 m, the short path
 set xlabel 'friction of the slide (deg)'
 set ylabel 'displacement (m)'
 set xrange [24.1:19.5]

@@ -1,4 +1,4 @@
-# the section before it is lost and after: blocks, and the contacts' forces as bars along them
+# the section before and after its failure: blocks, and the contacts' forces as bars along them
 set terminal svg size 1000,520 @page
 @picture
 unset key

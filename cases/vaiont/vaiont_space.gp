@@ -1,4 +1,4 @@
-# way of three blocks against the friction of the slide in space: blocks of 160 m
+# displacement of three blocks against the friction of the slide in space: blocks of 160 m
 set xlabel 'friction of the slide (deg)'
 set ylabel 'displacement (m)'
 set xrange [28.1:8.5]

@@ -1,4 +1,4 @@
-# the slide in space when it is lost: from above, from the gorge, and cut along its seat
+# the slide in space at its failure: from above, from the gorge, and cut along its seat
 set terminal svg size 1000,700 @page
 @picture
 unset key

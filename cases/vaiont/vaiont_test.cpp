@@ -1,5 +1,5 @@
-// Vaiont slide, western section: what friction its slide needs, by rigid-block limit analysis of few and of many blocks
-// against the closed form of blocks behind vertical cross joints.
+// Vaiont slide, western section: the critical friction of its slide, by rigid-block limit analysis of few and of many
+// blocks against the closed form of blocks behind vertical cross joints.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ using verification::Check;
 using verification::Kind;
 
 constexpr double vertical = 90 * degree, rock = 40 * degree;
-constexpr double unit_weight = 2395.5 * 9.81;  // N/m3, as scene.toml states it; beside water it matters
+constexpr double unit_weight = 2395.5 * 9.81;  // N/m3, as scene.toml states it; with water it matters
 
 struct Cut {
   std::string scene, name;
@@ -44,7 +44,7 @@ double answer(const LimitAnalysis& analysis) {
 
 const std::string source = "blocks that translate behind mobilised cross joints, reference/vaiont";
 
-// By each of the three cuts; the closed form knows the bends' cross joints alone.
+// By each of the three cuts; the closed form has only the bends' cross joints.
 void judge_angle(CaseReport& report, const std::string& of, double expected, const std::vector<std::string>& overrides,
                  const std::vector<Cut>& scenes = cuts) {
   for (const Cut& cut : scenes)
@@ -54,7 +54,7 @@ void judge_angle(CaseReport& report, const std::string& of, double expected, con
                    source,
                    expected / degree,
                    {1e-5, 0},
-                   "the bracket is 1e-6 wide; the planes' dips are stated to more digits than that"},
+                   "the bracket is 1e-6 wide; the planes' dips are stated to more digits"},
                   answer(analyse(cut.scene, overrides)));
 }
 
@@ -63,7 +63,7 @@ double closed_form(const SectionLoads& loads, double cross = rock, double cross_
                                  cross_dip);
 }
 
-TEST(Vaiont, DryNeedsWhatTheBlocksBehindItsBendsNeed) {
+TEST(Vaiont, DryHasTheFrictionOfBlocksBehindMobilisedJoints) {
   CaseReport report("vaiont", {"critical friction, dry, 3 blocks", "critical friction, seat 1.8°, 3 blocks"});
   judge_angle(report, "dry", closed_form({}), {});
   judge_angle(report, "rock joints 30°", closed_form({}, 30 * degree), {"joint_properties.rock.friction_deg=30"});
@@ -98,7 +98,7 @@ TEST(Vaiont, WetNeedsMore) {
   write_csv("vaiont", "levels_form.csv", {"water_m", "closed_form_deg"}, {form_levels, form});
 }
 
-// Cross joints through both bends that lean: with them the force from block to block.
+// Inclined cross joints through both bends: the force from block to block is inclined with them.
 TEST(Vaiont, CrossJointsIntoTheSlope) {
   CaseReport report("vaiont", {"critical friction, cross joints 71.25°", "critical friction, cross joints 50°"});
   const auto leaning = [](double dip) {
@@ -114,18 +114,16 @@ TEST(Vaiont, CrossJointsIntoTheSlope) {
                  "as for vertical ones"},
                 answer(analyse("scene.toml", leaning(71.25))));
   const LimitAnalysis steep = analyse("scene.toml", leaning(50));
-  report.record(
-      {"critical friction, cross joints 50°",
-       "deg",
-       Kind::limit,
-       source,
-       closed_form({}, rock, 50 * degree) / degree,
-       {0, 0, Bound::at_least},
-       fmt::format(
-           "one mechanism is a lower bound of the angle; here two of three blocks turn besides, {:.2g} % of the "
-           "kinetic energy",
-           100 * steep.mechanism.rotation_fraction)},
-      answer(steep));
+  report.record({"critical friction, cross joints 50°",
+                 "deg",
+                 Kind::limit,
+                 source,
+                 closed_form({}, rock, 50 * degree) / degree,
+                 {0, 0, Bound::at_least},
+                 fmt::format("one mechanism is a lower bound of the angle; here two of three blocks also rotate, "
+                             "{:.2g} % of the kinetic energy",
+                             100 * steep.mechanism.rotation_fraction)},
+                answer(steep));
   EXPECT_EQ(steep.mechanism.turning, 2);
 }
 

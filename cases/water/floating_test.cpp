@@ -1,5 +1,5 @@
-// Floating blocks, in the plane and in space: how they heave, roll and pitch, from which width they float upright, and
-// at which angle one that does not comes to rest.
+// Floating blocks, in the plane and in space: heave, roll and pitch, the least width that floats upright, and the angle
+// of loll.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ constexpr double length = 3;     // m, in space
 constexpr double pushed = 0.05;  // m/s and rad/s
 const std::string in_plane = "raft.toml", in_space = "raft_space.toml";
 
-// s: the mean of whole periods between the first and the last time that a curve rises through nothing
+// s: the mean of whole periods between the first and the last upward zero of a curve
 double period_of(const std::vector<double>& time, const std::vector<double>& curve) {
   std::vector<double> rises;
   for (std::size_t i = 1; i < curve.size(); ++i)
@@ -45,16 +45,15 @@ TEST(FloatingBlock, HeavesRollsAndPitches) {
     const SceneRun run = cases::run(scene);
     const std::vector<double> time = column(run, "time_s");
     for (const Swing& swing : swings)
-      report.record(
-          {swing.name + where,
-           "s",
-           Kind::exact,
-           "Archimedes (Eq. 6.8); metacentre, I/V - BG",
-           swing.period,
-           {0, 5e-3},
-           "swings of 12 mm and a degree: the righting arm grows by 2e-4 with the square of the heel, heave and "
-           "roll feel each other as little; the steps are some thousandth of a period"},
-          period_of(time, column(run, swing.column)), cost(run));
+      report.record({swing.name + where,
+                     "s",
+                     Kind::exact,
+                     "Archimedes (Eq. 6.8); metacentre, I/V - BG",
+                     swing.period,
+                     {0, 5e-3},
+                     "swings of 12 mm and a degree: the righting arm grows by 2e-4 with the square of the heel, and "
+                     "the coupling of heave and roll is as small; the steps are some thousandth of a period"},
+                    period_of(time, column(run, swing.column)), cost(run));
     return run;
   };
   const SceneRun plane =
@@ -79,7 +78,7 @@ TEST(FloatingBlock, HeavesRollsAndPitches) {
             {time, heaved, column(plane, "raft_rotation_deg"), heave, roll});
 }
 
-// deg: where it comes to rest
+// deg: the angle at which it comes to rest
 double heel_of(const std::string& scene, const std::vector<std::string>& overrides = {}) {
   const SceneRun run = cases::run(scene, overrides);
   return std::abs(value(run, scene.find("space") == std::string::npos ? "raft_rotation" : "raft_rotation_y"));
@@ -112,13 +111,13 @@ TEST(FloatingBlock, FloatsUprightFromAWidth) {
                    "equilibrium: metacentre at the centroid: b/h = sqrt(6 s (1 - s))",
                    reference::least_stable_ratio(raft.relative_density) * raft.height,
                    {0, 0.01},
-                   "half the bracket is 0.002, in space 0.007; a block narrower by 0.0001 rests at the degree that "
-                   "counts as upright"},
+                   "half the bracket is 0.002, in space 0.007; a block narrower by 0.0001 comes to rest at the degree "
+                   "that counts as upright"},
                   0.5 * (heels + floats));
   }
 }
 
-TEST(FloatingBlock, LollsWhereItIsTooNarrow) {
+TEST(FloatingBlock, LollsIfItIsTooNarrow) {
   CaseReport report("water");
   const double expected = angle_of_loll(tender) / degree;
   for (const std::string scene : {"tender.toml", "tender_space.toml"})
@@ -128,7 +127,7 @@ TEST(FloatingBlock, LollsWhereItIsTooNarrow) {
                    "equilibrium: wall-sided formula: tan2 = -2 GM/BM",
                    expected,
                    {0.05, 0},
-                   "what is left of the swings after 60 s of damping"},
+                   "the remaining oscillation after 60 s of damping"},
                   heel_of(scene));
 }
 

@@ -1,4 +1,4 @@
-// The slope of the plane failure: its geometry, and what tells a scene how full its crack is.
+// The slope of the plane failure: its geometry, and the override for the water in its crack.
 #pragma once
 
 #include <fmt/format.h>
@@ -22,7 +22,7 @@ inline double limit_answer(const std::string& scene, const std::vector<std::stri
   return found.values.front().second.value;
 }
 
-// as scene.toml states it; what water fills of the crack is a fraction of its depth
+// as scene.toml states it; water fills the crack to a fraction of its depth
 inline reference::PlaneFailure plane_failure(double fill) {
   reference::PlaneFailure slope{20, 60 * degree, 35 * degree, 4, 26e3, 0, 30e3, 40 * degree};
   slope.water_in_crack = fill * forces_of(slope).crack_depth;
@@ -39,7 +39,7 @@ inline std::string filled(double fill) {
   return fill == 0 ? ", crack empty" : fill == 1 ? ", crack full" : ", crack half full";
 }
 
-// the water stands below the whole joint
+// the water table is below the whole joint
 inline const std::string empty_crack = "water.crack and joint.table=[[0, -90], [1, -90]]";
 
 inline const std::string plane_source = "Hoek & Bray (1981), plane failure with a tension crack";

@@ -1,4 +1,4 @@
-// A block whose weight doubles at once slips while its contact rings: the joint itself, without water.
+// A block whose weight doubles suddenly slips while its contact rings: the joint itself, without water.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,7 +22,7 @@ struct Slip {
   std::vector<double> time, slip;  // s since gravity doubled, m
 };
 
-// plastic slip down the incline: how far the block has gone less what its spring gives back
+// plastic slip down the incline: displacement of the block less the elastic part of its spring
 Slip slip_of(const SceneRun& run, double shear_stiffness) {
   const auto plastic = [&](int stage) {
     const std::vector<double> x = column(run, "block_displacement_x_m", stage),
@@ -77,7 +77,7 @@ TEST(RingingBlock, KeepsItsMobilisedFrictionOnEqualSprings) {
                  "identity: shear and normal force ring alike",
                  0,
                  {1e-9, 0, Bound::at_most},
-                 "what 1e-9 of unbalanced force moves, and rounding of millimetres"},
+                 "the effect of 1e-9 of unbalanced force, and rounding of millimetres"},
                 most, cost(run));
 }
 

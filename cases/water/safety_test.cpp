@@ -10,7 +10,7 @@ using reference::PlaneFailure;
 using verification::CaseReport;
 using verification::Kind;
 
-// The bond of one point a face goes as a whole; limit analysis takes cohesion as ductile, which is the same here.
+// The bond of one point per face breaks as one; limit analysis assumes ductile cohesion, which is equivalent here.
 double judge_factor(CaseReport& report, const std::string& scene, const std::string& of, double expected,
                     const std::vector<std::string>& overrides) {
   const SceneRun done = run(scene, overrides);
@@ -20,7 +20,7 @@ double judge_factor(CaseReport& report, const std::string& scene, const std::str
                  plane_source,
                  expected,
                  {0, 2e-3},
-                 "half the bracket is 0.0005; what the block leaves of its water before it counts as failed, 0.01 deg"},
+                 "half the bracket is 0.0005; the water that the block leaves before it counts as failed, 0.01 deg"},
                 value(done, "factor_of_safety"), cost(done));
   LimitRequest request{{}, {"joint"}};
   request.factor = request.cohesion = true;

@@ -1,5 +1,5 @@
-// Blocks that water pushes and lifts: the friction angle and the water at which they fail, by
-// distinct elements and by limit analysis.
+// Blocks under thrust and uplift of water: the friction angle and the water level at which they fail, by distinct
+// elements and by limit analysis.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -34,22 +34,24 @@ TEST(SubmergedIncline, SlidesAtItsDipWhateverTheLevel) {
   for (const double level : {-2.0, 0.0, 0.4, 3.0})
     report.record(
         angle_check(fmt::format("critical friction of the incline, level {} m", level),
-                    "equilibrium: buoyancy takes the same fraction off weight and contact force", 30 * degree, 0.005,
-                    "half the bracket of 0.01; the force left at rest, 1e-6 of the contact force, is worth 0.00005"),
+                    "equilibrium: buoyancy reduces weight and contact force by the same fraction", 30 * degree, 0.005,
+                    "half the bracket of 0.01; the unbalanced force in equilibrium, 1e-6 of the contact force, is "
+                    "worth 0.00005"),
         value(run("incline.toml", {fmt::format("water.lake.level={}", level)}), "critical_friction"));
   const SceneRun slides = run("incline.toml");
   const std::vector<double> x = column(slides, "block_displacement_x_m"), y = column(slides, "block_displacement_y_m"),
                             time = column(slides, "time_s");
   const std::size_t start = column(slides, "time_s", 1).size() + column(slides, "time_s", 2).size() - 1;
   const double way = std::hypot(x.back() - x[start], y.back() - y[start]), duration = time.back() - time[start];
-  report.record({"acceleration under water",
-                 "m/s2",
-                 Kind::exact,
-                 "Newton: (1 - rho_w/rho) g (sin - cos tan phi)",
-                 reference::submerged_acceleration(30 * degree, 20 * degree, 2, gravity),
-                 {0, 5e-3},
-                 "twice the way by the square of the time: half a step at the start is dt/t, some 2e-4; as demanded"},
-                2 * way / (duration * duration), cost(slides));
+  report.record(
+      {"acceleration under water",
+       "m/s2",
+       Kind::exact,
+       "Newton: (1 - rho_w/rho) g (sin - cos tan phi)",
+       reference::submerged_acceleration(30 * degree, 20 * degree, 2, gravity),
+       {0, 5e-3},
+       "twice the displacement over the square of the time: half a step at the start is dt/t, some 2e-4; as demanded"},
+      2 * way / (duration * duration), cost(slides));
 }
 
 // --- plane failure
@@ -66,8 +68,8 @@ TEST(PlaneFailure, SlidesUnderTheWaterInItsCrack) {
     found.push_back(value(scene, "critical_friction"));
     limit.push_back(limit_answer("scene.toml", {water}, {{}, {"joint"}}));
     report.record(angle_check("critical friction, DEM" + filled(fill), plane_source, expected, 0.02,
-                              "half the bracket is 0.005; the table stays where it is, and a block that has moved by "
-                              "1 mm has left 0.01 of the load"),
+                              "half the bracket is 0.005; the table stays fixed, and a block that has moved by 1 mm "
+                              "has left 0.01 of the load"),
                   found.back(), cost(scene));
     report.record(angle_check("critical friction, limit analysis" + filled(fill), plane_source, expected, 1e-5,
                               "the bracket is 1e-6 wide"),
@@ -89,16 +91,16 @@ TEST(GravityBlock, SlidesOnItsFoundation) {
   const double expected = critical_friction(GravityBlock{8, 10, 24e3, 9});
   const SceneRun scene = run("dam.toml");
   report.record(
-      angle_check("critical friction, gravity block", "equilibrium: thrust over weight less uplift", expected, 0.02,
-                  "half the bracket is 0.005; the table stays where it is, and the dam leaves 0.004 of it with "
-                  "every millimetre"),
+      angle_check(
+          "critical friction, gravity block", "equilibrium: thrust over weight less uplift", expected, 0.02,
+          "half the bracket is 0.005; the table stays fixed, and the dam leaves 0.004 of it with every millimetre"),
       value(scene, "critical_friction"), cost(scene));
   report.record(angle_check("critical friction, gravity block, limit analysis",
                             "equilibrium: thrust over weight less uplift", expected, 1e-5, "the bracket is 1e-6 wide"),
                 limit_answer("dam.toml", {}));
 }
 
-// Does the slender one rest under this water (m)? It has tipped when it leans by more than `tipped`.
+// Is the slender block in equilibrium under this water (m)? It has tipped when it leans by more than `tipped`.
 bool stands(double water, double tipped) {
   const RecordedRun<2> recorded =
       record<2>("slender_dam.toml", {fmt::format("stage.critical.water.lake.table=[[0, {}], [4, 0]]", water)},

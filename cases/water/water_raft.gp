@@ -1,4 +1,4 @@
-# a raft that was pushed: heave and roll
+# a raft after a push: heave and roll
 set multiplot layout 2,1
 set xrange [0:12]
 set ylabel 'heave (mm)'

@@ -1,5 +1,5 @@
-// The wedge of cases/wedge under water, against the closed form with uplift and, where settlement locks shear, against
-// the elastic-plastic path; and three ways of lowering friction against each other.
+// The wedge of cases/wedge under water, against the closed form with uplift and, if settlement locks in shear, against
+// the elastic-plastic path; and three methods of lowering friction against each other.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -60,14 +60,14 @@ TEST(WetWedge, SlidesEarlierOnJointsUnderPressure) {
   CaseReport report("water");
   report.record(angle_check("critical friction, wedge, 1 kPa in its joints", closed_form,
                             *critical_friction(wedge(0.01, 1000).wedge), 0.1,
-                            "settlement locks some shear even at ks = kn/100: 0.03; half the bracket is 0.005"),
+                            "settlement locks in some shear even at ks = kn/100: 0.03; half the bracket is 0.005"),
                 value(run("wedge_pressure.toml"), "critical_friction"));
   report.record(angle_check("critical friction, wedge, joints half full", closed_form,
                             *critical_friction(wedge(0.01, 0, 0.5).wedge), 0.1, "as under pressure"),
                 value(run("wedge_joints.toml"), "critical_friction"));
 }
 
-// Stiffer joints hold a little longer.
+// The wedge on stiffer joints is stable to a slightly lower angle.
 TEST(WetWedge, StiffShearFollowsTheElasticPlasticPath) {
   CaseReport report("water");
   std::vector<double> ratios{0.01, 0.1, 1}, path, found;
@@ -80,8 +80,8 @@ TEST(WetWedge, StiffShearFollowsTheElasticPlasticPath) {
     report.record(angle_check(fmt::format("critical friction, wedge, 1 kPa in its joints, ks/kn = {}", ratio),
                               "elastic-plastic block with three translations on two faces, reference/wedge",
                               path.back() * degree, 0.05,
-                              "half the bracket is 0.005, the path's steps 0.0003; slip that inertia adds loosens the "
-                              "locked shear, by up to 0.03 on the dry wedge"),
+                              "half the bracket is 0.005, the path's steps 0.0003; additional slip by inertia releases "
+                              "locked-in shear, by up to 0.03 on the dry wedge"),
                   found.back(), cost(scene));
   }
   std::vector<double> ratio_path, angle_path;
@@ -93,7 +93,7 @@ TEST(WetWedge, StiffShearFollowsTheElasticPlasticPath) {
   write_csv("water", "wedge_path.csv", {"ks_over_kn", "path_deg"}, {ratio_path, angle_path});
 }
 
-// Bisection, steps and a rate: within their error bars and what a loading path is worth.
+// Bisection, steps and a rate: within their error bars and the effect of the loading path.
 TEST(ThreeWays, LowerFrictionToTheSameAngle) {
   CaseReport report("water");
   constexpr double path_dependence = 0.1;  // deg

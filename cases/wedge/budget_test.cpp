@@ -12,7 +12,7 @@ namespace {
 
 using verification::CaseReport;
 
-// wedges that slide on one plane or on both, no borderline ones, on 10 MPa/m to 1 GPa/m
+// wedges that slide on one plane or on both, without borderline ones, on 10 MPa/m to 1 GPa/m
 std::vector<BudgetScene> draw(unsigned seed, std::size_t count) {
   boost::random::mt19937_64 random(seed);
   boost::random::uniform_real_distribution<double> dip(20, 80), direction(0, 360), power(7, 9);
@@ -53,7 +53,7 @@ TEST(WedgeLong, BudgetsEncloseTheClosedForm) {
   judge_budgets(report, "wedge", "random wedges", "Hoek & Bray (1974)", draw(20134, 200));
 }
 
-// An error that is asked for, of wedges without a tolerance of their own; against the finest level, without a budget.
+// A requested error, for wedges without a tolerance of their own; against the finest level, without a budget.
 TEST(WedgeLong, AnErrorOfATenthOfAPercentIsReached) {
   CaseReport report("wedge");
   constexpr double asked = 1e-3;
@@ -85,13 +85,13 @@ TEST(WedgeLong, AnErrorOfATenthOfAPercentIsReached) {
                    "Hoek & Bray (1974)",
                    0,
                    {0.95, 0, verification::Bound::at_least},
-                   "what was asked of error = \"0.1 %\""},
+                   "requirement on error = \"0.1 %\""},
                   static_cast<double>(count) / static_cast<double>(scenes.size()));
   };
   judge("share of 40 random wedges found to 0.1 % as asked", reached);
   judge("share of 40 random wedges whose bar is 0.1 % as asked", told);
   report.report("cost of 0.1 % as asked over the finest level's, median of 40 random wedges", "1", median(costs),
-                "0.5 was asked");
+                "required: 0.5");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The share of wedges that fail where their joints scatter: `voussoir study` with [[sample]] against the closed form.
+// The share of wedges that fail if their joints scatter: `voussoir study` with [[sample]] against the closed form.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ using verification::Bound;
 using verification::CaseReport;
 using verification::Kind;
 
-// stated before any was drawn: seeds, and how many of their intervals of 95 % must hold the closed form's share
+// stated before any draw: seeds, and how many of their intervals of 95 % must contain the closed form's share
 constexpr int seeds = 20, holding = 19;
 
 constexpr double friction_deg = 35, dip_deviation = 3, direction_deviation = 5;
@@ -32,7 +32,7 @@ double critical_deg(const reference::Wedge& w) {
   return critical ? *critical / degree : 90;
 }
 
-// by draws that share nothing with the program's
+// by draws independent of the program's
 double share_of_closed_form() {
   static const double share = [] {
     std::mt19937_64 random(1974);
@@ -71,7 +71,7 @@ std::filesystem::path plan_with_seed(int seed) {
   return path;
 }
 
-// by the program: every run of the sample with its closed form, and the interval that it tells
+// by the program: every run of the sample with its closed form, and the interval that it reports
 struct Sampled {
   double error = 0, error_at_border = 0;  // deg, the largest: of wedges far from a change of mode, and of the others
   double share = 0, low = 0, high = 0;
@@ -122,15 +122,15 @@ TEST(Wedge, ASampleOfScatteredJointsFollowsTheClosedForm) {
                    because},
                   error);
   };
-  judge("far from a change of mode", 0.1, "bracket 0.025; the rest as of any such wedge", sampled.error);
-  judge("near a change of mode", 0.5, "there the loading path moves the angle by up to 0.5 (elastic-plastic path)",
+  judge("far from a change of mode", 0.1, "bracket 0.025; the remainder as for any such wedge", sampled.error);
+  judge("near a change of mode", 0.5, "there the loading path changes the angle by up to 0.5 (elastic-plastic path)",
         sampled.error_at_border);
   report.report("share failed of a sample of 200", "1", sampled.share,
                 fmt::format("interval of 95 %: {:.3f} to {:.3f}; closed form, 10^6 draws: {:.4f}", sampled.low,
                             sampled.high, share_of_closed_form()));
 }
 
-// the rows that the program would run, judged by the closed form: draws and intervals alone
+// the rows that the program would run, judged by the closed form: only draws and intervals
 TEST(Wedge, IntervalsOfDrawnRowsHoldTheShare) {
   CaseReport report("wedge");
   int holds = 0;

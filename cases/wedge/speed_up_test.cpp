@@ -1,4 +1,4 @@
-// What the critical angle costs: bisection by relaxation and two extrapolated rates against the thesis' constant rate.
+// Cost of the critical angle: bisection by relaxation and two extrapolated rates against the thesis' constant rate.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -17,10 +17,10 @@ SoughtAngle closed_form() {
   reference::Wedge wedge;
   wedge.a = {40 * degree, 130 * degree};
   wedge.b = {60 * degree, 220 * degree};
-  return {
-      *reference::critical_friction(wedge) / degree, "Hoek & Bray (1974)",
-      "as demanded; the bracket leaves 0.02, the sliver below the edge 0.02; what the extrapolation leaves is in its "
-      "error bar"};
+  return {*reference::critical_friction(wedge) / degree, "Hoek & Bray (1974)",
+          "as demanded; the bracket is worth 0.02, the sliver below the edge 0.02; the error of the extrapolation is "
+          "in its "
+          "error bar"};
 }
 
 double error_of(const SceneRun& run) {
@@ -37,12 +37,12 @@ TEST(WedgeSaving, BisectionAndTwoRatesAgainstTheThesisRate) {
   const SceneRun two = run("two_rates.toml");
   expect_speed_up(report, closed_form(), "two rates", two, thesis);
   expect_honest_bar(report, closed_form(), "two rates", two);
-  const SceneRun local = run("narrow.toml", {"damping.statics=\"local\"", "stage.reduce.ramp_steps=500"});
+  const SceneRun local = run("narrow.toml", {"statics=\"local\"", "stage.reduce.ramp_steps=500"});
   report.report("contact evaluations of bisection by local damping", "1", evaluations(local),
                 "500 steps of ramp, each a fifth as long as relaxation's", cost(local));
 }
 
-// a method's error against its cost as one knob turns
+// a method's error against its cost as one setting varies
 void sweep(const std::string& file, const std::string& scene, const std::vector<std::vector<std::string>>& settings) {
   std::vector<double> spent, error;
   for (const std::vector<std::string>& overrides : settings) {
@@ -62,7 +62,7 @@ TEST(WedgeSavingFigure, HasErrorAgainstCost) {
                      fmt::format("stage.reduce.slower_rate_deg_per_s={}", rate / 4)});
   for (const double tolerance : {3.0, 1.0, 0.3, 0.1, 0.05, 0.02}) {
     brackets.push_back({fmt::format("stage.reduce.tolerance_deg={}", tolerance)});
-    damped.push_back({brackets.back().front(), "damping.statics=\"local\"", "stage.reduce.ramp_steps=500"});
+    damped.push_back({brackets.back().front(), "statics=\"local\"", "stage.reduce.ramp_steps=500"});
   }
   sweep("rates.csv", "thesis_rate.toml", rates);
   sweep("two_rates.csv", "two_rates.toml", pairs);

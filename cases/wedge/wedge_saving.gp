@@ -1,4 +1,4 @@
-# what the critical angle costs by each way of looking for it
+# cost of the critical angle by each search method
 set logscale xy
 set xlabel 'contact evaluations'
 set ylabel 'error of the critical angle (deg)'

@@ -23,7 +23,7 @@ inline reference::Wedge wedge(double dip_a, double direction_a, double dip_b, do
 
 inline std::vector<std::string> overrides(const reference::Wedge& w) {
   const reference::WedgeSolution solution = reference::solve_wedge(w);
-  // a face that dips steeply along the line lets the line daylight
+  // in a face that dips steeply along the line of intersection the line daylights
   const double dip = std::min(85.0, solution.line_plunge / degree + 30);
   return {fmt::format("joints.A.dip={:.17g}", w.a.dip / degree),
           fmt::format("joints.A.dip_direction={:.17g}", w.a.dip_direction / degree),

@@ -39,21 +39,21 @@ TEST(Wedge, BisectionFindsTheClosedForm) {
   report.record(
       angle_check("critical friction", Kind::exact, "Hoek & Bray (1974), equal to Boon (2013) section 4.8", expected,
                   0.05,
-                  "bracket 0.005, elastic settlement lowers the angle by 0.002 at ks = kn/10, overlap of 0.1 % "
-                  "of the height turns no plane; the rest is room for the sliver contact below the edge"),
+                  "bracket 0.005, elastic settlement lowers the angle by 0.002 at ks = kn/10, overlap of 0.1 % of the "
+                  "height rotates no plane; the remainder is a margin for the sliver contact below the edge"),
       value(scene, "critical_friction"), cost(scene));
 }
 
-TEST(Wedge, OnWholeFacesItIsTheSame) {
+TEST(Wedge, OnIntegratedFacesItIsTheSame) {
   CaseReport report("wedge");
   const SceneRun scene = run("scene.toml", {whole_faces});
   report.record(angle_check("critical friction, whole faces", Kind::exact, "Hoek & Bray (1974)",
                             *reference::critical_friction(thesis_wedge) / degree, 0.05,
-                            "as on points: faces carry no moments where rotations are restrained"),
+                            "as on points: faces transfer no moments if rotations are restrained"),
                 value(scene, "critical_friction"), cost(scene));
 }
 
-// A block on elastic joints holds a little longer, the more so the stiffer its joints are in shear.
+// A block on elastic joints is stable to a slightly lower angle, the more so the stiffer its joints are in shear.
 TEST(Wedge, StiffShearFollowsTheElasticPlasticPath) {
   CaseReport report("wedge");
   const reference::WedgeFaces faces =
@@ -71,8 +71,8 @@ TEST(Wedge, StiffShearFollowsTheElasticPlasticPath) {
     report.record(
         angle_check(fmt::format("critical friction, ks/kn = {}", ratio), Kind::exact,
                     "elastic-plastic block with three translations on two faces, reference/wedge", path.back(), 0.05,
-                    "bracket 0.005, path steps 0.0003; slip that inertia adds while friction falls loosens the "
-                    "locked shear, by up to 0.03 when it falls at once"),
+                    "bracket 0.005, path steps 0.0003; additional slip by inertia while friction falls releases "
+                    "locked-in shear, by up to 0.03 if it falls suddenly"),
         found.back(), cost(scene));
   }
   write_csv("wedge", "stiffness.csv", {"ks_over_kn", "computed_deg", "path_deg"}, {ratios, found, path});
@@ -129,7 +129,7 @@ TEST(Wedge, EqualStiffness) {
                 value(scene, "critical_friction"), cost(scene));
 }
 
-// what carries the faces
+// contact model of the faces
 struct Carried {
   std::string name, override_of_scene;
 };
@@ -138,8 +138,8 @@ Carried on_points(int along) {
           fmt::format("joint_properties.rock.sub_contacts={}", along)};
 }
 
-// A wedge that may turn. The closed form knows no moments; the bounds are those of a rigid wedge of six freedoms on
-// four points a face.
+// A wedge that may rotate. The closed form has no moments; the bounds are those of a rigid wedge of six freedoms on
+// four points per face.
 void let_it_turn(CaseReport& report, const Carried& carried, double restrained) {
   const SceneRun scene = run("free_rotation.toml", {carried.override_of_scene});
   const double angle = value(scene, "critical_friction");
@@ -147,7 +147,7 @@ void let_it_turn(CaseReport& report, const Carried& carried, double restrained) 
       std::hypot(value(scene, "wedge_rotation_x"), value(scene, "wedge_rotation_y"), value(scene, "wedge_rotation_z"));
   const std::string name = "critical friction, free rotation, " + carried.name;
   if (carried.name == on_points(1).name)
-    report.report(name, "deg", angle, "one point carries no moment: no target (cases/wedge/NOTES.md)", cost(scene));
+    report.report(name, "deg", angle, "one point transfers no moment: no target (cases/wedge/NOTES.md)", cost(scene));
   else
     report.record(
         angle_check(name, Kind::limit, "comparison: rigid wedge of six freedoms, four points a face", restrained - 0.15,
@@ -159,7 +159,7 @@ void let_it_turn(CaseReport& report, const Carried& carried, double restrained) 
   report.report("tilt of the contact normal on B, " + carried.name, "deg", value(scene, "B_normal_tilt"), note);
 }
 
-TEST(Wedge, HoldsToALowerAngleWhereItMayTurn) {
+TEST(Wedge, IsStableToALowerAngleIfItMayRotate) {
   CaseReport report("wedge", {"critical friction, free rotation, 2 x 2 points a face",
                               "critical friction, free rotation, whole faces"});
   const double restrained = value(run("equal_stiffness.toml"), "critical_friction");
@@ -168,15 +168,15 @@ TEST(Wedge, HoldsToALowerAngleWhereItMayTurn) {
   let_it_turn(report, {"whole faces", whole_faces}, restrained);
 }
 
-TEST(WedgeLong, HoldsToALowerAngleWhereItMayTurnOnManyPoints) {
+TEST(WedgeLong, IsStableToALowerAngleIfItMayRotateOnManyPoints) {
   CaseReport report("wedge");
   const double restrained = value(run("equal_stiffness.toml"), "critical_friction");
   for (const int along : {3, 8, 16})
     let_it_turn(report, on_points(along), restrained);
 }
 
-// Where the wedge lies and which way it faces cannot matter.
-TEST(Wedge, TurnedAndMoved) {
+// Position and orientation of the wedge must not matter.
+TEST(Wedge, RotatedAndMoved) {
   CaseReport report("wedge");
   const double here = value(run("scene.toml"), "critical_friction");
   for (const double turn : {37.0, 211.0}) {
@@ -187,7 +187,7 @@ TEST(Wedge, TurnedAndMoved) {
     const SceneRun scene = run("scene.toml", sets);
     report.record(
         angle_check(fmt::format("critical friction, turned by {:.0f}", turn), Kind::exact, "identity: rotation", here,
-                    0.01, "one bracket: rounding may tip a trial at the edge of stability"),
+                    0.01, "one bracket: rounding may decide a trial at the limit of stability"),
         value(scene, "critical_friction"), cost(scene));
   }
   const std::string shift_point = "[1000000, -2000000, 2999999]";
@@ -200,7 +200,7 @@ TEST(Wedge, TurnedAndMoved) {
                 value(scene, "critical_friction"), cost(scene));
 }
 
-// how many wedges of each kind to draw
+// number of wedges of each kind to draw
 struct Draw {
   int both, single, borderline;
 };
@@ -239,12 +239,11 @@ void try_random_wedges(CaseReport& report, unsigned seed, Draw wanted) {
     }
     expected_deg.push_back(*critical / degree);
     found_deg.push_back(value(scene, "critical_friction"));
-    report.record(
-        angle_check(name, Kind::exact, "Hoek & Bray (1974); " + reference::describe(solution.mode), expected_deg.back(),
-                    0.1,
-                    "bracket 0.005; away from the border between modes the loading path moves the angle by less "
-                    "than 0.1 (elastic-plastic path)"),
-        found_deg.back(), cost(scene));
+    report.record(angle_check(name, Kind::exact, "Hoek & Bray (1974); " + reference::describe(solution.mode),
+                              expected_deg.back(), 0.1,
+                              "bracket 0.005; away from the border between modes the loading path changes the angle by "
+                              "less than 0.1 (elastic-plastic path)"),
+                  found_deg.back(), cost(scene));
   }
   write_csv("wedge", "random.csv", {"closed_form_deg", "computed_deg"}, {expected_deg, found_deg});
 }

@@ -1,6 +1,6 @@
-// Settings by the accuracy that is asked for: the one table behind `[accuracy] level` in a scene. What it promises are
-// relative errors of the quantities that the cases' studies (cases/*/study.toml) compare with exact references; `make
-// reports` fails when a study finds a level that misses its promise.
+// Settings by requested accuracy: the only table behind `[accuracy] level` in a scene. It promises relative errors of
+// the quantities that the cases' studies (cases/*/study.toml) compare with exact references; `make reports` fails when
+// a study finds a level that misses its promise.
 #pragma once
 
 #include <array>
@@ -11,11 +11,11 @@ namespace voussoir {
 inline constexpr std::array<std::string_view, 3> accuracy_levels{"fast", "balanced", "reference"};
 inline constexpr std::array<double, 3> accuracy_promises{0.05, 0.01, 0.001};
 
-// deg: of a smaller critical angle, what a level leaves open is a larger fraction than it promises
+// deg: below this critical angle, a level's final bracket is a larger fraction of the angle than the level promises
 inline constexpr double least_promised_angle = 15;
 
-// What a level sets where the scene does not state the key itself. How many points carry a joint face is not among
-// them: it decides what a joint resists, not how well it is computed.
+// A value that a level sets if the scene does not state the key. The number of contact points of a joint face is not
+// among them: it changes the joint's resistance, not the accuracy of its computation.
 struct LevelSetting {
   std::string_view table, key;   // of a scene; table "stage": every stage in which the key means something
   std::array<double, 3> values;  // for each level
@@ -24,15 +24,15 @@ struct LevelSetting {
 };
 
 inline constexpr LevelSetting level_settings[] = {
-    // half the bracket is left open, of critical angles from least_promised_angle on
+    // the error is up to half the bracket; for critical angles from least_promised_angle on
     {"stage", "tolerance_deg", {0.5, 0.1, 0.01}, false, "wedge, roofwedge, incline, slump"},
-    // half a step is left open
+    // the error is up to half a step
     {"stage", "step_deg", {0.5, 0.1, 0.02}, false, "wedge, roofwedge"},
     // the load that friction sheds must be followed slowly enough
     {"stage", "ramp_steps", {100, 100, 500}, false, "wedge, roofwedge"},
-    // near failure a slow slide must not pass as rest
+    // near failure a slow slide must not pass as equilibrium
     {"equilibrium", "unbalanced", {1e-5, 1e-5, 1e-6}, false, "column, edge_contact, wedge"},
-    // a dashpot takes the velocity of half a step before: an error of first order
+    // a dashpot's force uses the velocity of half a step before: an error of first order
     {"time", "fraction", {0.1, 0.02, 0.002}, true, "bounce"},
     {"time", "fraction", {0.2, 0.1, 0.05}, false, "shaking, incline"},
 };

@@ -1,4 +1,4 @@
-// Things that ties join into chains, by a number for each chain: disjoint sets.
+// Disjoint sets: members joined by ties form chains, each of which has a number.
 #pragma once
 
 #include <numeric>

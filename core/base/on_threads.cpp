@@ -17,8 +17,8 @@
 namespace voussoir {
 namespace {
 
-// Looks for work before a thread falls asleep, some 20 to 80 µs: longer than what a step does between two of its loops,
-// shorter than what another program would miss.
+// Looks for work before a thread falls asleep, some 20 to 80 µs: longer than the work of a step between two of its
+// loops, too short for another program to miss.
 constexpr int looks = 2000;
 
 // takes of pieces by each thread: few, since they share a counter; many enough that the last is soon done
@@ -36,7 +36,7 @@ void wait_a_moment(const Condition& condition) {
     pause();
 }
 
-// the pieces that one thread begins with; others take of them when they have done theirs
+// the pieces that one thread begins with; others take some of them when theirs are done
 struct alignas(64) Part {
   std::atomic<int> next = 0;
   int last = 0;
@@ -47,7 +47,7 @@ class Team {
   // false: it is at work already
   bool share_out(int threads, int count, const PieceWork& pieces) {
     if (at_work_.test_and_set(std::memory_order_acquire)) return false;
-    // nobody is inside: what follows is this thread's alone until the gate opens
+    // no other thread is inside: the following is this thread's alone until the gate opens
     members_ = 1 + enlist(std::min(threads, count) - 1);
     pieces_ = pieces;
     grain_ = std::max(1, count / (takes * members_));

@@ -1,5 +1,5 @@
-// The core's loops over bodies and contacts, on as many threads as the settings say. Who does what changes no result:
-// every piece writes to its own place.
+// The core's loops over bodies and contacts, on as many threads as the settings state. The assignment of work to
+// threads changes no result: every piece writes to its own memory.
 #pragma once
 
 #include <algorithm>
@@ -21,11 +21,11 @@ struct PieceWork {
   void (*call)(const void* work, int first, int last);
 };
 
-// Does all pieces below `count`, this thread and up to `threads` - 1 others. A thread that has time takes the next
-// pieces: a thread that another program holds up holds up no other, and this one waits for none that has not begun.
-// They wait asleep, after a moment in which the next loop may come. Where the system gives no more threads, fewer do
-// it; within a piece, or while another thread has the team, this one does it alone. What the first of the pieces that
-// failed has thrown continues when all are done.
+// Does all pieces below `count`, this thread and up to `threads` - 1 others. An idle thread takes the next pieces: a
+// thread delayed by another program delays no other, and the calling thread waits for none that has not begun. Threads
+// wait asleep, after a moment in which the next loop may come. If the system provides no more threads, fewer do the
+// work; within a piece, or while another thread has the team, the calling thread does it alone. The exception of the
+// first piece that failed is rethrown when all are done.
 void share_out(int threads, int count, const PieceWork& pieces);
 
 // work(i) for each i below `count`
@@ -54,8 +54,8 @@ constexpr std::size_t groups_of(std::size_t pieces) {
   return (pieces + summed_together - 1) / summed_together;
 }
 
-// Sums over light pieces: work(i, sum) for those of each group, the groups' sums in their order. What it gives holds
-// until its next use.
+// Sums over light pieces: work(i, sum) for those of each group, the groups' sums in their order. The result is valid
+// until the next call.
 template <class Sum, class Work>
 const std::vector<Sum>& sums_in_groups(int threads, std::size_t count, const Work& work) {
   static thread_local std::vector<Sum> own;

@@ -1,4 +1,4 @@
-// Work shared out among threads: every piece once, whatever they throw and wherever they are called from.
+// Work shared out among threads: every piece once, with any exceptions and from any caller.
 #include "core/base/on_threads.hpp"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ TEST(OnThreads, EveryPieceIsDoneOnce) {
     }
 }
 
-// a piece that is done shows in what follows, round after round
+// a finished piece is visible in the next round, round after round
 TEST(OnThreads, RoundFollowsRound) {
   std::vector<int> numbers(64, 0);
   for (int round = 0; round < 20'000; ++round)
@@ -30,7 +30,7 @@ TEST(OnThreads, RoundFollowsRound) {
     EXPECT_EQ(n, 20'000);
 }
 
-TEST(OnThreads, TheFirstFailureContinuesAndTheTeamServesOn) {
+TEST(OnThreads, TheFirstFailureIsRethrownAndTheTeamStaysUsable) {
   for (int round = 0; round < 100; ++round) {
     std::string what;
     try {
@@ -45,7 +45,7 @@ TEST(OnThreads, TheFirstFailureContinuesAndTheTeamServesOn) {
 }
 
 // within a piece, and from several threads at once
-TEST(OnThreads, WhoFindsTheTeamAtWorkDoesItAlone) {
+TEST(OnThreads, AThreadThatFindsTheTeamBusyWorksAlone) {
   std::atomic<int> done = 0;
   const auto nested = [&] { on_threads(2, 16, [&](int) { on_threads(2, 16, [&](int) { ++done; }); }); };
   std::thread other(nested);

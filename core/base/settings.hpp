@@ -1,4 +1,4 @@
-// Every numerical choice, grouped by room: default, unit, range, what breaks when it is wrong; then the plain plans a
+// Every numerical choice, grouped by room: default, unit, range, the effect of a wrong value; then the plans that a
 // scene may state. A row of scene/keys/ names the member that a scene's key sets, and takes its default from here.
 #pragma once
 
@@ -13,18 +13,18 @@ namespace voussoir {
 enum class LpSolver { own, glpk };
 enum class CentreSolver { own, ipopt, ipopt_scaled };
 
-// where in the overlap a contact acts. chebyshev: at the point of the program min s (Eq. 3.27); central_path: at that
-// of its logarithmic barrier (solvers/central_path.hpp), which does not jump
+// the point of the overlap at which a contact acts. chebyshev: at the point of the program min s (Eq. 3.27);
+// central_path: at that of its logarithmic barrier (solvers/central_path.hpp), which does not jump
 enum class ContactPoint { analytic_centre, centroid, chebyshev, central_path };
 enum class OverlapSearch { closed_form, bracketing };
 
 // Direction and depth of a contact. potential: from the rounded potentials at the point, measured along it, as
-// published. multipliers: of the program min s, or of its barrier where the point is on the central path, the gradient
-// g = Σ λ a over one part's planes, and -s/|g|, at 4|g|² of a constant stiffness k: where the contact acts at the
+// published. multipliers: of the program min s, or of its barrier if the point is on the central path, the gradient
+// g = Σ λ a over one part's planes, and -s/|g|, at 4|g|² of a constant stiffness k: if the contact acts at the
 // program's or the barrier's own point, the force is that of the potential 2 k s²
 enum class ContactNormal { potential, multipliers };
 
-// What carries a joint of constant normal and shear stiffness per area: points, or the contact as a whole
+// How a joint of constant normal and shear stiffness per area transfers force: at points, or integrated over its face
 // (contact/integrated_contact.hpp)
 enum class ContactFace { point, integrated };
 
@@ -36,17 +36,17 @@ struct ContactSettings {
   OverlapSearch overlap = OverlapSearch::closed_form;  // of normal = potential
   ContactFace face = ContactFace::point;
 
-  // two parts touch when they overlap by more than this times the smaller inscribed radius, and by more than rounding
-  // hides (at most 64 ulp of the pair's size); far above that, contacts are found late
+  // two parts touch when they overlap by more than this times the smaller inscribed radius, and by more than the error
+  // of rounding (at most 64 ulp of the pair's size); far above that, contacts are found late
   double tolerance = 0;
 
   // radius r of the inner potential particle that rounds the normal at edges, times the smaller inscribed radius; must
   // exceed the largest overlap; large values tilt the normal of face contacts near an edge
   double potential_radius = 0.02;
 
-  // weight µ of the central path's barrier, times the smaller inscribed radius: as a face rocks, its force walks over
-  // it within an angle of some 2 µ over its width, and parts give way by some 10 to 30 µ before they resist. Smaller:
-  // the force jumps from corner to corner within a step; larger: blocks lie deeper
+  // weight µ of the central path's barrier, times the smaller inscribed radius: as a face rocks, its force crosses it
+  // within an angle of some 2 µ over its width, and parts approach by some 10 to 30 µ before they resist. Smaller: the
+  // force jumps from corner to corner within a step; larger: blocks overlap more
   double smoothing = 3e-4;
 
   // Newton stops when its decrement before the step is below this; 1e-3 leaves 1e-6 of overlap and area, 1e-5 1e-9
@@ -59,20 +59,22 @@ struct ContactSettings {
 
 enum class Statics { adaptive, local, newton };
 
-struct DampingSettings {
-  // how a run that ends at rest gets there. adaptive: dynamic relaxation with scaled inertia, in which time, velocities
-  // and dashpots mean nothing; local: the true motion under the damping below, the thesis' way, ten to a hundred times
-  // slower for many blocks, and right where the way to rest is an event, like a fall. newton: Newton's method on the
-  // joints' stiffness, which relaxation then confirms
-  Statics statics = Statics::adaptive;
+struct StaticsSettings {
+  // method by which a run reaches equilibrium. adaptive: dynamic relaxation with scaled inertia, in which time,
+  // velocities and dashpots have no meaning; local: the true motion under its damping, the thesis' method, ten
+  // to a hundred times slower for many blocks, and right when the path to equilibrium is an event, like a fall. newton:
+  // Newton-Raphson iteration on the joints' stiffness, whose result relaxation confirms
+  Statics method = Statics::adaptive;
 
+  // newton: increments in which a ramp of gravity, or a reduction of friction in a search, is applied; slip within one
+  // is integrated in a single step. The cost grows with their number
+  int increments = 1;
+};
+
+struct DampingSettings {
   // Cundall's non-viscous damping: each force component is lessened by this fraction when it drives the motion; 0..<1.
   // Reaches rest, but delays failure; 0 for dynamics, and in a scene's stages of kind run unless it is stated
   double local = 0.7;
-
-  // newton: increments in which a ramp of gravity, or a fall of friction in a search, is put on; a joint that slips
-  // within one slips along its chord. The cost goes with them
-  int increments = 1;
 
   // ratio to critical of the dashpot in every contact's normal direction; 0..; lowers the stable time step
   double viscous_ratio = 0;
@@ -80,7 +82,7 @@ struct DampingSettings {
 
 struct TimeSettings {
   // time step as a fraction of the limit 2/sqrt(lambda); one-sided contacts gain energy above 0.2 (0.1 without damping,
-  // which is what a scene's stages of kind run take unless it is stated)
+  // which a scene's stages of kind run take unless it is stated)
   static constexpr double most_damped = 0.2, most_undamped = 0.1;
   double fraction = most_damped;
 
@@ -89,32 +91,34 @@ struct TimeSettings {
 };
 
 struct EquilibriumSettings {
-  // at rest when for every free body (|unbalanced force| + |momentum| ω) / mean force (integrate.hpp) stays below
-  // during `window` steps, ω² being the body's largest stiffness over mass: at the end of a swing the force shows it,
-  // in the middle the momentum does. Too loose and a slow slide passes as rest
+  // in equilibrium when for every free body (|unbalanced force| + |momentum| ω) / mean force (integrate.hpp) stays
+  // below during `window` steps, ω² being the body's largest stiffness over mass: at the end of a swing the force shows
+  // it, in the middle the momentum does. Too loose and a slow slide passes as equilibrium
   double unbalanced = 1e-6;
   int window = 10;
 };
 
 struct Settings {
   ContactSettings contact;
+  StaticsSettings statics;
   DampingSettings damping;
   TimeSettings time;
   EquilibriumSettings equilibrium;
   int threads = 1;  // results do not depend on it
 };
 
-// ---- plans: what a scene asks for ---------------------------------------------------------------------------------
+// ---- plans stated in a scene ------------------------------------------------------------------------------------
 
-// The model's gravity times a factor: from one to the other within the time of the ramp; without ramp `to` at once, or
-// no change where it is not given.
+// The model's gravity times a factor: from one to the other within the time of the ramp; without a ramp `to` applies
+// immediately; no change if it is not given.
 struct GravityPlan {
   double ramp = 0;                // s
   double from = 0;                // factor at which a ramp begins
-  std::optional<double> to = {};  // where it ends; 1 if not given
+  std::optional<double> to = {};  // final factor; 1 if not given
 };
 
-// A water whose numbers change within a stage, linearly from what they are to what is stated (model.hpp, Water).
+// A water whose parameters change within a stage, linearly from their present values to the stated ones (model.hpp,
+// Water).
 struct WaterPlan {
   int water = 0;
   std::vector<double> from, to;
@@ -136,13 +140,13 @@ struct RunPlan {
 
 enum class ReductionMethod { bisection, steps, rate, two_rates };
 
-// what a reduction searches: a friction angle, or the factor by which tan φ and cohesion are divided
+// the quantity that a reduction searches: a friction angle, or the factor by which tan φ and cohesion are divided
 enum class Searched { friction, factor };
 
 // when a trial has failed: by the strength that its own motion requires, or by displacement alone
 enum class FailureCriterion { required_strength, displacement };
 
-// from where to where the factor is raised, by bisection or in steps
+// the range in which the factor is raised, by bisection or in steps
 struct FactorPlan {
   double from = 0, to = 0;  // start (stable) and end of the search
   double tolerance = 0;     // bisection: largest bracket at the end
@@ -153,7 +157,7 @@ struct FactorPlan {
 struct ReducePlan {
   ReductionMethod method = ReductionMethod::bisection;
   Searched searched = Searched::friction;
-  FactorPlan factor;                    // where that is searched
+  FactorPlan factor;                    // if that is searched
   std::vector<std::string> properties;  // joint properties to reduce; empty: all
   double from = 0, to = 0;              // rad: start (stable) and end of the search
   double tolerance = 0;                 // rad, bisection: largest bracket at the end
@@ -164,7 +168,7 @@ struct ReducePlan {
                                         // since the fall began) has failed; 0: a tenth of the smallest inscribed radius
   FailureCriterion criterion = FailureCriterion::displacement;
   double failure_fraction = 0;       // of the free mass that must have moved so far; 0: any body
-  long long ramp_steps = 500;        // steps over which a trial lowers the friction; few: inertia breaks the path
+  long long ramp_steps = 500;        // steps over which a trial lowers the friction; too few: inertia disturbs the path
   long long step_limit = 1'000'000;  // for one trial
 };
 
@@ -174,8 +178,8 @@ struct Selector {
   std::vector<std::string> names;             // bodies or joints' sides by name
   std::vector<std::string> above, below;      // joints
   std::optional<std::vector<double>> inside;  // m: a point in the body
-  std::vector<std::string> sides{};           // left, right, …: an outer face of the body lies in one of these sides
-  std::vector<double> low{}, high{};          // m: corners of a box that holds its centroid; empty: anywhere
+  std::vector<std::string> sides{};           // left, right, …: an outer face of the body is in one of these sides
+  std::vector<double> low{}, high{};          // m: corners of a box around its centroid; empty: anywhere
 };
 
 // a factor that varies with time: linear between the points of a table and constant beyond them, times a sine
@@ -185,8 +189,8 @@ struct TimeFactor {
   double phase = 0;                    // rad: sin(2π frequency time + phase)
 };
 
-// A velocity forced upon bodies while the stage lasts, times a factor of the time since it began. Their other freedoms
-// stay what they are: those of a fixed body are held.
+// A velocity forced upon bodies while the stage lasts, times a factor of the time since it began. Their other degrees
+// of freedom do not change: those of a fixed body are held.
 struct MovePlan {
   Selector bodies;
   std::vector<double> velocity;                       // m/s, as many entries as dimensions
@@ -203,7 +207,7 @@ struct InSituPlan {
   std::optional<double> unit_weight;  // N/m³; once a scene is read it is stated
 };
 
-// A stress on the faces of bodies that no joint made, from the stage on; it replaces what the bodies bore before.
+// A stress on the faces of bodies that no joint made, from the stage on; it replaces the stress on these bodies before.
 struct BoundaryPlan {
   Selector bodies;
   std::vector<double> stress;           // Pa, compression positive: 2-D xx, yy, xy; 3-D xx, yy, zz, yz, zx, xy
@@ -216,7 +220,7 @@ struct ForcePlan {
   std::string name;
   Selector bodies;
   std::vector<double> force;     // N (2-D: N/m), on each body, as many entries as dimensions
-  std::vector<double> point;     // m: where it acts, world coordinates at the start; empty: at each body's centroid
+  std::vector<double> point;     // m: point of action, world coordinates at the start; empty: at each body's centroid
   bool turns_with_body = false;  // else it keeps its direction in space; its point always moves with the body
   TimeFactor factor;             // of the time since the stage began
   double last_factor = 1;        // when it ends
@@ -228,39 +232,41 @@ struct FrictionPlan {
   double friction = 0;  // rad
 };
 
-// How the forces by which excavated rock held the rest are let off: linearly from the share that still acts to this
-// one, or not at all where no more acts.
-struct LetOffPlan {
-  double share = 0;     // of what acted before the excavation
-  double duration = 0;  // s, from the begin of the stage on
+// The relief loads, by which excavated rock supported the remaining rock: they fall linearly from the share that still
+// acts to this one, or stay constant if no more than this share acts.
+struct ExcavationForcesPlan {
+  double remaining = 0;  // as a fraction of the forces before the excavation
+  double duration = 0;   // s, from the begin of the stage on
 };
 
-// what changes in the model between two stages
+// changes of the model between two stages
 struct Change {
   std::vector<Selector> fix, release, remove;
-  std::vector<std::string> excavate{};  // Model::excavations that are taken out
+  std::vector<std::string> excavate{};  // Model::excavations that are removed
   std::vector<MovePlan> move;           // within the stage only
   std::vector<BoundaryPlan> boundary;
   std::vector<ForcePlan> force{};
   std::optional<double> friction;           // rad: new friction angle of every joint
   std::vector<FrictionPlan> friction_of{};  // then that of some
-  std::vector<std::string> install{};       // Model::bolt_properties and Model::linings that are put in
+  std::vector<std::string> install{};       // Model::bolt_properties and Model::linings that are installed
   bool bond = false;                        // closed joints with tensile strength or cohesion are bonded
-  bool zero_slip = false;                   // every joint's plastic slip begins again at 0
+  bool zero_slip = false;                   // every joint's plastic slip is reset to 0
 };
 
 struct StagePlan {
   std::string name;
   std::variant<SettlePlan, RunPlan, ReducePlan> plan;
-  Change change;                           // applied before the stage begins
-  std::vector<WaterPlan> water{};          // of kind settle or run
-  std::optional<LetOffPlan> let_off{};     // likewise; without it what is excavated is gone at once
-  std::optional<DampingSettings> damping;  // replaces the scene's within this stage
-  std::optional<double> time_fraction;     // the same of TimeSettings::fraction
+  Change change;                                            // applied before the stage begins
+  std::vector<WaterPlan> water{};                           // of kind settle or run
+  std::optional<ExcavationForcesPlan> excavation_forces{};  // likewise; without it they are removed at once
+  std::optional<StaticsSettings> statics;                   // replaces the scene's within this stage
+  std::optional<DampingSettings> damping;                   // likewise
+  std::optional<double> time_fraction;                      // the same of TimeSettings::fraction
 };
 
-// what is in force within a stage
+// the settings within a stage
 inline Settings settings_of(const StagePlan& stage, Settings scene) {
+  scene.statics = stage.statics.value_or(scene.statics);
   scene.damping = stage.damping.value_or(scene.damping);
   scene.time.fraction = stage.time_fraction.value_or(scene.time.fraction);
   return scene;
@@ -270,9 +276,9 @@ struct OutputPlan {
   double history_interval = 0;  // s between rows of history.csv; 0: about 200 rows a stage
   double frame_interval = 0;    // s between ParaView frames; 0: at the end of each stage only
   bool frames = true;
-  bool view = false;  // keep what the viewer shows (output/view.hpp)
+  bool view = false;  // keep the viewer's data (output/view.hpp)
 
-  // whether somebody asks for frames
+  // whether frames are requested
   bool any_frames() const { return frames || view; }
 };
 

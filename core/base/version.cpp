@@ -1,6 +1,7 @@
 #include "core/base/version.hpp"
 
-// written at build time by cmake/version.cmake; this is the only file that sees it, so a new commit rebuilds only this
+// written at build time by cmake/version.cmake; this is the only file that includes it, so a new commit rebuilds only
+// this
 #if __has_include("voussoir_version.h")
 #include "voussoir_version.h"
 #else

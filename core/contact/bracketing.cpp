@@ -25,11 +25,11 @@ Depth depth_at(std::span<const HalfSpace<Dim>> part, const Vector<Dim>& point, c
   return deepest;
 }
 
-// distance from the point to where the part ends
+// distance from the point to the end of the part
 template <int Dim>
 bool find_end(std::span<const HalfSpace<Dim>> part, const Vector<Dim>& point, const Vector<Dim>& direction,
               double& distance, int& face) {
-  // normals are unit, so the part cannot end before its slack at the point: doubled until it is passed
+  // normals are unit, so the part cannot end nearer than its slack at the point: doubled until it is passed
   const double slack = -depth_at<Dim>(part, point, direction, 0).value;
   if (!(slack > 0)) return false;
   double inside = 0, outside = slack;

@@ -6,8 +6,8 @@
 namespace voussoir {
 
 // As overlap_along: g(t) = max over a part's planes of a·(p + t n) - d is negative inside the part and positive
-// outside; its root ahead of the point, for B behind it, ends the part. An interval that holds the root is halved until
-// it holds no other number. False when a part does not end within 2^64 times its slack at the point, or when the point
+// outside; its root ahead of the point, for B behind it, ends the part. An interval around the root is halved until it
+// contains no other number. False when a part does not end within 2^64 times its slack at the point, or when the point
 // does not lie strictly inside both parts.
 template <int Dim>
 bool overlap_by_bracketing(const HalfSpaces<Dim>& planes, int faces_a, const Vector<Dim>& point,

@@ -14,7 +14,7 @@ namespace {
 // One grid's cells are this much wider than the median box: boxes of one size, turned at random, then share it.
 constexpr double cell_per_box = 1.5;
 
-// Boxes of a size that fewer than this have are tried against all others: in a grid of their own every smaller box
+// Boxes of a size that fewer than this have are compared with all others: with a grid of their own every smaller box
 // would visit some 27 cells to find them.
 constexpr int few = 32;
 
@@ -27,7 +27,7 @@ template <int Dim>
 using Cell = std::array<std::int64_t, Dim>;
 
 // Boxes of like size, no wider than a cell, each in the cell of its low corner. Cells are numbered in rows along x,
-// rows in layers: what is near in space is near in memory. Strides are odd, so that numbers that wrap round spread.
+// rows in layers: boxes near in space are near in memory. Strides are odd, so that numbers that wrap round spread.
 template <int Dim>
 struct Grid {
   int level = 0;       // cells are 2^level times those of level 0
@@ -43,7 +43,7 @@ struct Entry {
   Box<Dim> box;
 };
 
-// A search and its memory. All boxes of the grids lie in one table, in the order of their cells' numbers modulo its
+// A search and its memory. All boxes of the grids are in one table, in the order of their cells' numbers modulo its
 // size: several cells may share a bucket.
 template <int Dim>
 struct PairSearch {
@@ -57,7 +57,7 @@ struct PairSearch {
   std::vector<Entry<Dim>> filed;     // boxes of the grids, as they come
   std::vector<Entry<Dim>> table;     // the same, bucket by bucket
   std::vector<std::uint32_t> begin;  // of each bucket in the table, and the end
-  std::vector<std::uint32_t> row;    // of each box's pairs
+  std::vector<std::uint32_t> row;    // of the pairs of each box
   std::vector<Pairs> found;          // by group of boxes that one thread searches at a time
   const PairFilter* wanted = nullptr;
 };
@@ -81,7 +81,7 @@ bool is_finite(const Box<Dim>& box) {
   return true;
 }
 
-// monotone in the point, rounding included: no box is sought in a cell where it is not
+// monotone in the point, rounding included: no box is searched for in a wrong cell
 template <int Dim>
 Cell<Dim> cell_of(const Vector<Dim>& point, const Vector<Dim>& origin, double width) {
   Cell<Dim> cell;
@@ -98,7 +98,7 @@ std::uint32_t bucket_of(const Grid<Dim>& grid, const Cell<Dim>& cell, std::uint3
   return static_cast<std::uint32_t>(number) & mask;
 }
 
-// level 0 suits the median box; the lowest level still can count its cells
+// level 0 fits the median box; the lowest level can still count its cells
 template <int Dim>
 void choose_cells(const std::vector<Box<Dim>>& boxes, PairSearch<Dim>& s) {
   s.extents.clear();
@@ -121,7 +121,7 @@ void choose_cells(const std::vector<Box<Dim>>& boxes, PairSearch<Dim>& s) {
   s.lowest = std::ilogb(region / s.cell) - most_halvings;
 }
 
-// the smallest power of two that holds the box
+// the smallest power of two that is no less than the box
 template <int Dim>
 int level_of(const PairSearch<Dim>& s, const Box<Dim>& box) {
   const double fraction = extent(box) / s.cell;
@@ -305,7 +305,7 @@ void overlapping_pairs(const std::vector<Box<Dim>>& boxes, int threads, const Pa
   choose_cells(boxes, s);
   choose_grids(boxes, s);
   fill_table(boxes, s);
-  // each box looks among its likes and among the larger
+  // each box searches among boxes of its size and larger ones
   const std::size_t groups = static_cast<std::size_t>(team(threads, s.table.size()));
   s.found.resize(std::max(s.found.size(), groups));
   for (Pairs& found : s.found)

@@ -28,7 +28,7 @@ Pairs by_brute_force(const std::vector<Box<Dim>>& boxes) {
   return pairs;
 }
 
-// the search and the oracle; returns how many pairs there are
+// the search and the oracle; returns the number of pairs
 template <int Dim>
 int expect_all_pairs(const std::vector<Box<Dim>>& boxes, int threads = 1) {
   Pairs found;
@@ -106,7 +106,7 @@ TEST(BroadPhase, FindsBoxesOfMixedSizes) {
   expect_scattered<2>(78);
 }
 
-TEST(BroadPhase, FindsWhatMeetsAPlateAndWalls) {
+TEST(BroadPhase, FindsThePairsOfAPlateAndWalls) {
   Random random(79);
   std::vector<Box<3>> boxes = scattered<3>(random, 400, 6, 0.3, 0);
   for (int k = 0; k < 3; ++k) {
@@ -135,7 +135,7 @@ TEST(BroadPhase, FindsTheSameOnThreeThreads) {
 }
 
 // an absent body's box meets none, a boundless one all others
-TEST(BroadPhase, KnowsInfiniteBoxes) {
+TEST(BroadPhase, HandlesInfiniteBoxes) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Random random(80);
   std::vector<Box<3>> boxes = scattered<3>(random, 200, 4, 0.1, 0);

@@ -1,7 +1,7 @@
-// The rest of the catalogue of extremes for the contact kernel, against exact arithmetic. What stands where:
+// The rest of the catalogue of extremes for the contact kernel, against exact arithmetic. Tests of its rows:
 //   L1 L2 L4-L7 L10  certainty_test (by number)      L3 L6 (turned by Pythagorean quadruples)   here
-//   L8  slicing_test MakeBlock.NamesWhatIsWrong      L9  symmetry_test
-//   A1-A6  centre_test                               N1 N2 N4 N5  here; whole contacts: thin_contact_test Containment
+//   L8  slicing_test MakeBlock.NamesTheFault           L9  symmetry_test
+//   A1-A6  centre_test                               N1 N2 N4 N5  here; contacts: thin_contact_test Containment
 //   N3  pair_judge ("length of the normal")          N6 N7  no aligning rotation and no fixed tangent seed is used;
 //                                                    geometry_test Types.PerpendicularIsUnitAndPerpendicular
 //   O1 O2  here    O3  contact_test OverlapAlong     C1  contact_test SectionArea.OfACubeAcrossItsDiagonalIsAHexagon
@@ -115,7 +115,7 @@ TEST(Program, OfCubesThatTouchExactlyIsZero) {
 
 // ---- N: the normal --------------------------------------------------------------------------------------------------
 
-TEST(Normal, DeeperThanTheRadiusItIsOfTheNearestFaceAndSaysSo) {
+TEST(Normal, DeeperThanTheRadiusItIsOfTheNearestFaceAndReported) {
   HalfSpaces<3> planes = shapes::box<3>({-2, -2, -2}, {2, 2, 2});
   for (const HalfSpace<3>& p : shapes::box<3>({-1, -1, 1}, {1, 1, 5}))
     planes.push_back(p);
@@ -133,7 +133,7 @@ TEST(Normal, DeeperThanTheRadiusItIsOfTheNearestFaceAndSaysSo) {
   ASSERT_TRUE(contact_normal<3>(planes, 6, point, 0.75, normal, fallback));
   EXPECT_FALSE(fallback);
   EXPECT_EQ(normal, Vector<3>::UnitZ());
-  // both parts' nearest faces look the same way: no direction, and said so
+  // both parts' nearest faces have the same normal: no direction, and reported
   HalfSpaces<3> twice = shapes::cube<3>(1);
   for (const HalfSpace<3>& p : shapes::cube<3>(1))
     twice.push_back(p);
@@ -159,7 +159,7 @@ TEST(Normal, LeansTowardsAnEdgeByTheRadius) {
 }
 
 TEST(Normal, OfSymmetricContactsIsExact) {
-  // N4: nothing but rounding may break the symmetry
+  // N4: only rounding may break the symmetry
   const ContactSettings reference{.newton_tolerance = 1e-9};
   const Polytope<3> cube = contacts::unit_cube<3>();
   const Matrix<3> on_edge = Eigen::AngleAxisd(std::numbers::pi / 4, Vector<3>::UnitX()).toRotationMatrix();
@@ -202,7 +202,7 @@ TEST(OverlapAlong, MeetsPlanesNearlyParallelToItExactly) {
     }
 }
 
-TEST(OverlapAlong, EndsOnceWhereTwoFacesMeet) {
+TEST(OverlapAlong, EndsOnceIfTwoFacesMeet) {
   // the ridge of a roof: both sides end the search at the same place
   const Vector<3> left = Vector<3>(-1, 0, 1).normalized(), right = Vector<3>(1, 0, 1).normalized();
   HalfSpaces<3> planes = shapes::cube<3>(2);
@@ -233,7 +233,7 @@ void expect_exact_section(const HalfSpaces<3>& planes, const Vector<3>& point, c
 }
 
 // in place of Eqs D.1 and D.2
-TEST(SectionArea, IsExactWhereverThePlaneLies) {
+TEST(SectionArea, IsExactAtAnyPlaceOfThePlane) {
   Random random(503);
   for (int i = 0; i < 150; ++i) {
     HalfSpaces<3> planes = shapes::random_planes<3>(random, integer(random, 0, 20), 1);
@@ -265,7 +265,7 @@ TEST(SectionArea, OfATouchingPlaneIsNothing) {
 }
 
 TEST(SectionArea, TurnsWithTheNormalNearACorner) {
-  // C5: a plane through a point near a corner, from lying on one face to lying on the next
+  // C5: a plane through a point near a corner, turned from one face to the next
   const HalfSpaces<3> cube = shapes::cube<3>(1);
   for (const double near : {0.3, 1e-3, 1e-9})
     for (int degrees = 0; degrees <= 90; ++degrees) {

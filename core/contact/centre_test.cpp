@@ -23,14 +23,14 @@ constexpr double ulp = std::numeric_limits<double>::epsilon();
 
 // ---- A1: depth by aspect by offset ----------------------------------------------------------------------------------
 
-// what a stop rule promises: the point, as a fraction of the region in every direction; overlap and area, of themselves
+// the accuracy of a stop rule: the point, as a fraction of the region in every direction; overlap and area, relative
 struct Level {
   double newton_tolerance, point, value;
 };
 constexpr Level timed{1e-3, 1e-4, 1e-6}, reference{1e-9, 1e-9, 1e-9};
 
-// Rounded poses and slacks leave open what they leave open: this fraction of a region as thin as the overlap, in every
-// direction, since a normal turned by 1 ulp moves the centre along a patch by ulp/overlap of the patch.
+// Rounded poses and slacks leave this fraction of a region as thin as the overlap uncertain, in every direction, since
+// a normal turned by 1 ulp moves the centre along a patch by ulp/overlap of the patch.
 double left_open(double size, double overlap) {
   return 16 * ulp * size / overlap;
 }
@@ -46,8 +46,8 @@ struct CubePair {
   Vector<Dim> offset;
 };
 
-// Two turned cubes, face on face to the depth, shifted until they share a strip of 1/aspect, tilted by what the strip
-// allows; far from the origin, references subtracted first.
+// Two turned cubes, face on face to the depth, shifted until they share a strip of 1/aspect, tilted as far as the strip
+// permits; far from the origin, references subtracted first.
 template <int Dim>
 CubePair<Dim> overlapping_cubes(const Cell& cell, Random& random) {
   const Matrix<Dim> axes_a = matrix(shapes::orientation<Dim>(random)),
@@ -77,7 +77,7 @@ CubePair<Dim> overlapping_cubes(const Cell& cell, Random& random) {
 }
 
 struct Worst {
-  double point = 0, value = 0;  // of what is promised
+  double point = 0, value = 0;  // of the accuracy
 };
 
 template <int Dim>
@@ -90,7 +90,7 @@ void expect_converged(const CubePair<Dim>& cubes, const Outcome<Dim>& found, con
   const double radius = settings.potential_radius * std::min(cubes.a.inscribed_radius, cubes.b.inscribed_radius);
   auto best = exact::converged_contact(exact::planes_of(pair), static_cast<int>(cubes.a.faces.size()),
                                        static_cast<int>(cubes.b.faces.size()), exact::point_of(g.point), radius);
-  ASSERT_TRUE(best) << "the point lies outside";
+  ASSERT_TRUE(best) << "the point is outside";
   if constexpr (Dim == 2) best->section.area /= 2 * exact::lid_height(pair);
 
   const double size = cubes.a.radius + cubes.b.radius, overlap = to_double(best->overlap);
@@ -135,7 +135,7 @@ void expect_grid(std::uint64_t seed, int instances) {
               fmt::format("{}-D, depth 1e{}, aspect 1e{}, distance {}, instance {}", Dim, depth, aspect, distance, i));
           Random random(seed + 1000u * static_cast<unsigned>(i) + static_cast<unsigned>(-depth * 10 + aspect));
           expect_cell<Dim>(cell, random, worst);
-          if (testing::Test::HasFailure()) return;  // the first cell that fails says enough
+          if (testing::Test::HasFailure()) return;  // the first cell that fails is enough
         }
   testing::Test::RecordProperty(fmt::format("worst_share_of_point_{}d", Dim), fmt::format("{:.3g}", worst.point));
   testing::Test::RecordProperty(fmt::format("worst_share_of_value_{}d", Dim), fmt::format("{:.3g}", worst.value));
@@ -155,8 +155,9 @@ TEST(CentreLong, DenseGrid) {
 
 // ---- A2, A3: closed forms -------------------------------------------------------------------------------------------
 
-TEST(Centre, CopiesOfAPlanePullAsTheirNumber) {
-  // max (k+1) log(1 - x) + log(1 + x): x = -k/(k + 2); a plane as far as 10 pulls less, and never the other way
+TEST(Centre, CopiesOfAPlaneCountByTheirNumber) {
+  // max (k+1) log(1 - x) + log(1 + x): x = -k/(k + 2); a plane as far as 10 shifts it less, and never in the other
+  // direction
   double last_near = 1, last_far = 1;
   for (const int copies : {0, 1, 2, 3, 10, 100, 1000}) {
     HalfSpaces<3> near = shapes::cube<3>(1), far = near;
@@ -188,7 +189,8 @@ TEST(Centre, IsFoundFromNextToTheBoundary) {
       const Matrix<3> axes = matrix(shapes::orientation<3>(random));
       const HalfSpaces<3> planes =
           shapes::placed<3>(shapes::box<3>({-1, -1, -thin}, {1, 1, thin}), axes, Vector<3>::Zero());
-      // near a face, an edge, a corner: 10^-k of the half width away from it, where the coordinates' rounding lets it
+      // near a face, an edge, a corner: 10^-k of the half width away from it, as far as the coordinates' rounding
+      // permits
       const double fraction = std::pow(10.0, -k);
       for (int kind = 1; kind <= 3; ++kind) {
         Vector<3> start(kind > 2 ? 1 - fraction : 0.3, kind > 1 ? -1 + fraction : 0.2, thin * (1 - fraction));
@@ -210,7 +212,7 @@ TEST(Centre, IsFoundFromNextToTheBoundary) {
 
 // ---- A5: continuity -------------------------------------------------------------------------------------------------
 
-// A cube goes over from a corner to an edge to a face on another one at equal depth; warm from step to step.
+// A cube turns from a corner to an edge to a face on another one at equal depth; warm from step to step.
 struct Jumps {
   double point = 0, normal = 0, overlap = 0, area = 0;
 };
@@ -221,7 +223,7 @@ Jumps largest_jumps(int steps) {
   Jumps jumps;
   Contact<3> last;
   for (int i = 0; i <= steps; ++i) {
-    // first one tilt goes to 0 and beyond, then the other
+    // first one tilt passes through 0, then the other
     const double way = 2.0 * i / steps;
     const double first = 0.2 * std::max(0.0, 1 - way), second = 0.15 * std::min(1.0, 2 - way);
     const Matrix<3> turn =
@@ -243,7 +245,8 @@ Jumps largest_jumps(int steps) {
   return jumps;
 }
 
-// a jump would stay as it is however small the steps; what is continuous and has a slope halves with them
+// a jump would stay the same at any size of the steps; the changes of a continuous function with a slope halve with
+// them
 void expect_no_jump(int steps) {
   const Jumps coarse = largest_jumps(steps), fine = largest_jumps(2 * steps);
   constexpr double halved = 0.55;

@@ -1,5 +1,5 @@
-// Every answer of the contact kernel against exact arithmetic: decisions, what proves them, overlaps, faces, areas.
-// Rows L1, L2, L4-L7, L10 of the catalogue of extremes (L3 is below, L8 is slicing_test's MakeBlock.NamesWhatIsWrong,
+// Every result of the contact kernel against exact arithmetic: decisions, their proofs, overlaps, faces, areas.
+// Rows L1, L2, L4-L7, L10 of the catalogue of extremes (L3 is below, L8 is slicing_test's MakeBlock.NamesTheFault,
 // L9 symmetry_test).
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace {
 using families::Tally;
 using shapes::Random;
 
-// cddlib works in processes of its own; the machine that judges changes has two cores
+// cddlib works in processes of its own; the machine that checks changes has two cores
 constexpr int processes = 2;
 
 constexpr std::uint64_t seed = 20240;
@@ -33,7 +33,7 @@ void expect_no_promise_broken(long long first, long long last) {
   const std::string broken = families::judge_all<Dim>(seed, first, last, processes, tally);
   if (!broken.empty()) ADD_FAILURE() << broken;
   if (!broken.empty() || last - first > 100'000) print(tally);
-  // every kind of answer was asked for, cold and warm
+  // every kind of result has occurred, cold and warm
   const long long cases = last - first;
   for (const char* start : {"cold, ", "warm, ", "central path, cold, ", "central path, warm, "}) {
     EXPECT_EQ(tally.counts[std::string(start) + "decisions"], cases);
@@ -55,17 +55,17 @@ void expect_no_promise_broken(const std::vector<long long>& numbers) {
       ADD_FAILURE() << fmt::format("numbered_case<{}>({}, {}): {}, {}", Dim, seed, number, f.promise, f.figures);
 }
 
-TEST(Certainty, NoAnswerIsWrongAndEveryProofHolds3D) {
+TEST(Certainty, NoResultIsWrongAndEveryProofHolds3D) {
   expect_no_promise_broken<3>(0, 14'000);
 }
-TEST(Certainty, NoAnswerIsWrongAndEveryProofHolds2D) {
+TEST(Certainty, NoResultIsWrongAndEveryProofHolds2D) {
   expect_no_promise_broken<2>(0, 6'000);
 }
 
-// ---- what a million pairs found -------------------------------------------------------------------------------------
+// ---- findings of a million pairs ------------------------------------------------------------------------------------
 
-// the program in double had a value beyond 64 ulp or none, and so the pair was undecided or without an answer
-TEST(Certainty, ProgramsThatDoubleDoesNotSettleAreSettled) {
+// the program in double had a value beyond 64 ulp or none, and so the pair was undecided or without a result
+TEST(Certainty, ProgramsThatDoubleDoesNotDecideAreDecided) {
   expect_no_promise_broken<3>({126834, 131767, 162027, 220194, 236073, 258353, 282734, 310253, 360366,
                                408152, 418094, 437974, 445973, 446372, 450714, 456112, 486567, 540294,
                                571232, 575512, 592933, 594612, 649274, 759892, 760007, 760647});
@@ -90,7 +90,7 @@ TEST(Certainty, CentresAreReachedFromNextToAPlane) {
 // in eight parts, so that one that was interrupted need not begin again: --gtest_filter=*AMillionPairsLong*/3
 class AMillionPairsLong : public testing::TestWithParam<int> {};
 
-TEST_P(AMillionPairsLong, HoldNoWrongAnswer) {
+TEST_P(AMillionPairsLong, HaveNoWrongResult) {
   constexpr long long part = 125'000, begin = 20'000;
   const int number = GetParam();
   if (number < 6)

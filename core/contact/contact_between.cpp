@@ -12,10 +12,10 @@
 namespace voussoir {
 namespace {
 
-// what a product of several rotations may be off orthonormal; beyond it the parts would be stretched visibly
+// the deviation from orthonormal of a product of several rotations; beyond it the parts would be stretched visibly
 constexpr double axes_rounding = 1e-12;
 
-// a total order, so that even 0 and -0 differ: what compares equal has the same bits
+// a total order, so that even 0 and -0 differ: numbers that compare equal have the same bits
 template <int Size>
 std::strong_ordering compare(const FixedMatrix<Size, 1>& a, const FixedMatrix<Size, 1>& b) {
   return std::lexicographical_compare_three_way(a.data(), a.data() + Size, b.data(), b.data() + Size,

@@ -1,4 +1,4 @@
-// The contact of two parts anywhere, whichever is given first: for users and tests that have no model.
+// The contact of two parts in any place and order: for users and tests without a model.
 #pragma once
 
 #include "core/base/settings.hpp"
@@ -8,7 +8,7 @@
 
 namespace voussoir {
 
-// where a part is
+// the pose of a part
 template <int Dim>
 struct Pose {
   Vector<Dim> position = Vector<Dim>::Zero();  // of the part's origin, world axes, m
@@ -18,18 +18,18 @@ struct Pose {
 template <int Dim>
 struct ContactBetween {
   ContactStatus status = ContactStatus::separated;  // `apart` never occurs: no boxes are compared
-  // Pose::position of one of the two, the same one whichever is given first; m
+  // Pose::position of one of the two, the same one in either order; m
   Vector<Dim> origin = Vector<Dim>::Zero();
   // World axes; the point relative to `origin`, so that it keeps its digits far from the world's; the normal from the
   // first part given to the second, face_a of the first. Set while touching, as far as the level goes.
   ContactGeometry<Dim> geometry;
 };
 
-// Resolves the pair from nothing. The parts are put in an order of their own first, by their faces, then by their
+// Resolves the pair without a start. The parts are put in an order of their own first, by their faces, then by their
 // placements: (a, b) and (b, a) give the same bits, but for the sign of the normal and the places of the faces.
 // Far from the world's origin only the difference of the positions counts, rounded once.
 // Throws std::invalid_argument when a part has no faces, or when a number of a placement is not finite or its axes are
-// off orthonormal by more than rounding leaves.
+// off orthonormal by more than rounding.
 template <int Dim>
 ContactBetween<Dim> contact_between(const Polytope<Dim>& a, const Pose<Dim>& at_a, const Polytope<Dim>& b,
                                     const Pose<Dim>& at_b, QueryLevel level = QueryLevel::area,

@@ -25,7 +25,7 @@ void expect_decision_by_separating_axes(std::uint64_t seed, int pairs) {
     const Polytope<Dim> b =
         shapes::centred_block<Dim>(shapes::random_planes<Dim>(random, shapes::integer(random, 0, 8), 1));
     const Matrix<Dim> turn = matrix(shapes::orientation<Dim>(random));
-    // pushed together along a direction until they nearly touch, then a step of 1e-9 to 1 either way
+    // pushed together along a direction until they nearly touch, then a step of 1e-9 to 1 forwards or backwards
     const Vector<Dim> along = shapes::direction<Dim>(random);
     const double outside = distance_of_touching<Dim>(a, b, turn, along);
     const double step = shapes::power_of_ten(random, -9, 0) * (i % 2 ? 1 : -1);
@@ -64,7 +64,7 @@ TEST(Decision, TouchingExactlyIsNoContact) {
         EXPECT_EQ(touch<2>(square, square, Vector<2>(x, y)).contact.status, ContactStatus::undecided);
       }
     }
-  // and the smallest overlap that counts is one
+  // and the smallest overlap that counts is a contact
   EXPECT_EQ(touch<3>(cube, cube, Vector<3>(0, 0, 1 - 1e-12)).contact.status, ContactStatus::touching);
   EXPECT_EQ(touch<3>(cube, cube, Vector<3>(0, 0, 1 + 1e-12)).contact.status, ContactStatus::separated);
 }
@@ -126,7 +126,7 @@ TEST(ClosedForm, CrossedEdgesMeetAlongTheirCommonPerpendicular) {
     for (int i = 0; i < 10; ++i) {
       const double angle = i == 0 ? std::numbers::pi / 2 : shapes::uniform(random, 0.02, std::numbers::pi - 0.02);
       const Matrix<3> about_z = Eigen::AngleAxisd(angle, Vector<3>::UnitZ()).toRotationMatrix();
-      // the first body sees the world turned back
+      // in the frame of the first body the world is turned back
       const Matrix<3> turn = on_edge.transpose() * about_z * on_edge;
       const Vector<3> up = on_edge.transpose() * Vector<3>::UnitZ();
       const ContactGeometry<3> g = touch<3>(cube, cube, turn, (2 * half_diagonal - overlap) * up).contact.geometry;
@@ -150,7 +150,7 @@ TEST(ClosedForm, AVertexOnAFace) {
     EXPECT_LT((g.normal - Vector<3>::UnitZ()).norm(), point_tolerance);
     EXPECT_NEAR(g.overlap, depth, point_tolerance * depth);
     EXPECT_LT(g.point.head<2>().norm(), point_tolerance);
-    // four flanks against one lid and five far planes: slack s of the lid where 1/s = 4/(depth - s), s = depth/5
+    // four flanks against one lid and five far planes: slack s of the lid by 1/s = 4/(depth - s), s = depth/5
     EXPECT_NEAR(g.point[2], 3 - depth / 5, 2 * depth * depth + point_tolerance * depth);
     EXPECT_NEAR(g.area, 2 * std::pow(3 - g.point[2] - depth, 2), area_tolerance * depth * depth + 1e-15);
   }
@@ -187,7 +187,7 @@ TEST(SectionArea, AgreesWithLasserresRecursion) {
 }
 
 // Eq. 3.36
-TEST(OverlapAlong, FindsTheEndsAndSaysWhenThereAreNone) {
+TEST(OverlapAlong, FindsTheEndsAndReportsWhenThereAreNone) {
   HalfSpaces<3> planes = shapes::cube<3>(1);
   for (const HalfSpace<3>& p : shapes::box<3>({-1, -1, 0.5}, {1, 1, 3}))
     planes.push_back(p);
@@ -216,7 +216,7 @@ TEST(ContactNormal, TurnsGraduallyAsAPointRoundsAnEdge) {
   const int steps = 4000;
   for (int i = 0; i <= steps; ++i) {
     const double angle = std::numbers::pi / 2 * i / steps;
-    // on a circle around the corner, deep enough to touch all the way
+    // on a circle around the corner, deep enough to touch throughout
     const Vector<2> offset =
         Vector<2>(1, 1) - Vector<2>(0.02, 0.02) + 0.1 * Vector<2>(std::cos(angle), std::sin(angle));
     const Outcome<2> r = touch<2>(large, small, Matrix<2>::Identity(), offset, {.potential_radius = 2});
@@ -257,7 +257,7 @@ void expect_symmetry(std::uint64_t seed, int pairs) {
     EXPECT_EQ(h.face_a, g.face_b);
     EXPECT_EQ(h.face_b, g.face_a);
 
-    // powers of two change the unit, and not one bit else
+    // powers of two change the unit, and no bit of anything else
     for (const double factor : {0x1p-10, 0x1p13}) {
       const ContactGeometry<Dim> s =
           touch<Dim>(shapes::scaled_block<Dim>(a, factor), shapes::scaled_block<Dim>(b, factor), turn, factor * offset)
@@ -284,7 +284,7 @@ TEST(Symmetry, SwappingThePartsReversesTheNormal2D) {
 // planes and points from one frame to another: Eqs 3.22-3.26
 TEST(ContactBetween, CubesFarFromTheOrigin) {
   const Polytope<3> cube = unit_cube<3>();
-  // a quarter turn about x: what was up points along -y
+  // a quarter turn about x: up becomes -y
   Matrix<3> quarter;
   quarter << 1, 0, 0, 0, 0, -1, 0, 1, 0;
   // multiples of 2^-10 stay exact so far out
@@ -308,7 +308,7 @@ TEST(ContactBetween, CubesFarFromTheOrigin) {
   EXPECT_EQ(contact_between<3>(cube, low, cube, high, QueryLevel::overlap).geometry.area, 0);
 }
 
-TEST(ContactBetween, RefusesWhatIsNoPlacement) {
+TEST(ContactBetween, RefusesInvalidPlacements) {
   const Polytope<2> square = unit_cube<2>();
   const Pose<2> here;
   Pose<2> nowhere, stretched, skewed;

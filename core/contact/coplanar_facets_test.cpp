@@ -1,5 +1,5 @@
-// A face that consists of several facets, coplanar but for a noise, acts as one face: a block that rests on one point
-// of such faces neither tilts nor sinks by more than the noise, however large or small it is.
+// A face that consists of several facets, coplanar but for a noise, acts as one face: a block supported at one point of
+// such faces neither tilts nor sinks by more than the noise, of any size.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -84,10 +84,10 @@ Model<Dim> on_base(const Maker<Dim>& base, const Maker<Dim>& block, double stiff
   return model;
 }
 
-// ---- at rest --------------------------------------------------------------------------------------------------------
+// ---- in equilibrium -------------------------------------------------------------------------------------------------
 
-// A facet leans by some three times the noise over its extent at most, and both bodies have facets; a face that counts
-// double tilts the block by a quarter to all of `depth` over its size.
+// A facet is inclined by at most some three times the noise over its extent, and both bodies have facets; a face that
+// counts twice tilts the block by a quarter to all of `depth` over its size.
 constexpr double leaning = 10;
 
 struct Case {
@@ -96,7 +96,7 @@ struct Case {
   // Of the depth: the forces balance to 1e-6 (EquilibriumSettings), and a moment of that times the weight turns the
   // block by some ten times that of depth over size.
   double rest = 1e-5;
-  bool closed_form = true;  // depth = weight / (stiffness area); else what one face each does
+  bool closed_form = true;  // depth = weight / (stiffness area); else the result of one face each
 };
 
 struct Rest {
@@ -157,17 +157,18 @@ TEST(CoplanarFacets, ActAsOneFaceInThePlane) {
 
 const std::vector<double> some_noises{1e-12, 1e-10, 3e-9, 1e-7, 3e-6};
 
-// pressed in by a fortieth of the largest overlap that is expected
+// pressed in by a fortieth of the largest expected overlap
 TEST(CoplanarFacets, ActAsOneFaceOfASoftJoint) {
   const Case soft{.stiffness = 1e8};
   expect_noise_to_be_harmless<3>(soft, 73, some_noises);
   expect_noise_to_be_harmless<2>(soft, 74, some_noises);
 }
 
-// Between faces that lean Newton's method leaves what its one increment slips: 1e-8 to 5e-7 rad, single faces too.
-TEST(CoplanarFacets, ActAsOneFaceForNewtonsMethodOnJoints) {
+// Between inclined faces the static solver leaves the slip of its one increment: 1e-8 to 5e-7 rad, for single faces
+// too.
+TEST(CoplanarFacets, ActAsOneFaceForTheStaticSolver) {
   Case c{.rest = 0.05};
-  c.settings.damping.statics = Statics::newton;
+  c.settings.statics.method = Statics::newton;
   expect_noise_to_be_harmless<3>(c, 75, some_noises);
   expect_noise_to_be_harmless<2>(c, 76, some_noises);
 }
@@ -180,8 +181,8 @@ TEST(CoplanarFacets, ActAsOneFaceOnTheCentralPath) {
   expect_noise_to_be_harmless<2>(c, 78, some_noises);
 }
 
-// At the first touch an edge or a corner may be all that overlaps, by any depth down to rounding: its area is no
-// measure of the step, in which the block then went 1e9 to 1e25 m away.
+// At the first touch only an edge or a corner may overlap, by any depth down to rounding: its area is no measure for
+// the time step, after which the block was once 1e9 to 1e25 m away.
 template <int Dim>
 void expect_no_flight(double depth) {
   const auto turned_box = [&](const Box<Dim>& box) {
@@ -195,7 +196,7 @@ void expect_no_flight(double depth) {
   };
   settle<Dim>(on_base<Dim>(exact_box<Dim>, turned_box, 1e9), {});
 }
-TEST(CoplanarFacets, AFirstTouchByRoundingIsNoFlight) {
+TEST(CoplanarFacets, AFirstTouchByRoundingEjectsNoBlock) {
   for (double depth = 1e-15; depth < 1e-6; depth *= 1.7) {
     SCOPED_TRACE(depth);
     expect_no_flight<2>(depth);
@@ -203,7 +204,7 @@ TEST(CoplanarFacets, AFirstTouchByRoundingIsNoFlight) {
   }
 }
 
-// What a part is to a potential particle: its potential 1 at r outside a face, by facets too.
+// The form of a part for a potential particle: its potential 1 at r outside a face, by facets too.
 template <int Dim>
 void expect_the_potential_of_one_face(int seed) {
   constexpr double fraction = 0.02;
@@ -233,7 +234,7 @@ TEST(CoplanarFacets, ActAsOneFaceOnPotentialParticles) {
 
 // ---- weights --------------------------------------------------------------------------------------------------------
 
-// of m facets 1/m each, of faces that lean 1; in between without a jump
+// of m facets 1/m each, of inclined faces 1; in between without a jump
 TEST(CoplanarFacets, ShareTheWeightOfTheirFace) {
   for (const double angle :
        {0.0, 1e-16, 1e-12, 1e-9, 1e-6, 0.5 * leans_apart, 0.999 * leans_apart, 1.001 * leans_apart}) {
@@ -245,13 +246,13 @@ TEST(CoplanarFacets, ShareTheWeightOfTheirFace) {
     EXPECT_EQ(weights.empty(), !(angle < leans_apart));
     const double shared = 1 / (2 - std::min(angle / leans_apart, 1.0));
     for (std::size_t f = 0; f < weights.size(); ++f)
-      // the chord stands for the angle: 2e-7 of it
+      // the chord replaces the angle: 2e-7 of it
       EXPECT_NEAR(weights[f], f == 3 || f == 5 ? shared : 1, leans_apart * leans_apart / 20) << f;
   }
 }
 
 // A plane given m times with the weight 1/m is the plane: the centre is that of the planes given once, by an oracle in
-// long double, and Newton gets there with few more iterations.
+// long double, and Newton's method needs few more iterations.
 template <int Dim>
 void expect_repeated_planes_to_count_once(int seed) {
   Random random(seed);

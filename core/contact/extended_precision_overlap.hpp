@@ -1,6 +1,6 @@
-// The overlap in extended (double-double) precision, where rounding would show. Along the normal the distance to a face
+// The overlap in extended (double-double) precision, if rounding would show. Along the normal the distance to a face
 // is its slack over the cosine between both, so a face that the normal grazes, as in slivers and blocks inside others,
-// magnifies what rounding did to its slack.
+// magnifies the rounding of its slack.
 #pragma once
 
 #include "core/contact/contact.hpp"
@@ -8,11 +8,11 @@
 
 namespace voussoir {
 
-// The overlap against the point's margin bounds both cosines from below. A slack is good to a few ulp of the pair's
+// The overlap against the point's margin bounds both cosines from below. A slack is exact to a few ulp of the pair's
 // size, so that below this an overlap is within 64; ordinary contacts stay below 10.
 inline constexpr double most_magnified = 16;
 
-// Measures a touching contact's overlap and the faces that end it once more, at the point and along the axis of its
+// Measures a touching contact's overlap and the faces that end it again, at the point and along the axis of its
 // proof, from the parts' own planes.
 template <int Dim>
 void measure_overlap_in_extended_precision(const Pair<Dim>& pair, Contact<Dim>& contact);

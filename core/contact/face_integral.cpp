@@ -10,11 +10,11 @@
 namespace voussoir {
 namespace {
 
-// A polygon so much smaller than the square that it was cut from has lost digits to the square: it is cut again from a
+// A polygon so much smaller than the square from which it was cut has lost digits to the square: it is cut again from a
 // smaller one. One pass keeps them to 6 times the rounding of the polygon's own size; a cube's face needs 3.5.
 constexpr double lost_digits = 6;
 
-// and that often: each time the square is at least an eighth of what it was
+// and that often: each time the square is at least an eighth of the last one
 constexpr int most_cuts = 24;
 
 // Numbers on the mean plane: coordinates y in its axes from `origin`, the overlap u = at_origin + gradient·y.
@@ -37,7 +37,7 @@ struct MeanPlane {
     gradient = -along(sum) / c;
   }
 
-  // what of a vector lies in it
+  // the part of a vector in it
   FixedMatrix<Dim - 1, 1> along(const Vector<Dim>& v) const {
     FixedMatrix<Dim - 1, 1> y;
     for (int k = 0; k < Dim - 1; ++k)
@@ -46,14 +46,14 @@ struct MeanPlane {
   }
 };
 
-// What of the mean plane a side plane leaves: q·y <= slack. |q| is the sine between both.
+// The half of the mean plane within a side plane: q·y <= slack. |q| is the sine between both.
 template <int Flat>
 struct Edge {
   FixedMatrix<Flat, 1> q;
   double slack;
   int plane;
 };
-constexpr int pressed_edge = -1;  // where the overlap ends
+constexpr int pressed_edge = -1;  // the end of the overlap
 
 // calls `with` for each of them
 template <int Dim, class With>
@@ -75,13 +75,13 @@ template <int Dim, class With>
   with(Edge<Dim - 1>{-mean.gradient, mean.at_origin, pressed_edge});
 }
 
-// Side planes of both parts are flush that lie less than this many overlaps apart: about as far as shear springs shift
-// blocks before they slip, the friction times kn over ks. And less than this part of the pressed width; and within five
+// Side planes of both parts are flush if less than this many overlaps apart: about as far as shear springs shift blocks
+// before they slip, the friction times kn over ks. And by less than this part of the pressed width; and within five
 // degrees of parallel (1 - cos²).
 constexpr double flush_overlaps = 10, flush_width = 0.02, flush_sine2 = 0.0076;
 
-// What lies along an edge of the segment or polygon, over |q|. Where a plane of the other part is flush, both share it:
-// half each where they coincide.
+// The integrals along an edge of the segment or polygon, over |q|. If a plane of the other part is flush, both share
+// it: half each if they coincide.
 template <int Flat>
 struct Border {
   int plane;
@@ -94,7 +94,8 @@ struct Border {
 template <int Flat>
 using Borders = std::vector<Border<Flat>>;
 
-// With a plane that lies `behind` it, m, of `within`, m; `sine2` of the angle between both. Where it ends, it fades.
+// With a plane that is `behind` it, m, of `within`, m; `sine2` of the angle between both. It decreases to zero at the
+// end.
 template <int Flat>
 void share_with(int plane, double behind, double within, double sine2, Border<Flat>& border) {
   if (!(behind < within && sine2 < flush_sine2)) return;
@@ -104,8 +105,8 @@ void share_with(int plane, double behind, double within, double sine2, Border<Fl
   border.twins = share;
 }
 
-// The sums over a segment or polygon, coordinates of the mean plane. Of the overlap from its values in the corners: on
-// a needle that presses along one side, its second moment across is lost in the one along.
+// The sums over a segment or polygon, coordinates of the mean plane. Those of the overlap from its values in the
+// corners: on a needle pressed along one side, its second moment across is lost in the one along.
 template <int Flat>
 struct Sums {
   double area = 0, volume = 0, square = 0, polar = 0;
@@ -159,7 +160,7 @@ bool measure(const HalfSpaces<2>& planes, int faces_a, int face_a, int face_b, c
   return true;
 }
 
-// A square about a point, cut by all edges as clip_polygon does; most leave it as it is, which is seen first.
+// A square about a point, cut by all edges as clip_polygon does; most do not change it, which is checked first.
 struct CutPolygon {
   struct Corner {
     double x, y;
@@ -167,11 +168,11 @@ struct CutPolygon {
   };
   std::vector<Corner> own[2];
   std::vector<double> left;
-  std::vector<Edge<2>> cuts;  // and what passes by no farther than `near`
+  std::vector<Edge<2>> cuts;  // and those that pass by within `near`
   Corner* corners = nullptr;
   std::size_t count = 0;
   double reach = 0;  // of every corner along both axes, from the point
-  double near = 0;   // m: farther behind no plane is flush
+  double near = 0;   // m: no plane farther behind is flush
 
   [[gnu::always_inline]] void cut(const Edge<2>& e, const Vector<2>& about, Corner*& then) {
     const double qx = e.q[0], qy = e.q[1], slack = e.slack - (qx * about[0] + qy * about[1]);
@@ -215,7 +216,7 @@ struct CutPolygon {
 
   void cut_all(const HalfSpaces<3>& planes, int face_a, int face_b, const MeanPlane<3>& mean, const Vector<2>& about,
                double half) {
-    // each edge adds a corner at most; a polygon that rounding has bent may ask for more, and is left without
+    // each edge adds a corner at most; a polygon that rounding has bent may need more, and does without
     const std::size_t most = 2 * planes.size() + 8;
     if (left.size() < most) {
       own[0].resize(most);
@@ -353,7 +354,7 @@ bool integrate_face(const HalfSpaces<Dim>& planes, int faces_a, int face_a, int 
   face.moment = moment(face.pressure, face.force) - 0.25 * sums.square / (c * c) * moment(b.normal, a.normal);
   face.least_sine2 = 1;
   face.flush = false;
-  // what of its square an edge pulls with, as either part's plane
+  // the share of its square with which an edge pulls, as either part's plane
   const auto pull_of = [&](int plane) {
     const Vector<Dim>& normal = planes[plane].normal;
     return Vector<Dim>(0.125 / c * normal.dot(mean.normal) * sum + (plane < faces_a ? -0.25 : 0.25) * normal);

@@ -1,4 +1,4 @@
-// The contact polygon of faces and what is integrated over it: against exact arithmetic, and as derivatives of the
+// The contact polygon of faces and the integrals over it: against exact arithmetic, and as derivatives of the
 // energy.
 #include "core/contact/face_integral.hpp"
 
@@ -34,7 +34,7 @@ HalfSpace<Dim> side(const Vector<Dim>& across, double distance, double lean) {
   return {normal, normal.dot(distance * across)};
 }
 
-// one part's sides around a middle; flush: those of the other part over again
+// one part's sides around a middle; flush: the same as those of the other part
 template <int Dim>
 void add_sides(Random& random, double radius, HalfSpaces<Dim>& planes) {
   const int count = Dim == 2 ? 2 : integer(random, 3, 8);
@@ -52,7 +52,8 @@ void add_sides(Random& random, double radius, HalfSpaces<Dim>& planes) {
   }
 }
 
-// faces parallel, all but, or up to some 25 degrees apart; overlaps 1e-10 to 0.1 of their size; sizes 1 mm to 10 km
+// faces parallel, nearly parallel, or up to some 25 degrees apart; overlaps 1e-10 to 0.1 of their size; sizes 1 mm to
+// 10 km
 template <int Dim>
 Faces<Dim> faces(Random& random) {
   const double size = power_of_ten(random, -3, 4);
@@ -68,7 +69,7 @@ Faces<Dim> faces(Random& random) {
   const double angle = kind == 0   ? 0
                        : kind == 1 ? std::abs(overlap) / size * uniform(random, 0, 2)
                                    : power_of_ten(random, -9, -0.7);
-  const double split = uniform(random, 0, 1);  // where the point they are seen from lies between them
+  const double split = uniform(random, 0, 1);  // position between them of the point from which they are seen
   Faces<Dim> f;
   f.planes.push_back({leaning(angle), split * overlap});
   add_sides<Dim>(random, size, f.planes);
@@ -84,7 +85,7 @@ Faces<Dim> faces(Random& random) {
     for (std::size_t k = f.faces_a + 1; k < f.planes.size(); ++k)
       f.planes[k].offset += f.planes[k].normal.dot(shift);
   }
-  // turned as a whole, seen from a point inside
+  // turned rigidly, seen from a point inside
   const Matrix<Dim> axes = matrix(shapes::orientation<Dim>(random));
   for (HalfSpace<Dim>& p : f.planes)
     p.normal = axes * p.normal;
@@ -108,7 +109,7 @@ exact::Planes exact_planes(const HalfSpaces<2>& planes) {
 
 struct Score {
   long long pressed = 0, open = 0, needles = 0;
-  double worst = 0;  // of what was promised
+  double worst = 0;  // of the promised accuracy
   std::string worst_is;
 
   void judge(double is, const exact::Quad& should, const exact::Quad& scale, double allowed, const std::string& what) {
@@ -165,7 +166,7 @@ Score judge_all(std::uint64_t first, std::uint64_t last) {
   return score;
 }
 
-// ---- what the force is the derivative of ----------------------------------------------------------------------------
+// ---- the force as a derivative --------------------------------------------------------------------------------------
 
 // two boxes on each other, B's turned and moved by small amounts; seen from the origin
 struct Boxes {
@@ -195,8 +196,8 @@ Boxes boxes(double tilt, const Vector<3>& way, const Vector<3>& turn) {
   return result;
 }
 
-// Along every freedom, dE/k against -F·w - M·t: fully pressed and, from a tilt of 0.02 on, with an end that lifts off.
-// Central differences of 1e-6 leave 1e-10 of the energy's third derivative, some 1.
+// Along every degree of freedom, dE/k against -F·w - M·t: fully pressed and, from a tilt of 0.02 on, with an end that
+// lifts off. Central differences of 1e-6 leave 1e-10 of the energy's third derivative, some 1.
 TEST(FaceIntegral, ForceAndMomentAreTheDerivativeOfTheEnergy) {
   for (const double tilt : {0.0, 1e-3, 0.02, 0.2, 0.4}) {
     const Boxes at = boxes(tilt, Vector<3>::Zero(), Vector<3>::Zero());
@@ -215,14 +216,14 @@ TEST(FaceIntegral, ForceAndMomentAreTheDerivativeOfTheEnergy) {
   }
 }
 
-TEST(FaceIntegral, IsRightByExactArithmetic) {
+TEST(FaceIntegral, AgreesWithExactArithmetic) {
   const Score score = judge_all(0, 20'000);
   EXPECT_GT(score.pressed, 10'000);
   EXPECT_GT(score.open, 1'000);
   EXPECT_LE(score.worst, 1) << score.worst_is;
 }
 
-TEST(FaceIntegralLong, IsRightByExactArithmetic) {
+TEST(FaceIntegralLong, AgreesWithExactArithmetic) {
   const Score score = judge_all(20'000, 1'020'000);
   EXPECT_GT(score.pressed, 500'000);
   EXPECT_LE(score.worst, 1) << score.worst_is;

@@ -1,4 +1,4 @@
-// Which contacts are carried as a whole (integrated_contact.hpp).
+// Which contacts are integrated face contacts (integrated_contact.hpp).
 #pragma once
 
 #include "core/base/settings.hpp"
@@ -6,7 +6,7 @@
 
 namespace voussoir {
 
-// what can be integrated: constant stiffness per area, constant friction, no bond
+// joints that can be integrated: constant stiffness per area, constant friction, no bond
 inline bool can_be_integrated(const JointProperties& properties) {
   return !properties.constant_stiffness && properties.laws.is_plain();
 }

@@ -11,19 +11,20 @@
 namespace voussoir {
 namespace {
 
-// Where the largest overlap is less than this fraction of the contact polygon's width, both energies agree within
-// all_face and the polygon's is the answer (a test draws pairs of faces).
+// If the largest overlap is less than this fraction of the contact polygon's width, both energies agree within all_face
+// and the polygon's is used (a test draws pairs of faces).
 constexpr double flat_overlap = 0.02;
 
-// Cosine of 25 degrees. Faces farther from parallel do not lie on each other: at an angle t they meet in a wedge, whose
-// energies differ by t/2 over the sine of its far end, which is more than all_region.
+// Cosine of 25 degrees. Faces farther from parallel do not rest on each other: at an angle t they meet in a wedge,
+// whose energies differ by t/2 over the sine of its far end, which is more than all_region.
 constexpr double nearly_parallel = 0.90630778703664996;
 
-// Where the energies' ratio is so far from 1, all is the face's, or all the region's. Of two faces that meet at a blunt
-// edge the one that lies nearer to the other part's counts, until both lie alike: there the ratio is 3/4 or less.
+// Up to the first distance of the energies' ratio from 1 all is the face's, from the second on all the region's. Of two
+// faces that meet at a blunt edge the one nearer to parallel with the other part's counts, until both are equally near:
+// then the ratio is 3/4 or less.
 constexpr double all_face = 0.07, all_region = 0.2;
 
-// How much of a face presses, m: of a polygon twice the area over the perimeter, at most half its least width.
+// The pressed width of a face, m: of a polygon twice the area over the perimeter, at most half its least width.
 double width_of(const FaceIntegral<2>& face, const PressedPolygon&) {
   return face.area;
 }
@@ -37,7 +38,7 @@ double width_of(const FaceIntegral<3>& face, const PressedPolygon& polygon) {
 
 // the largest overlap on it, m
 double deepest(const FaceIntegral<2>& face, const PressedPolygon&) {
-  // linear along a segment: mean and mean square tell both ends
+  // linear along a segment: mean and mean square give both ends
   const double mean = face.volume / face.area;
   return mean + std::sqrt(std::max(3 * (face.square / face.area - mean * mean), 0.0));
 }
@@ -48,11 +49,11 @@ double deepest(const FaceIntegral<3>&, const PressedPolygon& polygon) {
   return most;
 }
 
-// Square of the sine of 25 degrees. A side plane that leans less on the polygon is a face that may lie on the other
-// part as well: then the region tells.
+// Square of the sine of 25 degrees. A side plane at a smaller angle to the polygon is a face that may rest on the other
+// part as well: then the region decides.
 constexpr double no_blunt_edge = 0.17860619515673035;
 
-// of both parts' size: distances from planes are known at least so well
+// of both parts' size: a bound of the error of distances from planes
 constexpr double surely_inside = 1e-13;
 
 // g and its derivative; `flat`: not all is the region's
@@ -70,10 +71,10 @@ Blend blend(double ratio) {
   return {ratio + h * (1 - ratio), 1 - h + h_slope * (1 - ratio), true};
 }
 
-// the polygon's axes in the world, laid normal to the force
+// the polygon's axes in the world, turned normal to the force
 void turn_axes(const Matrix<2>&, const Vector<2>&, const Vector<2>&, PressedPolygon&) {}
 void turn_axes(const Matrix<3>& axes, const Vector<3>& mean_normal, const Vector<3>& normal, PressedPolygon& polygon) {
-  // by the turn that takes one normal to the other, which are less than half a right angle apart
+  // by the rotation of one normal to the other, which are less than half a right angle apart
   const Vector<3> turn = mean_normal.cross(normal);
   const double half = 1 / (1 + mean_normal.dot(normal));
   const Vector<3> first = axes * polygon.axes.col(0), across = turn.cross(first);
@@ -121,7 +122,7 @@ void without_pressure(const Pair<Dim>& pair, const HalfSpaces<Dim>& planes, Cont
   face.polygon.corners.clear();
 }
 
-// What presses, from the integrals over the faces and over the region as far as either has a share; places as seen from
+// The contact force, from the integrals over the faces and over the region by their shares; places as seen from
 // contact.proof.point.
 template <int Dim>
 void answer(const Pair<Dim>& pair, const HalfSpaces<Dim>& planes, const FaceIntegral<Dim>& f,
@@ -148,7 +149,7 @@ void answer(const Pair<Dim>& pair, const HalfSpaces<Dim>& planes, const FaceInte
     about += share.slope * r.moment;
   }
   const double size = force.norm();
-  if (!(size > 0)) return without_pressure<Dim>(pair, planes, contact, face);  // deep in the other, on all sides alike
+  if (!(size > 0)) return without_pressure<Dim>(pair, planes, contact, face);  // deep in the other on all sides
   ContactGeometry<Dim>& g = contact.geometry;
   g.point = pair.axes * (contact.proof.point + point);
   face.force = pair.axes * force;
@@ -207,7 +208,7 @@ template <int Dim>
 bool integrate_as_before(const Pair<Dim>& pair, Contact<Dim>& contact, IntegratedContact<Dim>& face) {
   const ContactGeometry<Dim>& g = contact.geometry;
   if (contact.proof.kind != ProofKind::interior_point || g.face_a < 0) return false;
-  // of most corners and edges this is soon seen
+  // for most corners and edges this is soon decided
   if (!(g.overlap < flat_overlap * (Dim == 2 ? g.area : std::sqrt(g.area)))) return false;
   const Vector<Dim>&normal_a = pair.a->faces[g.face_a].normal, &normal_b = pair.b->faces[g.face_b].normal;
   if (!(-normal_a.dot(pair.rotation * normal_b) > nearly_parallel)) return false;

@@ -1,11 +1,11 @@
-// A contact as a whole: what the overlap of two parts does as a spring with stiffness per area, in place of the force
-// at one point. Where two faces lie on each other, exactly over their contact polygon (face_integral.hpp); elsewhere by
-// the depth of the overlap (region_integral.hpp). Between both energies, E_f and E_r, r = E_r / E_f,
+// An integrated face contact: the overlap of two parts as a spring with stiffness per area, in place of the force at
+// one point. If two faces rest on each other, exactly over their contact polygon (face_integral.hpp); otherwise by the
+// depth of the overlap (region_integral.hpp). Between both energies, E_f and E_r, r = E_r / E_f,
 //
 //   E = E_f g(r),   g = 1 within 7 % of r = 1, g = r beyond 20 %, a cubic without a kink between,
 //
-// so that a face that rocks onto its edge, and on to its corner, meets one energy, whose derivative the force is:
-// F = (g - r g') F_f + g' F_r, and the moment likewise.
+// so that a face that rocks onto its edge, and further onto its corner, has a single energy, whose derivative the force
+// is: F = (g - r g') F_f + g' F_r, and the moment likewise.
 #pragma once
 
 #include "core/contact/contact.hpp"
@@ -19,31 +19,31 @@ template <int Dim>
 struct IntegratedContact {
   bool flat = false;                         // two faces press: shear acts on their polygon, and twist with it
   Vector<Dim> normal = Vector<Dim>::Zero();  // of the plane that shear acts in, from the first to the second, unit
-  Vector<Dim> centre = Vector<Dim>::Zero();  // where it acts: centre of the polygon, else of the pressure, m
+  Vector<Dim> centre = Vector<Dim>::Zero();  // point of action: centre of the polygon, else of the pressure, m
   Vector<Dim> force = Vector<Dim>::Zero();   // on the second part, at the contact's point, m³
   Spin<Dim> couple = Spin<Dim>::Zero();      // and the moment besides, m⁴
   double square = 0;                         // 2 E / k, m⁴
   double polar = 0;                          // twisting stiffness over the shear stiffness, m⁴; 0: none
-  double gyration2 = 0;                      // m²: what the contact about its point adds to rocking and spin, at most
+  double gyration2 = 0;                      // m²: bound of the contact's part in rocking and spin about its point
   PressedPolygon polygon;                    // flat, in space
 };
 
-// The faces of a touching pair that may lie on each other: of each part the one nearest to a point in the overlap, its
+// The faces of a touching pair that may rest on each other: of each part the one nearest to a point in the overlap, its
 // analytic centre (contact.proof.point), into contact.geometry. `planes`: of both parts as seen from there, the first
 // part's first.
 template <int Dim>
 void find_nearest_faces(const Pair<Dim>& pair, Contact<Dim>& contact, HalfSpaces<Dim>& planes);
 
-// Needs what that has found. The geometry becomes that of the whole: the centre of pressure, the force's direction, the
-// area, and the mean overlap, which times k and the area is the force; the faces stay. Where nothing presses, area,
-// overlap and force are zero. False: more planes bound the overlap than integrate_region takes.
+// Needs the result of that. The geometry becomes that of the integrated contact: the centre of pressure, the force's
+// direction, the area, and the mean overlap, which times k and the area is the force; the faces are kept. Without
+// pressure, area, overlap and force are zero. False: more planes bound the overlap than integrate_region takes.
 template <int Dim>
 bool integrate_contact(const Pair<Dim>& pair, const HalfSpaces<Dim>& planes, Contact<Dim>& contact,
                        IntegratedContact<Dim>& face);
 
-// The same without the kernel, of a contact that was pressed before: where its faces still lie on each other, wide
-// against how deep they press, no others can. False, and nothing is said, where that is not so. Its proof is then the
-// centre of the polygon, inside of all planes by more than rounding.
+// The same without the kernel, of a contact that was pressed before: if its faces still rest on each other, wide
+// compared with their overlap, no others can. False, without a result, if that is not so. Its proof is then the centre
+// of the polygon, inside of all planes by more than rounding.
 template <int Dim>
 bool integrate_as_before(const Pair<Dim>& pair, Contact<Dim>& contact, IntegratedContact<Dim>& face);
 

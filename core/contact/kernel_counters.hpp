@@ -4,16 +4,16 @@
 namespace voussoir {
 
 struct KernelCounters {
-  long long evaluations = 0;   // pairs looked at
-  long long motion_skips = 0;  // not even looked at: too far apart for what the bodies moved (core/step/neighbours)
+  long long evaluations = 0;   // pairs evaluated
+  long long motion_skips = 0;  // not evaluated: too far apart for the bodies' motion (core/step/neighbours)
   long long axis_hits = 0;     // still separated by the axis of the step before
   long long point_hits = 0;    // still touching at the point of the step before
-  long long cold_starts = 0;   // resolved from nothing
-  long long undecided = 0;     // nearer to touching than rounding can tell
+  long long cold_starts = 0;   // resolved without a start
+  long long undecided = 0;     // nearer to touching than rounding resolves
   long long lp_solves = 0;
   long long lp_pivots = 0;
   long long newton_iterations = 0;
-  long long centre_fallbacks = 0;  // Newton failed, Ipopt answered
+  long long centre_fallbacks = 0;  // Newton failed, Ipopt succeeded
   long long areas = 0;
   long long normal_fallbacks = 0;  // normals taken from a face or from the LP's multipliers
   long long deep_overlaps = 0;     // overlaps beyond the potential particle's radius

@@ -20,7 +20,7 @@ constexpr double rounding = 1e-14;
 
 // ---- closed forms ---------------------------------------------------------------------------------------------------
 
-// half of the multipliers' sum on either side: nothing gives way but the faces
+// half of the multipliers' sum on either side: only the faces are displaced
 template <int Dim>
 void expect_face_on_face() {
   const Polytope<Dim> cube = unit_cube<Dim>();
@@ -36,7 +36,7 @@ void expect_face_on_face() {
     EXPECT_NEAR(g.area, Dim == 3 ? 0.49 : 0.7, area_tolerance);
     EXPECT_EQ(cube.faces[g.face_a].normal[Dim - 1], 1);
     EXPECT_EQ(cube.faces[g.face_b].normal[Dim - 1], -1);
-    // the planes that were tight are so again: nothing to do but to look
+    // the planes that were tight are so again: only a check is needed
     const Outcome<Dim> warm = touch<Dim>(cube, cube, Matrix<Dim>::Identity(), offset, by_multipliers, r.contact);
     EXPECT_LE(warm.counters.lp_pivots, 1);
     EXPECT_EQ(warm.contact.geometry.overlap, g.overlap);
@@ -48,7 +48,7 @@ TEST(Multipliers, FaceOnFaceIsTheirDistance) {
   expect_face_on_face<2>();
 }
 
-// a corner in a large face, leaning any way: the face's normal, the corner's depth
+// a corner in a large face, at any inclination: the face's normal, the corner's depth
 template <int Dim>
 void expect_corner_in_face(std::uint64_t seed) {
   Random random(seed);
@@ -80,7 +80,8 @@ TEST(Multipliers, ACornerInAFaceIsItsDepth) {
 }
 
 TEST(Multipliers, CrossedEdgesAreTheDistanceOfTheirLines) {
-  // both cubes stand on an edge, the upper one leans along its own: it crosses the lower one's away from every corner
+  // both cubes stand on an edge, the upper one is tilted along its own: it crosses the lower one's away from every
+  // corner
   const Polytope<3> cube = unit_cube<3>();
   const Matrix<3> on_edge = Eigen::AngleAxisd(std::numbers::pi / 4, Vector<3>::UnitX()).toRotationMatrix();
   const double half_diagonal = std::sqrt(0.5);
@@ -106,7 +107,7 @@ TEST(Multipliers, CrossedEdgesAreTheDistanceOfTheirLines) {
 }
 
 // A needle's planes are active at its tip and all but cancel: the direction is that of the plane whose multiplier is
-// next to nothing.
+// nearly zero.
 TEST(Multipliers, ANeedlesTipHasTheFacesNormal) {
   const Polytope<3> large = shapes::block<3>(shapes::cube<3>(3));
   for (const double slope : {1e-3, 1e-7}) {
@@ -120,7 +121,7 @@ TEST(Multipliers, ANeedlesTipHasTheFacesNormal) {
       for (const auto& [contact, sign] : {std::pair(above, 1), std::pair(below, -1)}) {
         ASSERT_TRUE(contact.touching());
         EXPECT_LT((sign * contact.geometry.normal - Vector<3>::UnitZ()).norm(), 1e-6);
-        // the ball in the tip keeps from the face what it keeps from the needle's planes
+        // the ball in the tip is as far from the face as from the needle's planes
         EXPECT_LE(contact.geometry.overlap, depth * (1 + 2 * slope));
         EXPECT_GE(contact.geometry.overlap, (settings.point == ContactPoint::chebyshev ? 0.99 : 0.9) * depth);
         EXPECT_NEAR(contact.geometry.stiffness_factor, 4 * slope * slope, 0.1 * 4 * slope * slope);
@@ -144,7 +145,7 @@ double depth(const ContactGeometry<Dim>& g) {
   return 0.5 * g.overlap * std::sqrt(g.stiffness_factor);
 }
 
-// What is smoothed is never deeper than what it smooths, so that a force begins at zero, and comes close to it.
+// The smoothed overlap is never larger than the unsmoothed one and close to it, so that a force begins at zero.
 template <int Dim>
 void expect_less_by_the_smoothing(std::uint64_t seed) {
   Random random(seed);
@@ -181,7 +182,7 @@ TEST(CentralPathContact, IsLessDeepByTheSmoothing) {
   expect_less_by_the_smoothing<2>(98);
 }
 
-TEST(CentralPathContact, FaceOnFaceIsCarriedInTheMiddleAndWalksAsItRocks) {
+TEST(CentralPathContact, FaceOnFaceActsInTheMiddleAndMovesAsItRocks) {
   const Polytope<3> cube = unit_cube<3>();
   const Vector<3> offset(0, 0, 0.99);
   const double weight = smoothed.smoothing * cube.inscribed_radius;
@@ -190,15 +191,15 @@ TEST(CentralPathContact, FaceOnFaceIsCarriedInTheMiddleAndWalksAsItRocks) {
     const double angle = fraction * weight;
     const Matrix<3> turn = Eigen::AngleAxisd(angle, Vector<3>::UnitY()).toRotationMatrix();
     const ContactGeometry<3> g = touch<3>(cube, cube, turn, offset, smoothed).contact.geometry;
-    // the sides carry what their distances leave them, and nothing of it counts
+    // the sides have multipliers by their distances, which have no effect
     EXPECT_LT(g.stiffness_factor, 1);
     EXPECT_GT(g.stiffness_factor, 1 - 100 * weight - angle);
     EXPECT_LT((g.normal - Vector<3>::UnitZ()).norm(), angle + 1e-9);
     EXPECT_LE(g.overlap, 0.01 + angle);
     EXPECT_NEAR(g.point[1], 0, 1e-6);
     EXPECT_NEAR(g.area, 1, 0.01);
-    // Turned about y, the upper cube's lower face is deepest at large x. There the point goes, to where the barriers of
-    // the two sides, 2 µ/t each, hold what the tilt wins, half the sine.
+    // Turned about y, the upper cube's lower face is deepest at large x. The point moves there, until the barriers of
+    // the two sides, 2 µ/t each, balance the gain by the tilt, half the sine.
     const double x = std::abs(g.point[0]);
     if (angle > 0) {
       EXPECT_NEAR(2 / (0.5 - x) - 2 / (0.5 + x), 0.5 * fraction, 0.05 * fraction);
@@ -238,11 +239,11 @@ constexpr int steps = 8000;
 // of the force that a spring of 1 N/m puts on B around a closed path, J
 struct Loop {
   double work = 0;
-  double with_equal_stiffness = 0;  // were the stiffness the same for faces, edges and corners
+  double with_equal_stiffness = 0;  // if the stiffness were the same for faces, edges and corners
   double force_times_path = 0;
 };
 
-// B goes round a small ellipse of translations, and of rotations if it turns, about where it was pushed into A
+// B moves along a small ellipse of translations, and of rotations if it turns, about its place in A
 Loop loop_around(const Polytope<3>& a, const Polytope<3>& b, Random& random, double depth, double turning,
                  const ContactSettings& settings) {
   const Matrix<3> start = matrix(shapes::orientation<3>(random));
@@ -262,7 +263,7 @@ Loop loop_around(const Polytope<3>& a, const Polytope<3>& b, Random& random, dou
     const double phase = 2 * std::numbers::pi * k / steps, half = std::numbers::pi / steps;
     const Contact<3> contact = touch<3>(a, b, turned(phase), place(phase), settings).contact;
     if (!contact.touching()) continue;
-    // how the contact's point moves as one of B's
+    // the motion of the contact's point as one of B
     const ContactGeometry<3>& g = contact.geometry;
     const Vector<3> seen = turned(phase).transpose() * (g.point - place(phase));
     const Vector<3> moved =
@@ -299,7 +300,7 @@ void expect_a_potential(double turning) {
   EXPECT_LT(ours.work, allowed * ours.force_times_path);
   EXPECT_GT(published.work, 10 * allowed * published.force_times_path);
   EXPECT_GT(ours.with_equal_stiffness, allowed * ours.force_times_path);
-  // smoothed, it jumps nowhere
+  // smoothed, it does not jump
   const Loop smooth = loops(95, turning, smoothed);
   ASSERT_GT(smooth.force_times_path, 0);
   EXPECT_LT(smooth.work, 1e-7 * smooth.force_times_path);

@@ -72,13 +72,13 @@ void resolve_without_simd(const Pair<Dim>& pair, const ContactSettings& settings
   if (contact.status == ContactStatus::separated) keep_axis(pair, contact);
 }
 
-// nothing is known of the pair, or what was known no longer holds
+// no data are known of the pair, or they are no longer valid
 template <int Dim>
 void resolve_cold(KernelTask<Dim>& task, const ContactSettings& settings, const Solvers<Dim>& solvers,
                   KernelCounters& counters) {
   const Pair<Dim>& pair = *task.pair;
   Contact<Dim>& contact = *task.contact;
-  // then the proof holds nothing but where the program starts
+  // then the proof contains only the start of the program
   const bool was_undecided = contact.status == ContactStatus::undecided;
   if (!was_undecided) contact.proof = {};
   ++counters.cold_starts;
@@ -89,7 +89,7 @@ void resolve_cold(KernelTask<Dim>& task, const ContactSettings& settings, const 
     if (separates(pair, axis, support(*pair.a, axis), contact)) return;
   }
   contact.geometry = {};
-  // what extended precision could not decide, the SIMD kernel will not
+  // a pair that extended precision could not decide, the SIMD kernel will not
   if (on_central_path(settings) || was_undecided || has_facets(pair))
     return resolve_without_simd(pair, settings, solvers, contact, counters);
   resolve_new(task, kernel_options(settings), counters);
@@ -107,7 +107,7 @@ struct Places {
   std::size_t count = 0;
 };
 
-// by a number of planes, those with more than most have all alike; equal ones stay in their order
+// by a number of planes, all with more than `most` count as equal; equal ones stay in their order
 template <class Planes>
 Places sorted_by(const Places& places, const Planes& planes) {
   constexpr std::size_t most = 32;

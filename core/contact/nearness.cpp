@@ -22,7 +22,7 @@ double near_within(const Pair<Dim>& pair) {
   return std::min(pair.a->inscribed_radius, pair.b->inscribed_radius);
 }
 
-// The pair as the second part sees it.
+// The pair in the frame of the second part.
 template <int Dim>
 Pair<Dim> seen_from_second(const Pair<Dim>& pair) {
   return {pair.b,
@@ -33,7 +33,7 @@ Pair<Dim> seen_from_second(const Pair<Dim>& pair) {
           pair.level};
 }
 
-// How far the second part stays behind that face of the first which keeps it farthest away, rounding included.
+// The largest gap of the second part behind a face of the first, rounding included.
 template <int Dim>
 double widest_gap(const Pair<Dim>& pair) {
   const HalfSpaces<Dim>& faces = pair.a->faces;
@@ -57,15 +57,15 @@ double widest_gap(const Pair<Dim>& pair) {
   return widest;
 }
 
-// By how much at most a gap behind a face of the first part changes, for what the bodies' farthest points move: a plane
+// Bound of the change of a gap behind a face of the first part, by the motion of the bodies' farthest points: a plane
 // that turns moves more at the second part than at the first. `way` bounds that motion.
 template <int Dim>
 double lever(const Pair<Dim>& pair, double radius_a, double way) {
   return std::max(1.0, (pair.offset.norm() + pair.b->radius + way) / radius_a) / downwards;
 }
 
-// What bodies may move before the widest gap behind a face of the first part, `distance` away from a bound, crosses it.
-// A sliver's vertices may tell nothing, so that the distance is infinite.
+// The motion of bodies before the widest gap behind a face of the first part, `distance` away from a bound, crosses it.
+// A sliver's vertices may be useless, so that the distance is infinite.
 template <int Dim>
 double way_to_bound(const Pair<Dim>& pair, double radius_a, double distance) {
   const double way = std::min(distance, pair_size(pair));

@@ -1,4 +1,4 @@
-// How near two parts are: what the planes of their faces keep apart needs no contact.
+// How near two parts are: parts that a face's plane keeps apart need no contact.
 #pragma once
 
 #include "core/contact/pair.hpp"
@@ -9,7 +9,7 @@ namespace voussoir {
 // their inscribed radii: the same for any skin, and a block's own thickness keeps its two neighbours apart.
 struct Nearness {
   bool near = true;
-  double lasts = 0;  // m: as long as the ways of any point of the two bodies add up to less than this
+  double lasts = 0;  // m: as long as the paths of any point of the two bodies add up to less than this
 };
 
 // radii: the largest distances of any point of the two bodies from their centroids, m

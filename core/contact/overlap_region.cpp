@@ -12,15 +12,15 @@
 namespace voussoir {
 namespace {
 
-// the analytic centre only serves to see how the region is stretched: a tenth of the region is near enough
+// the analytic centre only shows the region's shape: a tenth of the region is near enough
 constexpr double near_the_centre = 0.1;
 constexpr int newton_limit = 200;
 
-// at the centre itself the ball's radius is less than the number of planes; this near it, less than twice that
+// at the centre itself the ball's radius is less than the number of planes; so near to it, less than twice that
 constexpr double clearance = 2;
 
 // Axes in which the region is about a ball: columns are the units, m. The barrier's Hessian Σ p pᵀ, p = a/s, at the
-// centre is an ellipsoid inside the region that, times the number of planes, holds it (Boyd & Vandenberghe
+// centre is an ellipsoid inside the region that, times the number of planes, contains it (Boyd & Vandenberghe
 // 2004, 8.5.3); by QR of the rows p it is PRᵀRPᵀ, so that x = P R⁻¹ y makes it the unit ball. False when the region is
 // open.
 template <int Dim>
@@ -50,7 +50,7 @@ bool overlap_region(const HalfSpaces<Dim>& planes, const Vector<Dim>& inside, Ov
   if (centre.status != CentreStatus::converged || !ball_axes<Dim>(near, centre.point, axes)) return false;
 
   // Normals are turned before they are divided: opposite faces stay opposite, and a flat region keeps its thickness.
-  // Planes beyond the ball that holds the region bound nothing.
+  // Planes beyond the ball around the region do not bound it.
   const double outside = clearance * static_cast<double>(planes.size());
   HalfSpaces<Dim> round;
   for (const HalfSpace<Dim>& p : near) {

@@ -1,5 +1,5 @@
-// The region that two parts share, as a solid: its centroid is the contact point of those who clip (Boon 2013, 4.7 and
-// 4.11).
+// The region that two parts share, as a solid: its centroid is the contact point of codes that clip (Boon 2013, 4.7
+// and 4.11).
 #pragma once
 
 #include "core/geometry/half_space.hpp"
@@ -13,10 +13,10 @@ struct OverlapRegion {
 };
 
 // Clips space by the planes of both parts, seen from `inside`, any point strictly inside all of them, and stretched so
-// that the region is about a ball. So, however thin the region, in every direction the centroid is right to 1e-12 of
-// its extent there, and the volume to 1e-12 of itself, beyond what the rounding of offsets and normals leaves open: 4
-// ulp of the coordinates, which over the thickness are a fraction of it. False when `inside` is not, or when the region
-// is open or thinner than its coordinates resolve.
+// that the region is about a ball. So, for a region of any thickness, the error of the centroid in every direction is
+// 1e-12 of the extent there, and the relative error of the volume 1e-12, beyond the effect of rounding in offsets and
+// normals: 4 ulp of the coordinates, which over the thickness are a fraction of it. False when `inside` is not, or when
+// the region is open or thinner than its coordinates resolve.
 template <int Dim>
 bool overlap_region(const HalfSpaces<Dim>& planes, const Vector<Dim>& inside, OverlapRegion<Dim>& region);
 

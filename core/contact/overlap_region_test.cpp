@@ -26,7 +26,7 @@ void expect_region(const HalfSpaces<Dim>& planes, const Vector<Dim>& inside, con
   EXPECT_NEAR(region.volume, volume, exact * volume);
 }
 
-TEST(OverlapRegion, OfBoxesIsABoxHoweverThin) {
+TEST(OverlapRegion, OfBoxesIsABoxOfAnyThickness) {
   for (const double thin : {1.0, 1e-3, 1e-10, 1e-14})
     for (const double narrow : {1.0, 1e-6}) {
       HalfSpaces<3> planes = shapes::box<3>({-3, -3 * narrow, -2}, {1, 1 * narrow, thin});
@@ -178,7 +178,7 @@ void expect_same_overlap(std::uint64_t seed) {
     const bool found = overlap_by_bracketing<Dim>(planes, faces_a, point, normal, bracketed, face_a, face_b);
     ASSERT_EQ(found, ends);
     if (!ends) continue;
-    // slack and slope carry rounding, which a face seen at a grazing angle magnifies
+    // slack and slope have rounding, which a face seen at a grazing angle magnifies
     const double slope = std::min(planes[face_a].normal.dot(normal), -planes[face_b].normal.dot(normal));
     EXPECT_NEAR(bracketed, closed, 1e-15 * (scale + closed) / slope);
     EXPECT_EQ(face_a, closed_a);
@@ -187,7 +187,7 @@ void expect_same_overlap(std::uint64_t seed) {
 }
 
 // Eq. 3.37 against Eq. 3.36
-TEST(Bracketing, EndsWhereTheClosedFormDoes) {
+TEST(Bracketing, EndsAsTheClosedFormDoes) {
   expect_same_overlap<3>(85);
   expect_same_overlap<2>(86);
 }
@@ -204,7 +204,7 @@ TEST(Bracketing, MeetsCubesAndGrazingFaces) {
   EXPECT_EQ(planes[face_b].normal, Vector<3>(-Vector<3>::UnitZ()));
   EXPECT_FALSE(overlap_by_bracketing<3>(planes, 6, {0, 0, 0.5}, {0, 0, 1}, overlap, face_a, face_b));
 
-  // two planes that lean by a billionth of a radian end the part a billion times farther away than they lie
+  // two planes inclined by a billionth of a radian end the part a billion times farther away than they are
   const double lean = 1e-9;
   const HalfSpaces<2> strip{{{1, lean}, 1}, {{-1, -lean}, 1}};
   ASSERT_TRUE(overlap_by_bracketing<2>(strip, 1, {0, 0}, {0, 1}, overlap, face_a, face_b));
@@ -221,13 +221,13 @@ TEST(Bracketing, GivesTheKernelTheSameContact) {
     const Contact<3> closed = touch<3>(a, b, turn, offset).contact,
                      bracketed = touch<3>(a, b, turn, offset, {.overlap = OverlapSearch::bracketing}).contact;
     ASSERT_TRUE(closed.touching() && bracketed.touching());
-    // another search also finds the centre another way, each to Newton's tolerance
+    // another search also finds the centre differently, each to Newton's tolerance
     EXPECT_NEAR(bracketed.geometry.overlap, closed.geometry.overlap, point_tolerance * closed.geometry.overlap);
     EXPECT_EQ(bracketed.geometry.face_a, closed.geometry.face_a);
     EXPECT_EQ(bracketed.geometry.face_b, closed.geometry.face_b);
     compared += bracketed.geometry.overlap != closed.geometry.overlap;
   }
-  EXPECT_GT(compared, 0) << "the setting changes nothing";
+  EXPECT_GT(compared, 0) << "the setting has no effect";
 }
 
 // ---- fallback solver ------------------------------------------------------------------------------------------------
@@ -236,7 +236,7 @@ CentreResult<3> fails(const HalfSpaces<3>&, const CentreRequest<3>& request) {
   return {CentreStatus::singular, request.start, 3};
 }
 
-TEST(FallbackSolver, AnswersWhenTheSearchForTheCentreFails) {
+TEST(FallbackSolver, ReplacesASearchForTheCentreThatFails) {
   const Polytope<3> cube = unit_cube<3>();
   const Pair<3> pair{&cube, &cube, Matrix<3>::Identity(), Matrix<3>::Identity(), {0.25, -0.5, 0.99}};
   const auto resolve = [&](const Solvers<3>& solvers, const ContactSettings& settings) {

@@ -1,4 +1,4 @@
-// Two convex parts whose contact is asked for, and how much of it.
+// Two convex parts whose contact is queried, and to which level.
 #pragma once
 
 #include "core/geometry/polytope.hpp"
@@ -7,13 +7,14 @@ namespace voussoir {
 
 // how far a pair is resolved; each level contains those before it
 enum class QueryLevel {
-  decision,  // touching or not, and what proves it
-  point,     // and where
-  overlap,   // and in which direction, how far, between which faces
-  area       // and how wide
+  decision,  // touching or not, with the proof
+  point,     // and its place
+  overlap,   // and direction, overlap and faces
+  area       // and area
 };
 
-// Two parts as the first one sees them. Positions were subtracted (Eq. 3.26): nothing depends on where the pair lies.
+// Two parts in the frame of the first. Positions were subtracted (Eq. 3.26): no result depends on the place of the
+// pair.
 template <int Dim>
 struct alignas(2 * sizeof(double)) Pair {
   const Polytope<Dim>* a = nullptr;

@@ -11,7 +11,7 @@
 namespace voussoir {
 namespace {
 
-// one part's fraction of the normal: its unit gradient, or the normal of its nearest face where the gradient is zero
+// one part's fraction of the normal: its unit gradient, or the normal of its nearest face if the gradient is zero
 template <int Dim>
 Vector<Dim> potential_direction(std::span<const HalfSpace<Dim>> faces, std::span<const double> weights,
                                 const Vector<Dim>& point, double radius, bool& fallback) {

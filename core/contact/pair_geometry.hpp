@@ -1,5 +1,5 @@
 // The geometry of two overlapping parts: their planes in one frame, the direction between them at a point, how far and
-// how wide they overlap. Planes of A stand first.
+// how wide they overlap. Planes of A are first.
 #pragma once
 
 #include <span>
@@ -9,7 +9,7 @@
 
 namespace voussoir {
 
-// Planes of both parts in the first body's frame, seen from `origin` (Eqs 3.22-3.25, which have the world's).
+// Planes of both parts in the first body's frame, seen from `origin` (Eqs 3.22-3.25, there in the world's).
 template <int Dim>
 void assemble(const Pair<Dim>& pair, const Vector<Dim>& origin, HalfSpaces<Dim>& planes);
 
@@ -23,8 +23,8 @@ inline double weight_of(std::span<const double> weights, std::size_t plane) {
 }
 
 // Direction from A to B at a point (Eqs 3.31-3.35): difference of the gradients of the parts' inner potentials
-// sum w <a·x - d + r>², normalised. False when it vanishes. `fallback` tells that a face normal stood in for a zero
-// gradient. `weights`: of the planes, as assemble_weights has them.
+// sum w <a·x - d + r>², normalised. False when it vanishes. `fallback` reports that a face normal replaced a zero
+// gradient. `weights`: of the planes, from assemble_weights.
 template <int Dim>
 bool contact_normal(const HalfSpaces<Dim>& planes, int faces_a, const Vector<Dim>& point, double radius,
                     Vector<Dim>& normal, bool& fallback, std::span<const double> weights = {});
@@ -47,7 +47,7 @@ Segment section_segment(const HalfSpaces<2>& planes, const Vector<2>& point, con
 void section_polygon(const HalfSpaces<3>& planes, const Vector<3>& point, const Vector<3>& normal, double reach,
                      std::vector<Vector<2>>& polygon);
 
-// what of a convex polygon lies in {y : q·y <= slack} (Sutherland and Hodgman)
+// the part of a convex polygon in {y : q·y <= slack} (Sutherland and Hodgman)
 void clip_polygon(const std::vector<Vector<2>>& polygon, const Vector<2>& q, double slack,
                   std::vector<Vector<2>>& clipped);
 

@@ -15,9 +15,9 @@ bool has_particle(const Pair<Dim>& pair) {
   return is_particle(*pair.a) || is_particle(*pair.b);
 }
 
-// m: how far any points of the two may move, ways added up, before they touch. Where they then touch, one point lay
-// within `way` of both; sqrt(f + 1), of each at most 1 there, was sqrt(v + 1) or more of one of the two wherever
-// between them it was.
+// m: bound of the motions of any points of the two, added up, before they touch. If they then touch, one point was
+// within `way` of both; sqrt(f + 1), at most 1 there for each, was at least sqrt(v + 1) for one of the two at any point
+// between them.
 template <int Dim>
 double proven_gap(const Pair<Dim>& pair, const PotentialContact<Dim>& found) {
   const double least = found.bound - found.rounding;
@@ -38,8 +38,8 @@ double least_across(const Matrix<3>& m, const Vector<3>& normal) {
   return half_sum - std::sqrt(half_difference * half_difference + mixed * mixed);
 }
 
-// m/rad: one over the two surfaces' curvatures at the point together, where they are least. Flat ones (k = 0) have
-// none: then it is this many times their size.
+// m/rad: one over the two surfaces' curvatures at the point, summed, in the direction in which they are least. Flat
+// ones (k = 0) have none: then it is this many times their size.
 constexpr double farthest_walk = 1e7;
 
 template <int Dim>
@@ -66,8 +66,8 @@ ContactStatus status_of(PotentialStatus status) {
   return ContactStatus::centre_not_converged;
 }
 
-// One that touched before most likely touches still. Of any other the whole gap is asked for, so that it is not asked
-// for again until the bodies have moved as far.
+// A pair that touched before most likely still touches. For any other the full gap is computed, so that it is not
+// needed again until the bodies have moved as far.
 template <int Dim>
 PotentialContact<Dim> find(const PotentialPair<Dim>& pair, bool touched, const PotentialStart<Dim>& start,
                            PotentialWorkspace<Dim>& workspace) {

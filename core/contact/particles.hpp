@@ -5,7 +5,7 @@
 
 namespace voussoir {
 
-// As narrow_phase, where every part has a particle (Polytope) and some are one: those pairs are resolved by
+// As narrow_phase, if every part has a particle (Polytope) and some parts are one: those pairs are resolved by
 // core/potential/contact. They have neither faces nor area.
 template <int Dim>
 void narrow_phase_with_particles(std::span<const Pair<Dim>> pairs, const ContactSettings& settings,

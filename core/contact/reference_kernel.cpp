@@ -18,7 +18,8 @@
 namespace voussoir {
 namespace {
 
-// regions thinner than this many roundings of a slack have no centre that could be distinguished from its surroundings
+// regions thinner than this many roundings of a slack have no centre that can be distinguished from the points around
+// it
 constexpr double hardly_thicker = 4096;
 
 template <int Dim>
@@ -45,7 +46,7 @@ Vector<Dim> thinnest_across(const HalfSpaces<Dim>& planes, const Vector<Dim>& po
   return thinnest;
 }
 
-// of as many factors at once as stay far from overflow
+// of as many factors together as stay far from overflow
 class LogarithmOfProduct {
  public:
   void multiply(double factor) {
@@ -61,7 +62,7 @@ class LogarithmOfProduct {
   double sum_ = 0, product_ = 1;
 };
 
-// what one pair needs; kept between calls so that the step allocates nothing
+// the data of one pair; kept between calls so that the step allocates no memory
 template <int Dim>
 struct Resolver {
   const Pair<Dim>& pair;
@@ -75,7 +76,7 @@ struct Resolver {
   Vector<Dim> origin;  // of the local frame, in the first body's frame: the centre of the smaller part
   double size;         // the smaller inscribed radius, m
   double tolerance;    // m
-  double reach;        // m: no point of both parts lies farther from the origin
+  double reach;        // m: no point of both parts is farther from the origin
   double rounding;     // m: of a slack
   double proven;       // m: margin of the proof that needs no second one; 0: none
   int faces_a;
@@ -123,7 +124,7 @@ struct Resolver {
     if (!(smallest_slack<Dim>(planes, start) > rounding + tolerance)) {
       contact.status = ContactStatus::undecided;
       contact.proof = {};
-      contact.proof.basis = lp.basis;  // where the program starts next time
+      contact.proof.basis = lp.basis;  // the next start of the program
       ++counters.undecided;
       return false;
     }
@@ -143,8 +144,8 @@ struct Resolver {
   bool on_central_path() const { return settings.point == ContactPoint::central_path; }
   double smoothing() const { return settings.smoothing * size; }
 
-  // overlap is proven by the old contact point when it still lies inside, else by the LP; who asks for its multipliers
-  // starts it from the planes that were tight
+  // overlap is proven by the old contact point when it still lies inside, else by the LP; if its multipliers are
+  // needed, it starts from the planes that were tight
   bool establish() {
     if (proven > 0) {
       start = contact.proof.point - origin;
@@ -170,7 +171,7 @@ struct Resolver {
     return smallest_slack<Dim>(planes, point) > 0;
   }
 
-  // other solvers know of no weights
+  // other solvers have no weights
   bool search_centre(CentreSolverFunction<Dim>& solver, Vector<Dim>& point) {
     const CentreRequest<Dim> request{start, settings.newton_tolerance, settings.newton_limit, contact.proof.axis};
     const CentreResult<Dim> centre =
@@ -204,7 +205,7 @@ struct Resolver {
     if (settings.point == ContactPoint::chebyshev) return true;
     if (settings.point == ContactPoint::centroid ? find_centroid(point) : find_centre(point)) return true;
     if (contact.status == ContactStatus::undecided) return false;
-    // where the coordinates can hardly tell one side of the region from the other, any point of it will do
+    // if the coordinates hardly distinguish one side of the region from the other, any point of it is as good
     point = start;
     if (smallest_slack<Dim>(planes, start) < hardly_thicker * rounding) return true;
     contact.status = ContactStatus::centre_not_converged;
@@ -259,7 +260,7 @@ struct Resolver {
   // Those of its barrier; returns its value. Each plane's distance is taken relative to the diameter of its part, which
   // no point of both exceeds, and the two logarithms that any contact has, of a plane of each part at twice the
   // smoothing, are left out: so far planes and near ones add to the value, it is above the program's, and parts that do
-  // not touch feel no force.
+  // not touch have no force.
   double add_barrier_multipliers(PartMultipliers (&parts)[2]) const {
     const double weight = smoothing(), diameter_a = 2 * pair.a->radius, diameter_b = 2 * pair.b->radius;
     LogarithmOfProduct logarithms;
@@ -276,9 +277,9 @@ struct Resolver {
     return path.bound - weight * (logarithms.sum() + 2);
   }
 
-  // Where B moves, the program's value s grows by its gradient g at the program's point: -s/|g| is the overlap of the
+  // When B moves, the program's value s grows by its gradient g at the program's point: -s/|g| is the overlap of the
   // features in the program's active set. |g| is 1/2 between faces, less at edges and corners; with 4|g|² of a
-  // stiffness k the force is that of the potential 2 k s², which does not jump where other planes become tight.
+  // stiffness k the force is that of the potential 2 k s², which does not jump when other planes become tight.
   bool measure_by_multipliers(Vector<Dim>& normal, double& overlap, int& face_a, int& face_b) {
     PartMultipliers parts[2];
     const double value = on_central_path() ? add_barrier_multipliers(parts) : add_program_multipliers(parts);
@@ -287,7 +288,7 @@ struct Resolver {
     normal = parts[0].gradient;
     double length = normal.norm(), least = parallel_gradients;
     if (!(length > least)) {
-      // The parts' gradients are opposite. Where they all but vanish, as in the tip of a needle, whose planes are
+      // The parts' gradients are opposite. If they nearly vanish, as in the tip of a needle, whose planes are
       // active and cancel, that of the part with the smaller sum of multipliers has kept its digits.
       const bool first = parts[0].weight <= parts[1].weight;
       if (!first) normal = -parts[1].gradient;
@@ -305,7 +306,7 @@ struct Resolver {
   }
 
   // the centre of a region as thin as the rounding may round to its outside: the LP's point is as good; that of the
-  // central path lies outside of a region thinner than the smoothing, and the start does not
+  // central path is outside a region thinner than the smoothing, and the start is not
   bool keep_inside(Vector<Dim>& point) {
     double margin = smallest_slack<Dim>(planes, point) - rounding;
     if (!(margin > 0)) {

@@ -20,10 +20,10 @@ constexpr double lost_corners = 1e5;
 // of the simplex: cuts leave corners no farther off than this, unless their planes all but depend on each other
 constexpr double cut_error = 1e-10;
 
-// and that often
+// as often as this
 constexpr int most_passes = 8;
 
-// of the simplex: a smaller region's corners are found again from their planes
+// of the simplex: the corners of a smaller region are recomputed from their planes
 constexpr double small = 1e-4;
 
 // Planes as bits of a word: those of the parts from bit 0, the simplex's own behind them, t >= 0 last.
@@ -56,9 +56,9 @@ enum class CutResult { as_it_was, smaller, nothing_left, no_bit_left };
 template <int Dim>
 struct LiftedPolytope {
   std::vector<Corner<Dim>> corners, fresh;
-  std::array<int, most_planes> plane;  // which one a bit stands for
+  std::array<int, most_planes> plane;  // the plane of each bit
 
-  // {x_i >= -half, t >= 0, Σ x_i + t <= what holds the cube}
+  // {x_i >= -half, t >= 0, Σ x_i + t <= bound of the cube}
   void begin(double half) {
     const double edge = (2 * Dim + 1) * half;
     Planes all = bit(base);
@@ -84,12 +84,12 @@ struct LiftedPolytope {
   bool joined(const Corner<Dim>& a, const Corner<Dim>& b) const {
     const Planes both = a.on & b.on;
     if (fewer_than<Dim>(both)) return false;
-    if (fewer_than<Dim + 2>(a.on) || fewer_than<Dim + 2>(b.on)) return true;  // one of them is of no more planes
+    if (fewer_than<Dim + 2>(a.on) || fewer_than<Dim + 2>(b.on)) return true;  // one of them is on no more planes
     return std::ranges::none_of(corners,
                                 [&](const Corner<Dim>& c) { return &c != &a && &c != &b && (c.on & both) == both; });
   }
 
-  // no corner lies beyond a plane of either part that is as far from the origin
+  // no corner is beyond a plane of either part that is as far from the origin
   double reach() const {
     double reach = 0;
     for (const Corner<Dim>& c : corners)
@@ -97,7 +97,7 @@ struct LiftedPolytope {
     return reach;
   }
 
-  // What of it lies in {a·x + t <= d}. Nothing may be left, or no bit.
+  // The part of it in {a·x + t <= d}. It may be empty, or no bit may be free.
   CutResult cut(const HalfSpace<Dim>& p, int number) {
     double least = 0;
     Planes used = 0;
@@ -129,8 +129,8 @@ struct LiftedPolytope {
   }
 };
 
-// Corners are what their planes make them, not what the cuts on the way left: one step of Newton's method on the planes
-// of each. Where more than enough planes meet, or nearly depend on each other, it stays.
+// Corners are computed from their planes, without the errors of the cuts: one step of Newton's method on the planes of
+// each. If more than enough planes meet, or nearly depend on each other, the corner is kept.
 template <int Dim>
 void sharpen(const HalfSpaces<Dim>& planes, const Vector<Dim>& shift, double half, LiftedPolytope<Dim>& polytope) {
   for (Corner<Dim>& c : polytope.corners) {
@@ -160,7 +160,7 @@ void sharpen(const HalfSpaces<Dim>& planes, const Vector<Dim>& shift, double hal
   }
 }
 
-// where a direction lies on the way round, 0 to 4, growing with its angle
+// the position of a direction on a full turn, 0 to 4, growing with its angle
 double way_round(double x, double y) {
   const double length = std::abs(x) + std::abs(y);
   if (!(length > 0)) return 0;
@@ -228,8 +228,8 @@ Piece<3> measure(PieceCorners<3>& at, const Vector<3>& normal) {
   return piece;
 }
 
-// Points on the surface between two facets are the centres of balls in the region that touch both planes; what lies
-// straight below them, towards either plane, fills the region. So the energy is a sum over all pairs of planes,
+// Points on the surface between two facets are the centres of balls in the region that touch both planes; the points
+// straight below them, towards either plane, fill the region. So the energy is a sum over all pairs of planes,
 //
 //   ∫ phi dV = Σ |a_i - a_j|/2 ∫ phi² dS,
 //
@@ -282,7 +282,7 @@ void sum_up(const HalfSpaces<Dim>& planes, const Vector<Dim>& shift, int faces_a
 template <int Dim>
 RegionStatus integrate_region(const HalfSpaces<Dim>& planes, int faces_a, double reach, RegionIntegral<Dim>& region) {
   static thread_local LiftedPolytope<Dim> polytope;
-  static thread_local std::vector<std::pair<double, int>> order;  // nearest first: the others soon cut nothing
+  static thread_local std::vector<std::pair<double, int>> order;  // nearest first: the others soon cut no corner
   double half = reach, extent = 0;
   Vector<Dim> shift = Vector<Dim>::Zero();
   for (int pass = 0; pass < most_passes; ++pass) {
@@ -291,7 +291,7 @@ RegionStatus integrate_region(const HalfSpaces<Dim>& planes, int faces_a, double
       order.emplace_back(planes[i].offset - planes[i].normal.dot(shift), i);
     std::ranges::sort(order);
     polytope.begin(half);
-    double reached = std::numeric_limits<double>::infinity();  // no corner lies beyond a plane so far off
+    double reached = std::numeric_limits<double>::infinity();  // no corner is beyond a plane so far off
     for (const auto& [offset, i] : order) {
       if (offset >= reached) break;
       const CutResult result = polytope.cut({planes[i].normal, offset}, i);

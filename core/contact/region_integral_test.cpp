@@ -1,5 +1,5 @@
 // The overlap as a spring: its energy against volumes, force and moment as its derivatives, the swap of both parts,
-// scales; and the contact as a whole, flat, at its edges and corners, and between.
+// scales; and the integrated contact, flat, at its edges and corners, and between.
 #include "core/contact/region_integral.hpp"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ double allowed(const RegionIntegral<Dim>& region) {
   return promised * (1 + std::sqrt(region.spread) * region.force.norm() / region.square);
 }
 
-// central differences of an energy that is right to 1e-13, over steps of 1e-4 of the depth: their second order
+// central differences of an energy with an error of 1e-13, over steps of 1e-4 of the depth: their second order
 constexpr double of_differences = 1e-6;
 
 template <int Dim>
@@ -82,7 +82,7 @@ TEST(RegionIntegral, OfASlabIsTheClosedForm) {
     const double u = thin;  // ∫ (2 - 2t)(3 - 2t)(u - 2t) dt to u/2
     const double phi = 6 * u * u / 4 - 10 * u * u * u / 24 + 4 * u * u * u * u / 96;
     EXPECT_NEAR(region.square, 4 * phi, allowed(region) * 4 * phi);
-    // what the second part's one face holds: half of the energy's slope in its overlap
+    // the force of the second part's one face: half of the energy's slope in its overlap
     const double slope = 6 * u / 2 - 10 * u * u / 8 + 4 * u * u * u / 24;
     EXPECT_NEAR(region.force[2], 2 * slope, allowed(region) * 2 * slope);
     EXPECT_NEAR(region.force.head<2>().norm(), 0, allowed(region) * slope);
@@ -97,7 +97,7 @@ using exact::Rational;
 template <int Size>
 using RationalMatrix = std::array<std::array<Rational, Size + 1>, Size>;
 
-// rows of `m` to the unit matrix; the determinant, 0 where there is none
+// rows of `m` to the unit matrix; the determinant, 0 if there is none
 template <int Size>
 Rational eliminate(RationalMatrix<Size>& m) {
   Rational determinant = 1;
@@ -144,7 +144,7 @@ struct RationalPolytope {
   }
 
   void add(const std::vector<int>& choice) {
-    // most are far outside, which doubles show
+    // most are far outside, as doubles show
     Eigen::Matrix<double, size, size> a;
     Eigen::Matrix<double, size, 1> b;
     for (int k = 0; k < size; ++k) {
@@ -178,7 +178,7 @@ struct RationalPolytope {
     corners.push_back(corner);
   }
 
-  // of the cone from the corners so far over what lies on the planes `fixed`
+  // of the cone from the corners so far over the face on the planes `fixed`
   Rational cones(const std::vector<const Corner*>& among, std::vector<const Corner*>& apexes) const {
     if (among.empty()) return 0;
     if (static_cast<int>(apexes.size()) == size) {
@@ -241,7 +241,7 @@ TEST(RegionIntegral, EnergyIsTheVolumeOfTheLiftedPolytope) {
 
 // ---- force and moment --------------------------------------------------------------------------------------------
 
-// the pair as its second part moves by `step` along a freedom; turns about the first one's centroid
+// the pair as its second part moves by `step` along a degree of freedom; turns about the first one's centroid
 template <int Dim>
 Pair<Dim> moved(Pair<Dim> pair, int freedom, double step) {
   if (freedom < Dim) {
@@ -256,8 +256,8 @@ Pair<Dim> moved(Pair<Dim> pair, int freedom, double step) {
   return pair;
 }
 
-// Of an energy and its force and moment about the first centroid, as functions of the pair: all freedoms by central
-// differences, against the force's size.
+// Of an energy and its force and moment about the first centroid, as functions of the pair: all degrees of freedom by
+// central differences, against the force's size.
 template <int Dim, class Energy>
 double worst_difference(const Pair<Dim>& pair, double step, double force,
                         const Eigen::Matrix<double, freedoms<Dim>, 1>& w, const Energy& square) {
@@ -333,12 +333,12 @@ TEST(RegionIntegral, IsTheSameFromTheOtherPartAndAtOtherScales) {
   expect_swap_and_scale<3>();
 }
 
-TEST(RegionIntegral, SaysWhereThereIsNone) {
+TEST(RegionIntegral, ReportsAnEmptyRegion) {
   HalfSpaces<3> planes = shapes::box<3>({0, 0, 0}, {1, 1, 1});
   for (const HalfSpace<3>& p : shapes::box<3>({0, 0, 1}, {1, 1, 2}))
     planes.push_back(p);
   RegionIntegral<3> region;
-  EXPECT_EQ(integrate_region<3>(planes, 6, 8, region), RegionStatus::empty);  // they lie on each other
+  EXPECT_EQ(integrate_region<3>(planes, 6, 8, region), RegionStatus::empty);  // they touch without overlap
   Random random(3);
   HalfSpaces<3> many = shapes::random_planes<3>(random, 2000, 1);  // hundreds of faces
   const int faces_a = static_cast<int>(many.size());
@@ -347,7 +347,7 @@ TEST(RegionIntegral, SaysWhereThereIsNone) {
   EXPECT_EQ(integrate_region<3>(many, faces_a, 8, region), RegionStatus::too_many_planes);
 }
 
-// ---- the contact as a whole --------------------------------------------------------------------------------------
+// ---- the integrated contact --------------------------------------------------------------------------------------
 
 // a block on another, its face turned out of the other's by `angle` about a random axis
 template <int Dim>
@@ -390,7 +390,7 @@ void expect_one_energy() {
     find_nearest_faces<Dim>(o.pair, contact, planes);
     integrate_contact<Dim>(o.pair, planes, contact, face);
     ASSERT_GT(face.square, 0);
-    // which of both it is
+    // the share of both
     RegionIntegral<Dim> r = region_of<Dim>(seen_planes(o), static_cast<int>(o.a.faces.size()), reach_of(o.pair));
     FaceIntegral<Dim> f;
     PressedPolygon polygon;
@@ -418,7 +418,7 @@ void expect_one_energy() {
       integrate_contact<Dim>(pair, planes, c, then);
       return then.square;
     });
-    // of flush edges E's derivative is shared out (face_integral.hpp): at most the deepest overlap over the width
+    // for flush edges E's derivative is shared (face_integral.hpp): at most the deepest overlap over the width
     EXPECT_LT(worst, face.flat && f.flush ? 0.05 : of_differences) << i << ", ratio " << ratio;
   }
   EXPECT_GT(flat, 20);

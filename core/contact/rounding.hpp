@@ -1,4 +1,4 @@
-// What the kernels count as rounding.
+// The bounds of rounding in the kernels.
 #pragma once
 
 #include <limits>
@@ -9,7 +9,7 @@ namespace voussoir {
 // vectors lose at most 13 half-ulps
 inline constexpr double slack_rounding = 4 * std::numeric_limits<double>::epsilon();
 
-// what is multiplied by this is a lower bound of what it would be without its few roundings
+// a number multiplied by this is a lower bound of its value without its few roundings
 inline constexpr double downwards = 1 - 8 * std::numeric_limits<double>::epsilon();
 
 // gradients that differ by less give no direction

@@ -12,10 +12,10 @@
 namespace voussoir {
 namespace {
 
-// One motion of the second body, in the first one's frame, and what it does to the contact so far.
+// One motion of the second body, in the first one's frame, and the changes of the contact so far.
 template <int Dim>
 struct Moved {
-  Vector<Dim> way;  // of the second centroid
+  Vector<Dim> way;  // displacement of the second centroid
   Spin<Dim> turn;
   Vector<Dim> point, normal;  // of the contact
 
@@ -38,7 +38,7 @@ struct Finder {
   Vector<Dim> normal_change(int plane, const Moved<Dim>& m) const {
     return of_second(plane) ? m.turning(planes[plane].normal) : Vector<Dim>(Vector<Dim>::Zero());
   }
-  // at a place that stays
+  // at a fixed place
   double slack_change_at_rest(int plane, const Moved<Dim>& m) const {
     return of_second(plane) ? planes[plane].normal.dot(m.way + m.turning(lever)) : 0;
   }
@@ -123,7 +123,7 @@ struct Finder {
            distance_change(faces_a + contact.geometry.face_b, -n, -m.normal, m);
   }
 
-  // The plane on which a place of the section's boundary lies, by the distance within the section.
+  // The plane of a place of the section's boundary, by the distance within the section.
   int plane_at(const Vector<Dim>& place) const {
     double least = std::numeric_limits<double>::infinity();
     int nearest = 0;

@@ -1,14 +1,14 @@
 // How a contact's point, normal, overlap and area change as the second body moves against the first: the derivatives of
-// what the kernel finds, in closed form.
+// the kernel's results, in closed form.
 //
-// Where the second body moves by v(x) = t + w × (x - c), its planes b·x <= e turn by w × b and their slacks at x grow
+// If the second body moves by v(x) = t + w × (x - c), its planes b·x <= e turn by w × b and their slacks at x grow
 // by b·v(x). The analytic centre keeps Σ a/s = 0, so that with the barrier's Hessian H = Σ a aᵀ/s²
 //
 //   H dx = Σ_B ( b (b·v)/s² - (w × b)/s ),
 //
-// and normal, overlap and section follow from dx by the chain rule over Eqs 3.31-3.36 and appendix D. Where the planes
+// and normal, overlap and section follow from dx by the chain rule over Eqs 3.31-3.36 and appendix D. When the planes
 // that take part change (a face leaves the potential particle's radius, the searches end on another face, the section
-// gains a corner) the derivative is that of the planes of now.
+// gains a corner) the derivative is that of the present planes.
 #pragma once
 
 #include "core/base/settings.hpp"
@@ -29,7 +29,7 @@ struct ContactSensitivity {
 bool has_sensitivity(const ContactSettings& settings);
 
 // Of a touching pair that is resolved to QueryLevel::area; needs contact.geometry and contact.proof of this pose. False
-// where it has none: a region too thin for its Hessian, or a number that is not finite.
+// if it has none: a region too thin for its Hessian, or a number that is not finite.
 template <int Dim>
 bool find_sensitivity(const Pair<Dim>& pair, const ContactSettings& settings, const Contact<Dim>& contact,
                       ContactSensitivity<Dim>& sensitivity);

@@ -26,8 +26,8 @@ constexpr ContactSettings settings{.newton_tolerance = 1e-9};
 // The step of a difference over the overlap: its error is the square of that, and no other planes take part.
 constexpr double difference_step = 1e-10;
 
-// The kernel's point is off by the stop rule's fraction of the region and by what rounding leaves open in a region as
-// thin as the overlap (centre_test); its derivatives by as much of themselves.
+// The error of the kernel's point is the stop rule's fraction of the region and that of rounding in a region as thin as
+// the overlap (centre_test); its derivatives have the same relative error.
 double left_open(double size, double overlap) {
   return settings.newton_tolerance + 16 * ulp * size / overlap;
 }
@@ -74,7 +74,7 @@ Posed<Dim> face_on_face(Random& random) {
   return p;
 }
 
-// any position, of shapes whose faces may be two facets that lean by 10^-12 to 10^-2
+// any position, of shapes whose faces may be two facets inclined by 10^-12 to 10^-2
 template <int Dim>
 Polytope<Dim> with_facets(const Polytope<Dim>& part, Random& random) {
   HalfSpaces<Dim> planes = part.faces;
@@ -110,8 +110,8 @@ std::vector<double> weights_of(const Posed<Dim>& p) {
   return weights;
 }
 
-// The planes after a motion h of the second body along a freedom: to first order in it, which central differences make
-// the second.
+// The planes after a motion h of the second body along a degree of freedom: to first order in it, and by central
+// differences to the second.
 template <int Dim>
 Planes moved(const Planes& planes, const Posed<Dim>& p, int freedom, double h) {
   Planes list = planes;
@@ -132,7 +132,7 @@ Planes moved(const Planes& planes, const Posed<Dim>& p, int freedom, double h) {
   return list;
 }
 
-// the largest errors so far, over what is allowed
+// the largest errors so far, over the permitted ones
 struct Worst {
   double point = 0, normal = 0, overlap = 0, area = 0;
 };
@@ -172,7 +172,7 @@ Derivatives<Dim> by_differences(const Posed<Dim>& p, const Pair<Dim>& pair, cons
   return d;
 }
 
-// 1/m: by how much a normal's derivative is off where the point's derivatives are off by 1, and the point by the
+// 1/m: the error of a normal's derivative if the point's derivatives have an error of 1, and the point one of the
 // region's width. A part's direction is the quotient of its gradient g = Σ w <r - s> a and |g|, and g changes as the
 // point does.
 template <int Dim>
@@ -250,7 +250,7 @@ TEST(SensitivityLong, InManyPositions) {
   expect_all<2>(with_facets_in_any_position<2>, 910, 10'000);
 }
 
-// By hand: a cube that lies on another with the faces flush sinks and slides.
+// By hand: a cube on another with flush faces sinks and slides.
 TEST(Sensitivity, OfACubeOnACube) {
   const Polytope<2> cube = contacts::unit_cube<2>();
   const double depth = 0.001, aside = 0.25;
@@ -260,7 +260,7 @@ TEST(Sensitivity, OfACubeOnACube) {
   ASSERT_TRUE(find_sensitivity<2>(pair, settings, found.contact, s));
   EXPECT_NEAR(s.overlap[0], 0, contacts::exact);
   EXPECT_NEAR(s.overlap[1], -1, contacts::exact);
-  EXPECT_NEAR(s.area[0], -1, contacts::exact);  // what overlaps gets narrower as the upper one slides off
+  EXPECT_NEAR(s.area[0], -1, contacts::exact);  // the overlap becomes narrower as the upper one slides off
   EXPECT_NEAR(s.area[1], 0, contacts::exact);
   EXPECT_NEAR(s.normal(0, 2), -0.5, contacts::point_tolerance);  // half the upper one's turn
 }

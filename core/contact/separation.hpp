@@ -1,4 +1,4 @@
-// How far a plane keeps two parts apart.
+// The gap between two parts at a plane.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace voussoir {
 // rounding of a vertex's projection on an axis, as a fraction of the coordinates: two rotations and a sum
 inline constexpr double projection_rounding = 8 * std::numeric_limits<double>::epsilon();
 
-// nothing of the part lies beyond this along the axis
+// no point of the part is beyond this along the axis
 template <int Dim>
 double support(const Polytope<Dim>& part, const Vector<Dim>& axis) {
   double most = -std::numeric_limits<double>::max();
@@ -21,8 +21,8 @@ double support(const Polytope<Dim>& part, const Vector<Dim>& axis) {
   return most + part.vertex_error + projection_rounding * part.radius;
 }
 
-// How far the second part stays behind a plane of the first's frame, m, rounding included: a lower bound of the
-// distance between parts where nothing of the first lies beyond `support_a` along `axis`.
+// The gap of the second part behind a plane of the first's frame, m, rounding included: a lower bound of the distance
+// between parts if no point of the first is beyond `support_a` along `axis`.
 template <int Dim>
 double gap_behind(const Pair<Dim>& pair, const Vector<Dim>& axis, double support_a) {
   const Polytope<Dim>& b = *pair.b;

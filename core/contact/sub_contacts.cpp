@@ -10,24 +10,24 @@
 namespace voussoir {
 namespace {
 
-// the grid stands across the section when a face's direction is nearly normal to it: no cell is cut off there
+// the grid is across the section when a face's direction is nearly normal to it: no cell is cut off there
 constexpr double least_slope = 1e-3;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// one direction of the grid seen in the section: a point at y lies at first + slope·y, in units of cells
+// one direction of the grid seen in the section: a point at y is at first + slope·y, in units of cells
 template <int Flat>
 struct Ruler {
   double first = 0;
   FixedMatrix<Flat, 1> slope;
   int cells = 1;
 
-  // cells with numbers out of range belong to the last ones: what overlaps may reach a little beyond a face
+  // cells with numbers out of range belong to the last ones: the overlap may reach a little beyond a face
   double low(int cell) const { return cell == 0 ? -infinity : cell; }
   double high(int cell) const { return cell == cells - 1 ? infinity : cell + 1; }
 };
 
-// what a cell's section is worth
+// the integrals of a cell's section
 template <int Flat>
 struct CellArea {
   double area = 0;
@@ -50,7 +50,7 @@ FixedMatrix<Dim, Dim - 1> directions(const Polytope<Dim>& part, int face) {
   return e;
 }
 
-// the grid of the divided face as the section's axes see it; `origin` and `turn` take its frame to the first part's
+// the grid of the divided face in the section's axes; `origin` and `turn` take its frame to the first part's
 template <int Dim>
 void lay_rulers(const Polytope<Dim>& part, int face, const Vector<Dim>& origin, const Matrix<Dim>& turn, int along,
                 const Vector<Dim>& point, const FixedMatrix<Dim, Dim - 1>& axes, Ruler<Dim - 1> (&rulers)[Dim - 1]) {
@@ -113,7 +113,7 @@ FixedMatrix<3, 2> section_axes(const Vector<3>& normal) {
 
 using Polygon = std::vector<Vector<2>>;
 
-// what lies between the cell's two lines across the ruler
+// the part between the cell's two lines across the ruler
 void cut_strip(const Polygon& polygon, const Ruler<2>& ruler, int cell, Polygon& spare, Polygon& strip) {
   strip = polygon;
   if (cell > 0) {
@@ -163,7 +163,7 @@ void visit_cells(const HalfSpaces<3>& planes, const Vector<3>& normal, double re
 
 // ---------------------------------------------------------------------------------------------------------------------
 
-// the shear force that another division carried, by areas
+// the shear force of another division, shared by areas
 template <int Dim>
 void hand_over(const JointState<Dim>& history, std::span<SubContact<Dim>> subs) {
   double area = 0;
@@ -209,7 +209,7 @@ void divide(const Pair<Dim>& pair, int along, Contact<Dim>& contact, std::span<S
     const Vector<Dim> centroid = axes * piece.centroid;
     int end_a, end_b;
     if (!overlap_along<Dim>(planes, faces_a, centroid, normal, sub.overlap, end_a, end_b) || !(sub.overlap > 0)) return;
-    // the overlap falls off with the slopes of the two faces that end it: its centre of pressure
+    // the overlap decreases with the slopes of the two faces that end it: its centre of pressure
     const Vector<Dim>&p = planes[end_a].normal, &q = planes[end_b].normal;
     const auto gradient = (axes.transpose() * (q / q.dot(normal) - p / p.dot(normal))).eval();
     const auto lean = (piece.moment * gradient).eval();

@@ -1,5 +1,5 @@
-// What must not change the kernel's answer: the order of a block's planes, the unit of length, the axes, which block
-// comes first, the batch that it is resolved in, the width of the machine's registers. Row L9 of the catalogue of
+// Changes that must not affect the kernel's result: the order of a block's planes, the unit of length, the axes, which
+// block comes first, the batch that it is resolved in, the width of the machine's registers. Row L9 of the catalogue of
 // extremes, on the families of certainty_test.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -27,10 +27,10 @@ using shapes::Random;
 constexpr std::uint64_t seed = 20241;
 constexpr double ulp = std::numeric_limits<double>::epsilon();
 
-// what a turned or rescaled pair may differ by, in fractions of its size (radius of A + radius of B)
+// the permitted difference of a turned or rescaled pair, in fractions of its size (radius of A + radius of B)
 constexpr double turned_rounding = 16 * ulp, other_rounding = 64 * ulp;
 
-// the point is then as exact as its slacks: what is compared is rounding, not the stop rule
+// the point is then as exact as its slacks: the comparison is of rounding, not of the stop rule
 constexpr ContactSettings reference{.newton_tolerance = 1e-9};
 
 template <int Dim>
@@ -71,7 +71,7 @@ void add(Bits& bits, const Vector<Dim>& v, double factor) {
     add(bits, v[k] * factor);
 }
 
-// All that the kernel writes, lengths times a power of two. Unset places of lists are not compared.
+// All numbers that the kernel writes, lengths times a power of two. Unset places of lists are not compared.
 template <int Dim>
 Bits bits_of(const Contact<Dim>& c, double unit = 1) {
   Bits bits{static_cast<std::uint64_t>(c.status), static_cast<std::uint64_t>(c.proof.kind),
@@ -95,8 +95,8 @@ Bits bits_of(const Contact<Dim>& c, double unit = 1) {
   return bits;
 }
 
-// Of faces folded by 1e-10 rad one cuts off just what make_block may drop: whether it goes depends on their order, and
-// in another frame or unit on rounding. Only in that family may a block have lost one.
+// Of faces folded by 1e-10 rad one cuts off just as much as make_block may drop: whether it is dropped depends on their
+// order, and in another frame or unit on rounding. Only in that family may a block have lost one.
 template <int Dim>
 bool as_many_faces(const Posed<Dim>& p, const Posed<Dim>& q, bool folded) {
   const bool same = p.a.faces.size() == q.a.faces.size() && p.b.faces.size() == q.b.faces.size();
@@ -147,7 +147,7 @@ bool agree(ContactStatus s, ContactStatus t) {
                     std::max(s, t) <= ContactStatus::touching);
 }
 
-// What the overlap may differ by when every plane's offset rounds again by so much, to first order: the centre moves by
+// The change of the overlap when every plane's offset rounds again by so much, to first order: the centre moves by
 // sqrt(Σ (rounding/slack)²) in the metric of the region, and across the region the overlap changes by itself.
 template <int Dim>
 double first_order(const Posed<Dim>& p, const Contact<Dim>& c, double rounding) {
@@ -206,7 +206,7 @@ void expect_swapped(const Posed<Dim>& p, const Contact<Dim>& answer) {
   expect_near<Dim>(p, answer, there, other_rounding, "swapped");
 }
 
-// (A, B) and (B, A) as contact_between answers them; the first of them, as a contact
+// (A, B) and (B, A) by contact_between; the first of them, as a contact
 template <int Dim>
 Contact<Dim> expect_same_bits_swapped(const Posed<Dim>& p, const Pose<Dim>& at_a, const ContactSettings& settings) {
   const Pose<Dim> at_b{at_a.position + at_a.axes * p.offset, at_a.axes * p.rotation};
@@ -261,7 +261,7 @@ void expect_symmetries(long long first, long long last) {
     expect_swapped<Dim>(p, exactly);
     expect_either_first<Dim>(p, exactly, random);
     expect_other_units<Dim>(p, exactly, folded);
-    if (testing::Test::HasFailure()) return;  // the first pair that fails says enough
+    if (testing::Test::HasFailure()) return;  // the first pair that fails is enough
   }
 }
 
@@ -354,7 +354,7 @@ void expect_bits_independent_of_batch(const ContactSettings& settings, long long
   }
 }
 
-// fused multiply-adds round the two ways to fill a register differently
+// fused multiply-adds round differently in the two methods to fill a register
 #define SKIP_WITH_FAST_ARITHMETIC() \
   if (fast_arithmetic()) GTEST_SKIP() << "built with VOUSSOIR_FAST_ARITHMETIC: no equal bits"
 
@@ -386,8 +386,8 @@ struct Target {
   int lanes;  // doubles in a register
 };
 
-// What kernel.cpp is compiled for on x86-64. The first one is what any of these processors has: Highway uses no vector
-// instructions there, with one lane for g++ before 12.3 (SCALAR), else with two (EMU128).
+// The instruction sets for which kernel.cpp is compiled on x86-64. Every one of these processors has the first: Highway
+// uses no vector instructions there, with one lane for g++ before 12.3 (SCALAR), else with two (EMU128).
 constexpr Target targets[] = {
     {HWY_STATIC_TARGET, "the baseline", HWY_MAX_BYTES / 8}, {HWY_AVX2, "AVX2", 4}, {HWY_AVX3, "AVX3", 8}};
 
@@ -403,7 +403,7 @@ class RunningFor {
 template <int Dim>
 void expect_same_bits_on(const Target& target, const Queue<Dim>& queue) {
   const RunningFor running(target);
-  // registers narrower than promised would be slow, and show nothing here
+  // registers narrower than stated would be slow, and test nothing here
   EXPECT_EQ(kernel_width(), target.lanes) << target.name;
   const std::vector<int> order = numbers_of<Dim>(queue);
   const std::vector<Contact<Dim>> together = resolve_together<Dim>(queue, order);
@@ -415,7 +415,7 @@ void expect_same_bits_on(const Target& target, const Queue<Dim>& queue) {
   }
 }
 
-// cold and warm pairs, as many as twice the cases, each way
+// cold and warm pairs, twice as many as the cases, each alone and together
 template <int Dim>
 void expect_same_bits_on_any_registers(int cases) {
   Random random(seed);

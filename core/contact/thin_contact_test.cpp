@@ -38,7 +38,7 @@ void expect_faces_meet(std::uint64_t seed) {
             i % 2 ? unit_cube<Dim>()
                   : shapes::block<Dim>(shapes::box<Dim>(Vector<Dim>::Constant(-0.2), Vector<Dim>::Constant(0.2)));
         const Matrix<Dim> turn = tilt<Dim>(random, angle);
-        // the lowest corner lies `overlap` below the lower block's top
+        // the lowest corner is `overlap` below the lower block's top
         Vector<Dim> offset = Vector<Dim>::Constant(0.5 - overlap);
         for (int k = 0; k < Dim - 1; ++k)
           offset[k] = shapes::uniform(random, -0.3, 0.3);
@@ -59,7 +59,7 @@ TEST(ThinOverlap, FaceOnFaceAlwaysConverges2D) {
   expect_faces_meet<2>(69);
 }
 
-TEST(ThinOverlap, NearlyCollinearEdgesAreJudgedAndConverge) {
+TEST(ThinOverlap, NearlyCollinearEdgesAreDecidedAndConverge) {
   // edges along y that overlap by 1e-11 to 1e-6 in x and in z: a sliver thin in two directions, every third one apart
   Random random(70);
   const Polytope<3> cube = unit_cube<3>();
@@ -116,13 +116,13 @@ TEST(Containment, IsAContactOrANamedFailure) {
     }
   }
   EXPECT_GT(touching, 50);
-  // concentric and alike: no direction is better than another
+  // concentric and equal: no direction is better than another
   EXPECT_EQ(touch<3>(large, large, Vector<3>(0, 0, 0)).contact.status, ContactStatus::no_normal);
 }
 
 // ---- memory ---------------------------------------------------------------------------------------------------------
 
-TEST(WarmStart, StandsForTheSameContact) {
+TEST(WarmStart, GivesTheSameContact) {
   Random random(72);
   for (int i = 0; i < 60; ++i) {
     const Polytope<3> a = unit_cube<3>(), b = shapes::centred_block<3>(shapes::random_planes<3>(random, 5, 0.5));
@@ -145,9 +145,9 @@ TEST(WarmStart, StandsForTheSameContact) {
   }
 }
 
-// Edges along each other, thin in two directions and too degenerate for the kernel to begin: what stands from there
-// must fit its frame, however the blocks lie in their own.
-TEST(WarmStart, WhatTheGeneralRoadFoundStandsInTheKernel) {
+// Edges along each other, thin in two directions and too degenerate for the kernel to begin: a contact found by the
+// general method must fit its frame, at any orientation of the blocks.
+TEST(WarmStart, ContactsOfTheGeneralMethodContinueInTheKernel) {
   Random random(76);
   constexpr int slivers = 200, steps = 20;
   int found_generally = 0, stood = 0;
@@ -175,7 +175,7 @@ TEST(WarmStart, WhatTheGeneralRoadFoundStandsInTheKernel) {
   EXPECT_GT(stood, found_generally * steps * 9 / 10);
 }
 
-TEST(WarmStart, WhatRoundingHidesStartsWhereItsProgramEnded) {
+TEST(WarmStart, APairHiddenByRoundingStartsAtTheEndOfItsProgram) {
   Random random(77);
   long long pivots_first = 0, pivots_again = 0;
   for (int i = 0; i < 50; ++i) {
@@ -198,8 +198,8 @@ TEST(WarmStart, WhatRoundingHidesStartsWhereItsProgramEnded) {
   EXPECT_LT(4 * pivots_again, pivots_first);
 }
 
-// each step turns the axis of the step before into its frame: a length it lacked once would be lacked for ever
-TEST(WarmStart, TheNormalStaysUnitHoweverLongTheContactStands) {
+// each step turns the axis of the step before into its frame: an error of its length would stay forever
+TEST(WarmStart, TheNormalStaysUnitOverManySteps) {
   Random random(73);
   for (int i = 0; i < 10; ++i) {
     const Polytope<3> a = unit_cube<3>(), b = shapes::centred_block<3>(shapes::random_planes<3>(random, 5, 0.5));
@@ -236,7 +236,7 @@ TEST(WarmStart, ANewContactDoesNotRememberThatItWasSeparate) {
   }
 }
 
-TEST(Batch, ThePairsAnswerIsBitwiseIndependentOfIt) {
+TEST(Batch, ThePairsResultIsBitwiseIndependentOfIt) {
   Random random(74);
   const Polytope<3> a = unit_cube<3>(), b = shapes::centred_block<3>(shapes::random_planes<3>(random, 9, 0.5));
   std::vector<Pair<3>> pairs;

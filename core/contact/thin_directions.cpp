@@ -7,7 +7,7 @@
 namespace voussoir {
 namespace {
 
-// directions nearer to each other than this cosine tell the same
+// directions with a larger cosine between them are equivalent
 constexpr double alike = 0.7;
 
 template <int Dim>

@@ -1,4 +1,4 @@
-// Directions across parts that are thin: what boxes along the axes cannot tell of inclined slabs and columns.
+// Directions across parts that are thin: the shape of inclined slabs and columns that boxes along the axes do not show.
 #pragma once
 
 #include <span>
@@ -8,7 +8,7 @@
 
 namespace voussoir {
 
-// a part and how it is turned
+// a part and its orientation
 template <int Dim>
 struct TurnedPart {
   const Polytope<Dim>* part;
@@ -16,7 +16,7 @@ struct TurnedPart {
 };
 
 // Up to Dim - 1 directions, unit, across which the parts together are less than half as wide as along any axis; of some
-// of their faces' normals the best, none where parts are as wide as high. The same for any number of threads.
+// of their faces' normals the best, none if parts are as wide as high. The same for any number of threads.
 template <int Dim>
 std::vector<Vector<Dim>> thin_directions(std::span<const TurnedPart<Dim>> parts);
 

@@ -11,19 +11,20 @@
 namespace voussoir {
 namespace {
 
-// How far a corner may lie outside a facet's plane, over the mesh's extent: ten times what single precision leaves of
-// the coordinates of a block near the origin. A slender facet turns with that rounding by its extent over its height.
+// How far a corner may lie outside a facet's plane, over the mesh's extent: ten times the resolution of single
+// precision for the coordinates of a block near the origin. A slender facet turns with that rounding by its extent over
+// its height.
 constexpr double out_of_plane = 1e-6;
 
-// Of the spacing of the file's numbers, how far a corner may come to lie outside a facet by rounding: both it and the
-// facet's first corner are off by half the spacing along each axis, √3/2 of it in space, and the facet is turned by at
-// most twice √3 spacing over its height, over which the corner may lie as far as the mesh extends.
+// In spacings of the file's numbers, how far rounding may move a corner outside a facet: both it and the facet's first
+// corner have errors of half the spacing along each axis, √3/2 of it in space, and the facet is turned by at most twice
+// √3 spacing over its height, over which the corner may lie as far as the mesh extends.
 constexpr double rounded_out = 3 * std::numbers::sqrt3;
-// of the mesh's extent: a coarser spacing is a matter of shape, and no reason to overlook what is not convex
+// of the mesh's extent: a coarser spacing changes the shape, and excuses no lack of convexity
 constexpr double largest_spacing = 2e-3;
-// a facet that rounding may turn by more (rad) says nothing
+// a facet that rounding may turn by more (rad) determines no plane
 constexpr double loose_facet = 0.1;
-// of the shortest edge: numbers that lie farther apart deserve a warning, in a text from so many digits on, as single
+// of the shortest edge: numbers farther apart deserve a warning, in a text from so many digits on, as single
 // precision has them; people state fewer, and mean them exactly
 constexpr double noticed_spacing = 1e-3;
 constexpr int digits_of_floats = 6;
@@ -55,7 +56,7 @@ void check_closed(const Mesh& mesh) {
       const auto [at, added] = runs.emplace(std::pair(corners[k], corners[(k + 1) % corners.size()]), f);
       if (!added)
         throw FileFault(mesh.facets[f].line, 0,
-                        fmt::format("runs along the edge from {} to {} as {} does: one of them is turned over, stands "
+                        fmt::format("runs along the edge from {} to {} as {} does: one of them is turned over, occurs "
                                     "twice, or three facets meet there",
                                     text(mesh.points[at->first.first]), text(mesh.points[at->first.second]),
                                     place(mesh, at->second)));
@@ -65,7 +66,7 @@ void check_closed(const Mesh& mesh) {
     if (!runs.contains({edge.second, edge.first}))
       throw FileFault(mesh.facets[facet].line, 0,
                       fmt::format("the surface is open: at the edge from {} to {} {} has no neighbour; add the missing "
-                                  "facet, or write the corners of neighbours alike",
+                                  "facet, or write equal corners of neighbours with equal numbers",
                                   text(mesh.points[edge.first]), text(mesh.points[edge.second]), place(mesh, facet)));
 }
 
@@ -95,9 +96,9 @@ double volume_times_six(const Mesh& mesh) {
   return sum;
 }
 
-// A facet's plane, outward whichever way round the whole mesh is, and how far outside it a corner may lie.
+// A facet's plane, outward for either orientation of the mesh, and how far outside it a corner may lie.
 struct Side {
-  Vector<3> normal = Vector<3>::Zero();  // zero: a sliver, which says nothing; its neighbours bound the solid
+  Vector<3> normal = Vector<3>::Zero();  // zero: a sliver, which is ignored; its neighbours bound the solid
   double tolerance = 0;                  // m
   double rounding = 0;                   // m, by the digits of the file alone
   double turned = 0;                     // rad, by rounding at most
@@ -133,7 +134,7 @@ std::string stated_to(const Mesh& mesh) {
                          : fmt::format("its numbers of single precision are {:.3g} m apart", mesh.spacing);
 }
 
-// the farthest that a corner lies outside a facet, or beside the plane of its own, of what passes as rounding, m
+// the largest distance of a corner outside a facet, or off the plane of its own, that passes as rounding, m
 double check_convex(const Mesh& mesh, const std::vector<Side>& sides, double extent) {
   double farthest = 0;
   for (std::size_t f = 0; f < mesh.facets.size(); ++f)
@@ -143,7 +144,7 @@ double check_convex(const Mesh& mesh, const std::vector<Side>& sides, double ext
         if (outside > sides[f].tolerance)
           throw FileFault(
               other.line, 0,
-              fmt::format("the block is not convex: its corner {} lies {:.3g} m outside {}; {}split it into convex "
+              fmt::format("the block is not convex: its corner {} is {:.3g} m outside {}; {}split it into convex "
                           "blocks, with part_of for one body",
                           text(mesh.points[corner]), outside, place(mesh, f),
                           outside > sides[f].rounding
@@ -157,7 +158,7 @@ double check_convex(const Mesh& mesh, const std::vector<Side>& sides, double ext
 
 // the facets at a corner span space; on an edge they span a plane, within a face a line
 bool is_corner(const std::vector<const Side*>& around) {
-  double parallel = 1e-5;  // sine of the least angle between faces that are two
+  double parallel = 1e-5;  // sine of the least angle between two distinct faces
   for (const Side* side : around)
     parallel = std::max(parallel, 2 * side->turned);
   for (const Side* a : around)
@@ -170,13 +171,13 @@ bool is_corner(const std::vector<const Side*>& around) {
   return false;
 }
 
-// what the rounding of its coordinates does to the block
+// the effect of the rounding of its coordinates on the block
 void remark_rounding(const Mesh& mesh, double farthest, std::vector<FileRemark>& remarks) {
   const std::string name = mesh.name.empty() ? "the block" : "block " + shown(mesh.name);
   if (farthest > 0)
     remarks.push_back(
         {mesh.line,
-         fmt::format("{}: corners lie up to {:.3g} m beside the planes of its facets, within the rounding of "
+         fmt::format("{}: corners deviate by up to {:.3g} m from the planes of its facets, within the rounding of "
                      "a file in which {}: its convex hull was taken",
                      name, farthest, stated_to(mesh))});
   double shortest = std::numeric_limits<double>::infinity();

@@ -20,7 +20,7 @@ namespace {
 // the largest coordinate of a scene, m
 constexpr double largest_coordinate = 1e12;
 
-// of one block: every facet is held against every corner, and blocks have at most some hundred faces
+// of one block: every facet is checked against every corner, and blocks have at most some hundred faces
 constexpr std::size_t most_facets = 5000;
 
 // of one file
@@ -134,13 +134,12 @@ class StlReader {
   }
   void need(const char* what) {
     if (!next())
-      throw FileFault(reader_.number(), 0,
-                      std::string("the file ends where '") + what + "' must follow; is it cut off?");
+      throw FileFault(reader_.number(), 0, std::string("the file ends before '") + what + "'; is it cut off?");
   }
   void expect(std::string_view word) const {
     if (words_[0].text != word)
       throw FileFault(words_[0].line, words_[0].column,
-                      "found " + shown(words_[0].text) + " where '" + std::string(word) + "' must stand");
+                      "found " + shown(words_[0].text) + " instead of '" + std::string(word) + "'");
   }
   void solid(const std::string& name) {
     builder_.begin(name, reader_.number());
@@ -280,7 +279,7 @@ class ObjReader {
   }
 
   LineReader reader_;
-  std::vector<Vector<3>> vertices_;  // of the whole file
+  std::vector<Vector<3>> vertices_;  // of the entire file
   int digits_ = 0;                   // most of a coordinate so far
   MeshBuilder builder_;
   std::vector<Mesh> meshes_;
@@ -291,7 +290,7 @@ class ObjReader {
 std::vector<Mesh> read_stl(std::string_view bytes) {
   std::vector<Mesh> meshes;
   const std::size_t count = bytes.size() >= binary_head ? little_endian<std::uint32_t>(bytes, binary_head - 4) : 0;
-  // many binary files begin with "solid" too: their size tells
+  // many binary files begin with "solid" too: their size shows which they are
   if (count > 0 && bytes.size() == binary_head + count * binary_facet) {
     meshes = read_binary_stl(bytes, count);
   } else {
@@ -303,13 +302,13 @@ std::vector<Mesh> read_stl(std::string_view bytes) {
           "it counts; is it cut off?");
     meshes = StlReader(bytes).read();
   }
-  if (meshes.empty()) throw FileFault(1, 0, "holds no solid");
+  if (meshes.empty()) throw FileFault(1, 0, "contains no solid");
   return meshes;
 }
 
 std::vector<Mesh> read_obj(std::string_view text) {
   std::vector<Mesh> meshes = ObjReader(text).read();
-  if (meshes.empty()) throw FileFault(1, 0, "holds no face; a block needs lines such as f 1 2 3");
+  if (meshes.empty()) throw FileFault(1, 0, "contains no face; a block needs lines such as f 1 2 3");
   return meshes;
 }
 

@@ -28,7 +28,7 @@ struct Mesh {
 };
 
 // Every `solid` of an ASCII STL, or the one solid of a binary one, whose single precision leaves 7 digits. Corners of
-// neighbours must be written alike: they are one point only when they are equal. Throws FileFault.
+// neighbours must be written with equal numbers: they are one point only when they are equal. Throws FileFault.
 std::vector<Mesh> read_stl(std::string_view bytes);
 
 // Every object (`o`) of a Wavefront OBJ; of its statements v, f, o, and without effect g, s, vn, vt, vp, usemtl,
@@ -39,10 +39,10 @@ std::vector<Mesh> read_obj(std::string_view text);
 std::string stl_text(const std::vector<Mesh>& meshes);
 std::string obj_text(const std::vector<Mesh>& meshes);
 
-// The corners of the solid that the mesh bounds. Throws FileFault where it has no volume, is open, is turned inside out
+// The corners of the solid that the mesh bounds. Throws FileFault if it has no volume, is open, is turned inside out
 // in part, consists of several pieces, or is not convex by more than the rounding of its coordinates; by less, the
-// corners are those of its convex hull. Points on an edge or inside a face are no corners. `remarks` gains what the
-// rounding does to the block.
+// corners are those of its convex hull. Points on an edge or inside a face are not corners. `remarks` receives the
+// effect of the rounding on the block.
 std::vector<Vector<3>> convex_corners(const Mesh& mesh, std::vector<FileRemark>* remarks = nullptr);
 
 }  // namespace voussoir

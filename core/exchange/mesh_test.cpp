@@ -1,4 +1,4 @@
-// Surfaces: what is written comes back, what is malformed is reported with its place.
+// Surfaces: written files read back unchanged; malformed ones are reported with the place.
 #include "core/exchange/mesh.hpp"
 
 #include <fmt/format.h>
@@ -55,7 +55,7 @@ std::vector<Vector<3>> corners_of(const std::string& obj) {
   return convex_corners(read_obj(obj).front());
 }
 
-TEST(Mesh, TakesWhatPeopleWrite) {
+TEST(Mesh, ReadsUsualVariants) {
   EXPECT_EQ(corners_of(tetrahedron).size(), 4u);
   // all facets inside out, indices from the end, normals and textures, materials
   EXPECT_EQ(corners_of("mtllib a.mtl\nvn 0 0 1\nv 0 0 0 # corner\nv 1 0 0\nv 0 1 0\nv 0 0 1 1.0\nusemtl rock\ns off\n"
@@ -69,7 +69,7 @@ TEST(Mesh, TakesWhatPeopleWrite) {
             4u);
 }
 
-TEST(Mesh, RefusesWhatIsNoConvexSolid) {
+TEST(Mesh, RefusesSurfacesOfNoConvexSolid) {
   const auto fault = [](const std::string& obj, int line, const std::string& part) {
     expect_fault([&] { corners_of(obj); }, line, 0, part);
   };
@@ -77,7 +77,7 @@ TEST(Mesh, RefusesWhatIsNoConvexSolid) {
   fault(points + "f 1 3 2\nf 1 2 4\nf 1 4 3\n", 1, "at least 4");
   fault(points + "v 1 1 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 5\n", 9, "the surface is open");
   fault(points + "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 4 3\n", 8, "one of them is turned over");
-  fault(points + "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\nf 2 3 4\n", 9, "stands twice");
+  fault(points + "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\nf 2 3 4\n", 9, "occurs twice");
   fault("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n", 1, "bounds no volume");
   const std::string far = "v 5 0 0\nv 6 0 0\nv 5 1 0\nv 5 0 1\nf 5 7 6\nf 5 6 8\nf 5 8 7\nf 6 7 8\n";
   fault(tetrahedron + far, 13, "another piece");
@@ -155,7 +155,7 @@ TEST(Mesh, RoundedCornersMakeTheirConvexHull) {
     EXPECT_NEAR(hull_volume(corners), edges.prod(), area * unit);  // √3/2 of it, and twice that between hull and box
     for (const FileRemark& remark : remarks)
       EXPECT_NE(remark.text.find("its convex hull was taken"), std::string::npos) << remark.text;
-    // of five decimals the rounding may lie below what single precision leaves
+    // with five decimals the rounding may be smaller than that of single precision
     if (decimals < 5) {
       EXPECT_EQ(remarks.empty(), all_planes(mesh, decimals)) << i;
     }
@@ -174,7 +174,7 @@ TEST(Mesh, RoundedCornersMakeTheirConvexHull) {
       << remarks[0].text;
 }
 
-// A point within the top of a box, up or down by a multiple of what the file rounds to. Down by less than rounding it
+// A point within the top of a box, up or down by a multiple of the file's rounding unit. Down by less than rounding it
 // is no corner, by far more the block is not convex, with few digits and with many.
 TEST(Mesh, ADentDeeperThanTheDigitsIsNotConvex) {
   const auto dented = [](double height, int decimals) {
@@ -199,11 +199,11 @@ TEST(Mesh, ADentDeeperThanTheDigitsIsNotConvex) {
   }
 }
 
-TEST(Obj, TellsWhereItIsMalformed) {
+TEST(Obj, ReportsThePlaceOfAnError) {
   const auto fault = [](const std::string& obj, int line, int column, const std::string& part) {
     expect_fault([&] { read_obj(obj); }, line, column, part);
   };
-  fault("", 1, 0, "holds no face");
+  fault("", 1, 0, "contains no face");
   fault("v 0 0\n", 1, 1, "three coordinates");
   fault("v 0 0 x\n", 1, 7, "z = 'x'");
   fault("v 0 0 1e13\n", 1, 7, "exceeds 1e12");
@@ -217,14 +217,14 @@ TEST(Obj, TellsWhereItIsMalformed) {
   fault("f 99999999999999999999999999 1 1\n", 1, 3, "none of the 0 vertices");
 }
 
-TEST(Stl, TellsWhereItIsMalformed) {
+TEST(Stl, ReportsThePlaceOfAnError) {
   const auto fault = [](const std::string& stl, int line, int column, const std::string& part) {
     expect_fault([&] { read_stl(stl); }, line, column, part);
   };
   fault("", 1, 0, "is no STL");
   fault("v 0 0 0\n", 1, 0, "is no STL");
   fault("solid a\n", 1, 0, "the file ends");
-  fault("solid a\n  facett\n", 2, 3, "where 'facet' must stand");
+  fault("solid a\n  facett\n", 2, 3, "instead of 'facet'");
   fault("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0\n", 4, 1, "three coordinates");
   fault("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 0 nan 0\n", 5, 10, "y = 'nan'");
   fault("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 0 0 0\nvertex 1 0 0\nendloop\nendfacet\n", 2, 0,
@@ -254,7 +254,7 @@ std::string binary_stl(const Mesh& mesh) {
   return bytes;
 }
 
-// single precision, which some faces of a convex block then are not plane in
+// in single precision, some faces of a convex block are not plane
 TEST(Stl, ReadsBinaryFiles) {
   shapes::Random random(8);
   for (int i = 0; i < 20; ++i) {
@@ -270,9 +270,9 @@ TEST(Stl, ReadsBinaryFiles) {
   expect_fault([&] { read_stl(bytes); }, 0, 0, "facet 1: a coordinate is not finite");
 }
 
-// Far from the origin floats lie far apart: a block is told of from a thousandth of its shortest edge on, in binary
-// files and in texts of as few digits, or refused, which is a word too.
-TEST(Stl, ALossOfDigitsFarFromTheOriginIsTold) {
+// Far from the origin floats are far apart: from a spacing of a thousandth of its shortest edge on a block is reported,
+// in binary files and in texts of as few digits, or refused, which is a report too.
+TEST(Stl, ALossOfDigitsFarFromTheOriginIsReported) {
   shapes::Random random(17);
   for (int i = 0; i < 200; ++i) {
     const double edge = shapes::uniform(random, 0.3, 3);

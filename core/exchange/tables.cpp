@@ -63,7 +63,7 @@ std::vector<double> required(const CsvTable& table, const CsvRow& row, const Nam
   return numbers;
 }
 
-// A unit normal is kept bit for bit; anything else was written by hand and is a slip.
+// A unit normal is kept bit for bit; any other vector was written by hand and is a mistake.
 std::vector<double> unit_normal(const CsvTable& table, const CsvRow& row, int dimension) {
   const Names columns = normal_columns(dimension);
   std::vector<double> normal = required(table, row, columns);
@@ -133,12 +133,12 @@ void read_outline(const CsvTable& table, const CsvRow& row, int dimension, Joint
                  dimension == 3 ? "must be infinite, ellipse, rectangle or polygon" : "must be infinite or trace");
   for (const std::string& column : columns) {
     const double extent = table.required_number(row, column);
-    if (!(extent > 0)) table.refuse(row, column, "must be greater than 0; it is the whole extent in m");
+    if (!(extent > 0)) table.refuse(row, column, "must be greater than 0; it is the full extent in m");
     joint.extents.push_back(extent);
   }
 }
 
-// what field books and other programs call these columns
+// names of these columns in field books and other programs
 const std::map<std::string, std::string>& usual_names() {
   static const std::map<std::string, std::string> names{
       {"id", "name"},
@@ -240,7 +240,7 @@ std::string joint_table(const std::vector<JointRow>& rows, int dimension) {
 }
 
 std::vector<PlaneRow> read_plane_table(std::string_view text, int dimension) {
-  constexpr int most_parts = 10'000;  // of one body; more is a slip of columns
+  constexpr int most_parts = 10'000;  // of one body; more is a mistake in the columns
   const CsvTable table = parse_csv(text);
   table.check_header(joined({"block", "offset_m"}, normal_columns(dimension)), {"part", "joint"});
   std::vector<PlaneRow> planes;

@@ -13,16 +13,16 @@
 
 namespace voussoir {
 
-// A joint as a row: columns name, dip_deg, dip_direction_deg or normal_x … (which wins where both stand, and then is
-// exact), in space strike_deg instead of the dip direction, which by the right-hand rule is strike + 90°, x_m, y_m, z_m
-// of any point (of a finite joint its centre), shape (infinite, or empty; ellipse, rectangle, polygon; in 2-D trace),
-// length_m along the strike and width_m down the dip (2-D: length_m), of a polygon corners_m as "x y z; x y z; …",
-// properties, set. inside_m2 (2-D: inside_m) is written for information and not read.
+// A joint as a row: columns name, dip_deg, dip_direction_deg or normal_x … (which takes precedence if both are stated,
+// and is then exact), in space strike_deg instead of the dip direction, which by the right-hand rule is strike + 90°,
+// x_m, y_m, z_m of any point (of a finite joint its centre), shape (infinite, or empty; ellipse, rectangle, polygon; in
+// 2-D trace), length_m along the strike and width_m down the dip (2-D: length_m), of a polygon corners_m as "x y z; x y
+// z; …", properties, set. inside_m2 (2-D: inside_m) is written for information and not read.
 struct JointRow {
   int line = 0;  // of the file it came from
   std::string name, set, properties;
   std::optional<double> dip_deg, dip_direction_deg;
-  std::vector<double> normal;  // empty where the row states none; upward, unit
+  std::vector<double> normal;  // empty if the row states none; upward, unit
   std::vector<double> point;   // m
   OutlineForm shape = OutlineForm::none;
   std::vector<double> extents;               // m, along the strike and down the dip; 2-D: the length; empty: persistent
@@ -30,7 +30,7 @@ struct JointRow {
   std::optional<double> inside;              // m² (2-D: m)
 };
 
-// why a table of planes of CloudCompare's plugin qCompass is not read, and what is
+// why a table of planes of CloudCompare's plugin qCompass is not read, and which tables are
 inline constexpr const char* planes_of_compass =
     "is a table of planes of CloudCompare's qCompass, which states no outlines; rename its columns Name, Dip, Dip_Dir, "
     "Cx, Cy, Cz to name, dip_deg, dip_direction_deg, x_m, y_m, z_m and remove the others, and a scene reads it as "
@@ -41,8 +41,8 @@ std::string shape_text(OutlineForm shape, int dimension);
 
 inline constexpr std::size_t most_table_joints = 10'000;  // as a scene may state
 
-// Throws FileFault, but leaves the ranges of angles and coordinates to the scene. `remarks` gains what the user should
-// know of how the table was read.
+// Throws FileFault, but leaves the ranges of angles and coordinates to the scene. `remarks` receives notes for the user
+// on how the table was read.
 std::vector<JointRow> read_joint_table(std::string_view text, int dimension,
                                        std::vector<FileRemark>* remarks = nullptr);
 std::string joint_table(const std::vector<JointRow>& rows, int dimension);

@@ -1,4 +1,4 @@
-// Tables: what is written comes back, what is malformed is reported with its place.
+// Tables: written files read back unchanged; malformed ones are reported with the place.
 #include "core/exchange/tables.hpp"
 
 #include <fmt/format.h>
@@ -14,7 +14,7 @@
 namespace voussoir {
 namespace {
 
-TEST(JointTable, TellsWhereItIsMalformed) {
+TEST(JointTable, ReportsThePlaceOfAnError) {
   const std::string head = "name,dip_deg,dip_direction_deg,x_m,y_m,z_m,shape,length_m,width_m\n";
   const auto fault = [&](const std::string& row, int column, const std::string& part) {
     expect_fault([&] { read_joint_table(head + row, 3); }, 2, column, part);
@@ -75,7 +75,7 @@ TEST(JointTable, ReturnsJointsExactly) {
   EXPECT_EQ(joint_table(back, 3), text);
 }
 
-// what field books, spreadsheets and other programs write for a header
+// headers of field books, spreadsheets and other programs
 TEST(JointTable, NamesTheColumnThatIsMeant) {
   const std::pair<const char*, const char*> meant[] = {{"Dip", "dip_deg"},
                                                        {"dip", "dip_deg"},
@@ -111,7 +111,7 @@ TEST(JointTable, NamesTheColumnThatIsMeant) {
       1, 0, "rename its columns Name, Dip, Dip_Dir, Cx, Cy, Cz");
 }
 
-// the plane that holds the strike's horizontal line and dips to the right of it
+// the plane through the strike's horizontal line that dips to the right of it
 TEST(JointTable, StrikeIsReadByTheRightHandRule) {
   shapes::Random random(15);
   for (int i = 0; i < 200; ++i) {

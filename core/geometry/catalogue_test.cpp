@@ -1,9 +1,9 @@
-// Blocks against exact arithmetic: rows R, V and M of the catalogue of extremes. What stands where:
+// Blocks against exact arithmetic: rows R, V and M of the catalogue of extremes. Tests of the rows:
 //   R1 R2 R3  here; the joint that a coincident plane keeps: slicing_test MakeBlock.OfEqualPlanesTheLastOneStays
 //   V1 V2 V3  here; also geometry_test Topology, sliver_test, and the robustness atlas down to 1e-12 rad
 //   V4  no loop over triples of planes: surfaces are cut from a box, plane by plane
 //   M1 M4  here     M2  sliver_test InertiaSurvivesTheDistance, the atlas to 1e12 m
-//   M3  bodies have their exact tensors, no spheres stand in for them
+//   M3  bodies have their exact tensors, no spheres replace them
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -25,13 +25,13 @@ using shapes::uniform;
 
 constexpr double ulp = std::numeric_limits<double>::epsilon();
 
-// make_block drops a plane that would cut off less than this fraction of the inscribed radius (block.hpp); what cuts
-// off half or twice as much is on a known side of it
+// make_block drops a plane that would cut off less than this fraction of the inscribed radius (block.hpp); planes that
+// cut off half or twice as much are clearly on one side of it
 constexpr double dropped = 1e-10;
 
 // ---- mass -----------------------------------------------------------------------------------------------------------
 
-// the part of a prism of height 1 about z = 0 stands for a part of the plane: same area, centroid and moments in x, y
+// the part of a prism of height 1 about z = 0 represents a part of the plane: same area, centroid and moments in x, y
 exact::Planes solid_of(const HalfSpaces<3>& planes) {
   return exact::planes_of(planes);
 }
@@ -56,7 +56,7 @@ Allowed sliver(const Polytope<Dim>& part) {
   return {thick.volume + rounding, thick.centroid + rounding, thick.moment + rounding};
 }
 
-// what is wrong with a part's mass, or nothing
+// the error in a part's mass properties, or an empty text
 template <int Dim>
 std::string wrong_mass(const Polytope<Dim>& part, const HalfSpaces<Dim>& planes, const Allowed& allowed) {
   const exact::Solid solid = exact::solid(solid_of(planes));
@@ -155,8 +155,8 @@ TEST(BlockCatalogue, ARigidMotionKeepsTheVolume) {
 
 // ---- V: corners where more than three planes meet -------------------------------------------------------------------
 
-// The planes' normals were made unit, which may split a corner of many planes by its rounding: what lies within 1e-9 of
-// the size is one.
+// The planes' normals were made unit, which may split a corner of many planes by its rounding: corners within 1e-9 of
+// the size are one.
 std::size_t distinct_corners(const Polytope<3>& part) {
   std::vector<Vector<3>> found;
   for (const Vector<3>& v : part.vertices)
@@ -211,7 +211,7 @@ TEST(BlockCatalogue, ManyPlanesThroughACornerAreCountedOnce) {
     for (int corner = 0; corner < 8; ++corner)
       if (mask >> corner & 1)
         planes.push_back({{corner & 1 ? 1.0 : -1.0, corner & 2 ? 1.0 : -1.0, corner & 4 ? 1.0 : -1.0}, 1});
-    // two opposite corners of each face cut: what is left is the octahedron or less, still solid
+    // two opposite corners of each face cut: the rest is the octahedron or a smaller solid
     expect_counted(planes, fmt::format("cube without corners {:#x}", mask));
   }
 }
@@ -263,7 +263,7 @@ TEST(BlockCatalogue, NearlyCommonCornersStayNearExactOnes) {
 }
 
 TEST(BlockCatalogue, CornersOfNearlyParallelPlanesLieOnThem) {
-  // V3: two or three planes turned by 10^-k; a corner may lie anywhere along them, but on them, and outside none
+  // V3: two or three planes turned by 10^-k; a corner may be anywhere along them, but on them, and outside none
   Random random(604);
   for (int k = 1; k <= 15; ++k)
     for (int i = 0; i < 12; ++i) {
@@ -294,7 +294,7 @@ bool has_face(const Polytope<3>& part, const HalfSpace<3>& plane) {
                      [&](const HalfSpace<3>& f) { return f.normal == plane.normal && f.offset == plane.offset; });
 }
 
-// how much a plane cuts off what the others enclose within a far box, exactly
+// the exact depth to which a plane cuts the region that the others enclose within a far box
 double cut_depth(const HalfSpaces<3>& planes, std::size_t number) {
   HalfSpaces<3> others = shapes::cube<3>(100);
   for (std::size_t k = 0; k < planes.size(); ++k)
@@ -304,7 +304,7 @@ double cut_depth(const HalfSpaces<3>& planes, std::size_t number) {
 }
 
 // Eq. 3.8
-TEST(BlockCatalogue, APlaneStaysWhenItCutsSomethingOff) {
+TEST(BlockCatalogue, APlaneIsKeptIfItCutsSomethingOff) {
   // R1, R3: a plane across a corner, an edge or along a face, off it by +-10^-k of the inscribed radius
   Random random(605);
   int stays = 0, goes = 0, close = 0;
@@ -354,7 +354,7 @@ TEST(BlockCatalogue, APlaneStaysWhenItCutsSomethingOff) {
   EXPECT_LT(close, 150);
 }
 
-TEST(BlockCatalogue, TouchingAndRepeatedPlanesGoWhateverTheirOrder) {
+TEST(BlockCatalogue, TouchingAndRepeatedPlanesAreDroppedInAnyOrder) {
   // R2, R3, in whole numbers: planes through a corner or an edge, copies, copies in another unit
   Random random(606);
   for (int i = 0; i < 60; ++i) {

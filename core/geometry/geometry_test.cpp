@@ -22,7 +22,7 @@ constexpr double rounding = 1e-14;
 // vertices of well-shaped blocks lose two to three digits, their third powers some more
 constexpr double mass_tolerance = 1e-12;
 
-// at a distance of 1e6 sizes the offsets carry 1e-10 of the size: what the input itself leaves undecided, times ten
+// at a distance of 1e6 sizes the offsets have an error of 1e-10 of the size: the uncertainty of the input, times ten
 constexpr double far_origin_tolerance = 1e-9;
 
 // ---- rotations ------------------------------------------------------------------------------------------------------
@@ -277,7 +277,7 @@ TEST(Mass, DoesNotDependOnTheOrigin) {
     EXPECT_EQ(near.vertices.size(), far.vertices.size());
     EXPECT_NEAR(near.mass.volume, far.mass.volume, far_origin_tolerance * near.mass.volume);
     EXPECT_LT((near.mass.centroid + shift - far.mass.centroid).norm(), far_origin_tolerance);
-    // there and back again
+    // there and back
     const Polytope<3> back = moved_origin<3>(moved_origin<3>(near, Vector<3>(1, 2, 3)), Vector<3>(-1, -2, -3));
     EXPECT_LT((back.mass.second_moment - near.mass.second_moment).norm(), 100 * mass_tolerance);
     EXPECT_NEAR(back.radius, near.radius, 10 * mass_tolerance);

@@ -1,4 +1,4 @@
-// Half-spaces a·x <= d, the only thing a block is made of (Boon 2013, Eqs 3.1 and 3.2).
+// Half-spaces a·x <= d, of which every block is made (Boon 2013, Eqs 3.1 and 3.2).
 #pragma once
 
 #include <vector>
@@ -29,8 +29,7 @@ bool lies_inside(const HalfSpaces<Dim>& region, const Vector<Dim>& point);
 template <int Dim>
 HalfSpace<Dim> moved_origin(const HalfSpace<Dim>& plane, const Vector<Dim>& shift);
 
-// of the entries of a normal as it was stated, and whether that is a unit normal's to the six digits that someone may
-// write
+// of the entries of a normal as stated, and whether it is that of a unit normal written with six digits
 double squared_length(const std::vector<double>& normal);
 bool is_unit(double squared_length);
 

@@ -1,5 +1,5 @@
-// What loops ask of half-spaces, inline. Not installed: a program's own flags would round it otherwise, and the linker
-// might take its copy for the library's.
+// Functions of half-spaces for inner loops, inline. Not installed: a program's own flags would round it otherwise, and
+// the linker might take its copy for the library's.
 #pragma once
 
 #include "core/geometry/half_space.hpp"

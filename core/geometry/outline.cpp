@@ -12,7 +12,7 @@ namespace {
 
 using Polygon = std::vector<Vector<2>>;
 
-// a plane that dips less (rad) has no strike that its normal would still tell
+// a plane of smaller dip (rad) has no strike that its normal would resolve
 constexpr double least_dip = 1e-12;
 
 double cross(const Vector<2>& a, const Vector<2>& b) {
@@ -54,14 +54,14 @@ double disc_wedge(const Vector<2>& p, const Vector<2>& q) {
 }
 
 double area_in_unit_disc(const Polygon& polygon) {
-  constexpr double rounding = 1e-14;  // of the angles' sum: what lies outside comes to as much
+  constexpr double rounding = 1e-14;  // of the angles' sum: points outside reach as much
   double twice = 0;
   for (std::size_t i = 0; i < polygon.size(); ++i)
     twice += disc_wedge(polygon[i], polygon[(i + 1) % polygon.size()]);
   return twice > rounding ? twice / 2 : 0;
 }
 
-// of a persistent joint the part that may lie in the solid, as a rectangle around the solid's shadow
+// the part of a persistent joint that may be in the solid: a rectangle around the solid's projection
 Outline<3> bounded(const HalfSpace<3>& plane, const Outline<3>& outline, const Polytope<3>& solid) {
   if (outline.shape != OutlineForm::none) return outline;
   Outline<3> whole;

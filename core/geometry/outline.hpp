@@ -35,12 +35,12 @@ struct Outline {
 PlaneAxes<3> plane_axes(const Vector<3>& upward_normal);
 PlaneAxes<2> plane_axes(const Vector<2>& upward_normal);
 
-// The corners of a convex polygon, given in either sense, counter-clockwise; none where they are not convex, in order
+// The corners of a convex polygon, given in either sense, counter-clockwise; none if they are not convex, not in order
 // around it, or have no area.
 std::vector<Vector<2>> counter_clockwise(std::vector<Vector<2>> corners);
 
-// Area (2-D: length) of the joint inside the solid, in the solid's coordinates, m² (2-D: m): of a persistent joint that
-// of the whole section. Exact up to rounding, ellipses too.
+// Area (2-D: length) of the joint inside the solid, in the solid's coordinates, m² (2-D: m); for a persistent joint,
+// the area of the full section. Exact up to rounding, ellipses too.
 double measure_inside(const HalfSpace<3>& plane, const Outline<3>& outline, const Polytope<3>& solid);
 double measure_inside(const HalfSpace<2>& plane, const Outline<2>& outline, const Polytope<2>& solid);
 
@@ -48,7 +48,7 @@ double measure_inside(const HalfSpace<2>& plane, const Outline<2>& outline, cons
 template <int Dim>
 bool contains(const Outline<Dim>& outline, const Vector<Dim>& point);
 
-// The stretch of the line `start + t direction` inside the solid; none when it misses.
+// The segment of the line `start + t direction` inside the solid; none when it misses.
 template <int Dim>
 std::optional<std::array<double, 2>> stretch_inside(const Vector<Dim>& start, const Vector<Dim>& direction,
                                                     const HalfSpaces<Dim>& solid);

@@ -10,7 +10,7 @@ namespace voussoir {
 namespace {
 
 // Axes fitted to the spread of the vertices: the first along the farthest, the second along the largest remainder. The
-// determinant of a sliver's edges has no large terms in them that cancel, whatever the sliver's orientation.
+// determinant of a sliver's edges has no large terms that cancel, whatever the sliver's orientation.
 Matrix<2> fitted_axes(const std::vector<Vector<2>>& vertices, const Vector<2>& middle) {
   Vector<2> first = Vector<2>::Zero();
   for (const Vector<2>& v : vertices)
@@ -156,8 +156,8 @@ double inertia_tensor(const MassProperties<2>& mass) {
 
 template MassProperties<2> integrate<2>(const std::vector<Vector<2>>&, const std::vector<std::vector<int>>&);
 template MassProperties<3> integrate<3>(const std::vector<Vector<3>>&, const std::vector<std::vector<int>>&);
-// The distance of the hull of unit vectors from the origin, from below, by Gilbert's method: it nears the hull's point
-// closest to the origin, and every iterate bounds the distance.
+// The distance of the hull of unit vectors from the origin, from below, by Gilbert's method: it approaches the point of
+// the hull closest to the origin, and every iterate bounds the distance.
 template <int Dim>
 double distance_of_hull(const std::vector<Vector<Dim>>& vectors) {
   constexpr int most_iterations = 64;

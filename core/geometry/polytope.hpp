@@ -1,5 +1,5 @@
-// A convex part: its half-spaces and what follows from them. Vertices serve mass, bounds and drawing only; slicing and
-// contact work on the half-spaces.
+// A convex part: its half-spaces and the data that follow from them. Vertices serve mass, bounds and drawing only;
+// slicing and contact work on the half-spaces.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ struct MassProperties {
   Matrix<Dim> second_moment = Matrix<Dim>::Zero();  // ∫ x xᵀ dV about the origin, m⁵ (2-D: m⁴)
 };
 
-// what a part is as a potential particle: core/potential/particle.hpp
+// a part as a potential particle: core/potential/particle.hpp
 template <int Dim>
 struct Particle;
 
@@ -36,12 +36,12 @@ struct Polytope {
   double vertex_error = 0;           // m: no point of the half-spaces lies farther outside the vertices' hull than this
   double largest_face = 0;           // area of the largest face, m² (2-D: m)
   std::vector<double> face_weights;  // of facets of one face (facet_weights.hpp); empty: every face counts 1
-  // Where the part is a potential particle the faces only enclose it; where it meets some, what it is to them; else
-  // none.
+  // If the part is a potential particle, the faces only enclose it; if it meets potential particles, this is its form
+  // in their contacts; else none.
   std::shared_ptr<const Particle<Dim>> particle;
 };
 
-// the order of solids, whatever order they were given in: by centroid, then volume
+// the order of solids, for any order of input: by centroid, then volume
 template <int Dim>
 bool in_order(const MassProperties<Dim>& a, const MassProperties<Dim>& b) {
   for (int k = 0; k < Dim; ++k)
@@ -61,7 +61,7 @@ template <int Dim>
 MassProperties<Dim> moved_origin(const MassProperties<Dim>& mass, const Vector<Dim>& shift);
 
 // How far the half-spaces may reach beyond the hull of the vertices computed from them, m: at a sharp corner the
-// rounding of its planes moves it a long way.
+// rounding of its planes moves it far.
 template <int Dim>
 double find_vertex_error(const Polytope<Dim>& part);
 

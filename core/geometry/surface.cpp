@@ -16,21 +16,21 @@ namespace {
 // a vertex this close to a plane lies on it: the rounding of a few operations on coordinates of the box's size
 constexpr double on_plane = 4 * std::numeric_limits<double>::epsilon();
 
-// Many planes through nearly one point may leave faces that do not fit together; taking points within twice the
-// distance for one mends that. More often than this, and the solid is thinner than its coordinates resolve.
+// Many planes through nearly one point may leave faces that do not fit together; merging points within twice the
+// distance repairs that. If it takes more doublings than this, the solid is thinner than its coordinates resolve.
 constexpr int widenings = 8;
 
 // from one box to the next larger one, as long as the solid reaches the box
 constexpr double larger = 8;
 
-// a solid that extends farther than this times the distance of its farthest plane is taken for open
+// a solid that extends farther than this times the distance of its farthest plane counts as open
 constexpr double farthest = 1e9;
 
-// planes whose normals span less are no better a place for their common point than the cuts that made it
+// planes whose normals span less determine their common point no better than the cuts that made it
 constexpr double well_conditioned = 1e-4;
 
 // Corners nearer to each other than this times the band are one: more planes than dimensions through a point leave, cut
-// in an unlucky order, several points where one is meant.
+// in an unlucky order, several points in place of one.
 constexpr double one_corner = 4;
 
 // of a corner, by the sign of its distance to the plane that cuts, and not by Eq. B.1 over all planes
@@ -42,13 +42,13 @@ struct Facet {
   std::size_t begin, size;
 };
 
-// what lies between the planes that have cut so far
+// the solid between the planes that have cut so far
 template <int Dim>
 struct Solid {
   std::vector<Vector<Dim>> points;
   std::vector<Facet> facets;
   std::vector<int> corners;  // of one face after the other
-  double band = 0;           // m: closer to a plane than this is on it
+  double band = 0;           // m: a point closer to a plane than this is on it
 
   void add(int plane, std::initializer_list<int> loop) {
     facets.push_back({plane, corners.size(), loop.size()});
@@ -70,7 +70,7 @@ struct Scratch {
   std::vector<Side> side;
   std::vector<Crossing> crossings;
   std::vector<char> in_plane;  // for each corner of the face in hand whether it lies in the cutting plane
-  std::vector<Facet> facets;   // what is left
+  std::vector<Facet> facets;   // that remain
   std::vector<int> corners;
   std::vector<Edge> rim, links;  // of the new face
   std::vector<int> ends;         // in the plane: how often a point ends a face, less how often it begins one
@@ -110,7 +110,7 @@ int crossing_between(int from, int to, Solid<Dim>& solid, Scratch& scratch) {
   return point;
 }
 
-// what is left of a face, behind those that are left already
+// the rest of a face, behind the faces that remain so far
 template <int Dim>
 void cut_face(const Facet& face, Solid<Dim>& solid, Scratch& scratch) {
   const std::vector<Side>& side = scratch.side;
@@ -131,8 +131,8 @@ void cut_face(const Facet& face, Solid<Dim>& solid, Scratch& scratch) {
   scratch.facets.push_back({face.plane, begin, scratch.corners.size() - begin});
 }
 
-// The new face's loop, behind the faces left, from its edges, each seen from the face beyond it; of no size when they
-// form no single ring.
+// The new face's loop, behind the faces that remain, from its edges, each seen from the face beyond it; of no size when
+// they form no single ring.
 std::size_t add_ring(Scratch& scratch) {
   std::vector<Edge>& links = scratch.links;
   links.clear();
@@ -171,7 +171,7 @@ std::size_t add_gap(std::size_t points, Scratch& scratch) {
   return 2;
 }
 
-// false when the faces left do not fit together
+// false when the remaining faces do not fit together
 template <int Dim>
 bool cut(Solid<Dim>& solid, const HalfSpace<Dim>& plane, int number, double negligible, Scratch& scratch) {
   scratch.distance.assign(solid.points.size(), 0);
@@ -218,8 +218,8 @@ Vector<Dim> common_point(const Matrix<Dim>& normals, const Vector<Dim>& offsets)
   return point + inverse * (offsets - normals * point);
 }
 
-// The vertex again from Dim of the planes through it, each chosen to lean most against those before: cutting left the
-// rounding of the box.
+// The vertex again from Dim of the planes through it, each chosen with the largest angle to those before: cutting left
+// it with the rounding of the box.
 template <int Dim>
 void sharpen(Vector<Dim>& point, const HalfSpaces<Dim>& faces, std::span<const int> through) {
   Matrix<Dim> normals;
@@ -248,8 +248,8 @@ void sharpen(Vector<Dim>& point, const HalfSpaces<Dim>& faces, std::span<const i
   if (spanned > well_conditioned) point = common_point<Dim>(normals, offsets);
 }
 
-// Edges too short to mean anything shrink to a point; faces that lose their area with them go. What is left still fits
-// together: an edge that shrinks does so in both of its faces.
+// Edges shorter than the resolution shrink to a point; faces that lose their area with them are removed. The remaining
+// faces still fit together: an edge that shrinks does so in both of its faces.
 template <int Dim>
 void shrink_short_edges(Surface<Dim>& surface, double shortest) {
   std::vector<int> stands_for(surface.vertices.size());
@@ -355,7 +355,7 @@ Surface<Dim> find_surface(const HalfSpaces<Dim>& faces, double negligible) {
   double extent = 0;
   for (const Vector<Dim>& v : surface.vertices)
     extent = std::max(extent, v.cwiseAbs().maxCoeff());
-  // its own coordinates carry the rounding of the first box
+  // its coordinates have the rounding of the first box
   if (surface.status == SurfaceStatus::ok && half > 2 * extent)
     surface = cut_from_box<Dim>(faces, 2 * extent, negligible);
   return surface;

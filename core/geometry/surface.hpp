@@ -20,11 +20,11 @@ struct Surface {
   std::vector<std::vector<int>> loops;  // vertices of each face, counter-clockwise seen from outside (2-D: two ends)
 };
 
-// A box is cut by one plane after the other, the last plane first. Each cut asks once for every vertex on which side it
-// lies, so the faces always share their edges, however flat the angle between them; and vertices are off by no more
-// than the rounding of their coordinates, measured across the planes. More than Dim planes through a vertex is normal
-// input. A plane that would cut off less than `negligible` (m) has an empty loop: of coincident planes the last has the
-// face. The origin must lie inside, deeper than that.
+// A box is cut by one plane after the other, the last plane first. Each cut decides once for every vertex on which side
+// it is, so the faces always share their edges, at any angle between them; and the error of vertices is no more than
+// the rounding of their coordinates, measured across the planes. More than Dim planes through a vertex is normal input.
+// A plane that would cut off less than `negligible` (m) has an empty loop: of coincident planes the last has the face.
+// The origin must lie inside, deeper than that.
 template <int Dim>
 Surface<Dim> find_surface(const HalfSpaces<Dim>& faces, double negligible);
 

@@ -6,8 +6,8 @@
 
 namespace voussoir {
 
-// Without the alignment that Eigen gives fixed sizes by a compiler's flags (-mavx2): a struct that holds one has the
-// same layout for the library and for whatever uses it.
+// Without the alignment that Eigen gives fixed sizes by a compiler's flags (-mavx2): a struct with such a member has
+// the same layout for the library and for its users.
 template <int Rows, int Columns>
 using FixedMatrix =
     Eigen::Matrix<double, Rows, Columns,

@@ -28,7 +28,7 @@ template double length_of<3>(const Vector<3>&);
 namespace {
 
 // The difference of the lengths' squares is taken as (a - b)·(a + b), where nothing cancels, and added as a correction:
-// the quotient of the two lengths is rounded so unevenly that a force carried round once in 1e6 steps would come back
+// the quotient of the two lengths is rounded so unevenly that a force transported round once in 1e6 steps would return
 // longer by 1e-11.
 template <int Dim>
 Vector<Dim> corrected(const Vector<Dim>& shear, const Vector<Dim>& turned) {

@@ -23,11 +23,11 @@ template <int Dim>
 struct JointForce {
   Vector<Dim> force;        // N on the second body
   double plastic_slip = 0;  // m, of this step
-  double elastic = 0;       // J held by the normal and the shear spring
+  double elastic = 0;       // J stored in the normal and the shear spring
   double friction = 0;  // J lost to slip in this step: mean of the old and the new shear force times the plastic slip,
                         // never negative
   double dashpot = 0;   // N: the dashpot's fraction of the normal force
-  double stiffening = 0;   // J the shear spring lost as it grew stiffer under its force; negative: gained
+  double stiffening = 0;   // J lost by the shear spring as it stiffened under its force; negative: gained
   bool snap_back = false;  // friction fell faster than the spring could unload
 };
 
@@ -35,12 +35,12 @@ struct JointForce {
 template <int Dim>
 double length_of(const Vector<Dim>& v);
 
-// Carries a shear force to a new contact plane: turned with the normal, then with the bodies' spin about it, its length
+// Rotates a shear force to a new contact plane: turned with the normal, then with the bodies' spin about it, its length
 // kept. (Decision: Eq. 4.4 lengthens it on every turn and misses the spin.)
 Vector<2> carried(const Vector<2>& shear, const Vector<2>& old_normal, const Vector<2>& normal, double turn);
 Vector<3> carried(const Vector<3>& shear, const Vector<3>& old_normal, const Vector<3>& normal, double turn);
 
-// Force on the second body. `shear` is its old shear force already carried to the new plane and is updated to the new
+// Force on the second body. `shear` is its old shear force already rotated to the new plane and is updated to the new
 // one. `coefficient` of friction; `dashpot` in N s/m adds to the normal force, which never pulls.
 template <int Dim>
 JointForce<Dim> elastic_coulomb(const JointProperties& properties, double coefficient, double dashpot,

@@ -15,14 +15,14 @@ constexpr double far_pole = 32;
 // it
 constexpr double on_the_line = 1e-30;
 
-// The direction of slip is found when the trial lies off its plane's normal by no more than this, over the limit force:
-// the kept force lies on the surface and is off along it by as much. Below what far poles are known to, Newton's method
-// would go on without an end.
+// The direction of slip is found when the trial's distance from its plane's normal is no more than this, over the limit
+// force: the remaining force is on the surface, with an error along it of as much. Below the accuracy of far poles,
+// Newton's method would not end.
 constexpr double along_the_normal = 1e-8;
 constexpr int newton_limit = 60;
 constexpr double shortest_step = 1e-3;  // of Newton's
 
-// What friction does against a slip, and how that changes with the slip (v, w): the second derivative of the
+// The resistance of friction to a slip, and its derivative by the slip (v, w): the second derivative of the
 // dissipation, ∫ p/|s| j jᵀ with s the slip at a point, t its direction, j = (ẑ × t, t·y).
 struct Resistance {
   FaceFriction friction;
@@ -47,9 +47,9 @@ double integral_of_inverse(double h, double s0, double r0, double s1, double r1)
   return std::log((s1 + r1) / h * ((r0 - s0) / h));
 }
 
-// Over the triangle from the pole to an edge from `first` to `second`, seen from the pole, where the overlap is
-// at_pole + gradient·y. In polar coordinates the radius integrates to powers of ρ = √(h² + s²), the distance to the
-// edge's point s; along the edge dθ = h ds/ρ².
+// Over the triangle from the pole to an edge from `first` to `second`, seen from the pole, with the overlap at_pole +
+// gradient·y. In polar coordinates the radius integrates to powers of ρ = √(h² + s²), the distance to the edge's point
+// s; along the edge dθ = h ds/ρ².
 void add_edge(const Vector<2>& first, const Vector<2>& second, double at_pole, const Vector<2>& gradient,
               AroundPole& sum) {
   const double length = (second - first).norm();
@@ -76,8 +76,8 @@ void add_edge(const Vector<2>& first, const Vector<2>& second, double at_pole, c
                  aa * along * along.transpose();
 }
 
-// seven points of a triangle, exact to degree 5 (Radon 1948): weights, and the corners' shares, of which the first is
-// one corner's and the second the two others'
+// seven points of a triangle, exact to degree 5 (Radon 1948): weights, and the corners' shares: the first is that of
+// one corner, the second that of the two others
 struct TrianglePoint {
   double weight, share;
 };
@@ -138,7 +138,7 @@ Resistance resistance(const PressedPolygon& polygon, const Vector<2>& v, double 
   return result;
 }
 
-// The overlap over the polygon: all of it, the centre of pressure, and about that the second moment and the largest
+// The overlap over the polygon: its integral, the centre of pressure, and about that the second moment and the largest
 // distance. By triangles around the centre of the area.
 struct Pressure {
   double volume = 0, second = 0, reach = 0;
@@ -165,24 +165,25 @@ struct Pressure {
     reach = std::sqrt(square);
   }
 
-  // Whether the face surely holds a force and a moment about its centre of area, both over µ k: slips at no more than
-  // the speed of its farthest point, w reach, about the centre of pressure, which resist with the second moment over
-  // the reach at least; with translations, which all of it resists, they span a double cone inside the limit surface.
+  // Whether the face certainly resists a force and a moment about its centre of area, both over µ k: slips at no more
+  // than the speed of its farthest point, w reach, about the centre of pressure, which resist with the second moment
+  // over the reach at least; with translations, which the full face resists, they span a double cone inside the limit
+  // surface.
   bool surely_holds(const Vector<2>& force, double moment) const {
     const double about = moment - (centre[0] * force[1] - centre[1] * force[0]);
     return force.norm() / volume + std::abs(about) * reach / second <= 1;
   }
 };
 
-// The limit surface where force is measured in limits of translation, moment in those at the radius of gyration: its
-// springs are alike in all directions, and the return is to its nearest point.
+// The limit surface with the force in units of the limit of translation and the moment in those at the radius of
+// gyration: the springs are equal in all directions, and the return is to the nearest point.
 struct LimitSurface {
   const PressedPolygon& polygon;
   double volume, gyration;
 
   struct Point {
     Vector<3> at;
-    Matrix<3> curvature;  // how it moves with the direction
+    Matrix<3> curvature;  // its derivative by the direction
   };
 
   // the point whose outward normal is `direction`: the friction against a slip along it
@@ -195,8 +196,8 @@ struct LimitSurface {
   }
 };
 
-// The outward normal of the surface where it is nearest to a trial: the direction in which the trial lies farthest
-// beyond the surface's plane. Newton's method on the sphere. False where the trial lies within.
+// The outward normal of the surface at the point nearest to a trial: the direction in which the trial is farthest
+// beyond the surface's plane. Newton's method on the sphere. False if the trial is inside.
 bool nearest(const LimitSurface& surface, const Vector<3>& trial, Vector<3>& normal, Vector<3>& point) {
   LimitSurface::Point at = surface.point(normal);
   double beyond = normal.dot(trial - at.at);

@@ -49,13 +49,13 @@ double twist_of_regular(int corners, double inscribed) {
   return corners * inscribed * inscribed * inscribed / 3 * (secant * tangent + std::log(secant + tangent));
 }
 
-// a moment far beyond what friction carries: ks A and ks J as a linear joint has them
+// a moment far beyond the limit of friction; ks A and ks J of a linear joint
 FaceSlip twisted(const PressedPolygon& p, double polar) {
   const double stiffness = 1e3 * area(p);
   return return_to_limit(p, area(p) * p.overlap, stiffness, stiffness / area(p) * polar, Vector<2>::Zero(), 1e6);
 }
 
-// Closed forms on both sides, so that only rounding is left; asked for is 1e-6.
+// Closed forms on both sides, so that only rounding remains; 1e-6 is required.
 TEST(FaceFriction, LimitInTwistUnderEvenPressureIsTheClosedForm) {
   for (const double size : {1e-3, 1.0, 1e4}) {
     const double square = size * size, cube = square * size;
@@ -88,8 +88,9 @@ FaceFriction by_cells(const PressedPolygon& p, const Vector<2>& v, double w) {
   return sum;
 }
 
-// A cell's middle stands for its slip: wrong by (width/r)² of it, and within a cell of the pole wrong altogether. Of
-// 1000 cells along, the ring at r cells holds 2πr of them: 2π Σ 1/r < 2π ln 1000 < 50 cells' worth of a million, 5e-5.
+// The slip at a cell's middle represents the cell: its relative error is (width/r)², and of order one within a cell of
+// the pole. Of 1000 cells along, the ring at r cells has 2πr of them: 2π Σ 1/r < 2π ln 1000 < 50 cells' worth of a
+// million, 5e-5.
 TEST(FaceFriction, TranslationAndTwistTogetherAreTheSumOfAMillionCells) {
   constexpr double of_cells = 5e-5;
   const std::vector<PressedPolygon> faces{rectangle(4, 1), rectangle(1, 1, 1, {2, 0}), rectangle(4, 1, 1, {0.5, 0}),
@@ -101,7 +102,7 @@ TEST(FaceFriction, TranslationAndTwistTogetherAreTheSumOfAMillionCells) {
       for (const double heading : {0.3, 1.4, 4.0}) {
         const Vector<2> force = 3 * n * share * Vector<2>(std::cos(heading), std::sin(heading));
         const FaceSlip s = return_to_limit(p, n, stiffness, polar, force, 3 * reach * (1 - share));
-        // what is kept is what cells bear against the slip that was needed, and that slip is what the springs lost
+        // the remaining force is the cells' resistance to the computed slip, and that slip is the loss of the springs
         const FaceFriction cells = by_cells(p, s.slip, s.turn);
         EXPECT_LT((s.force - cells.force).norm(), of_cells * n);
         EXPECT_NEAR(s.moment, cells.moment, of_cells * reach);
@@ -111,13 +112,13 @@ TEST(FaceFriction, TranslationAndTwistTogetherAreTheSumOfAMillionCells) {
   }
 }
 
-// The measure of what an ellipsoid through the same extremes would cost, which is why there is none: it is beyond what
-// the face carries by 10 to 17 % in the middle of the quarter (sampled where force and moment share).
+// The error of an ellipsoid through the same extremes, which is why none is used: it exceeds the limit of the face by
+// 10 to 17 % in the middle of the quadrant (sampled under force and moment together).
 TEST(FaceFriction, AnEllipsoidWouldBeTooStrong) {
   const PressedPolygon p = rectangle(4, 1, 1, {0.5, 0});
   const double n = p.overlap * area(p);
   const double lever = p.gradient[0] * 4 * 16 / 12.0 / n;  // of the centre of pressure
-  // moments about the centre of pressure, over the most that there is: turning about it
+  // moments about the centre of pressure, over the largest one: that against turning about it
   const auto about = [&](const FaceFriction& f) { return f.moment - lever * f.force[1]; };
   const double most = about(friction_against(p, {0, -lever}, 1));
   double inside = 0;
@@ -132,7 +133,7 @@ TEST(FaceFriction, AnEllipsoidWouldBeTooStrong) {
   EXPECT_LT(inside, 0.17);
 }
 
-TEST(FaceFriction, WhatItBearsIsLeftAndBeyondItSlides) {
+TEST(FaceFriction, ALoadBelowTheLimitIsKeptAndBeyondItTheFaceSlips) {
   Random random(7);
   for (int i = 0; i < 300; ++i) {
     const double size = shapes::power_of_ten(random, -3, 4), a = size * uniform(random, 0.1, 1);
@@ -149,7 +150,7 @@ TEST(FaceFriction, WhatItBearsIsLeftAndBeyondItSlides) {
     const FaceSlip within = kept(1 - 1e-6), beyond = kept(1 + 1e-6);
     EXPECT_EQ(within.force, Vector<2>((1 - 1e-6) * edge.force));
     EXPECT_EQ(within.moment, (1 - 1e-6) * edge.moment);
-    // at most as far as the trial is from the point that it was drawn from
+    // at most as far from the trial as the point from which the trial was drawn
     const double gyration = std::sqrt(twist / stiffness);
     const double moved = std::hypot((beyond.force - (1 + 1e-6) * edge.force).norm(),
                                     (beyond.moment - (1 + 1e-6) * edge.moment) / gyration);
@@ -158,7 +159,7 @@ TEST(FaceFriction, WhatItBearsIsLeftAndBeyondItSlides) {
   }
 }
 
-// poles in corners, on edges, beside them, and where the closed forms end
+// poles in corners, on edges, beside them, and at the limit of the closed forms
 TEST(FaceFriction, NoPlaceOfThePoleIsSpecial) {
   const PressedPolygon p = rectangle(2, 1, 1, {0.4, -0.3});
   const double radius = p.corners[0].norm();
@@ -172,7 +173,7 @@ TEST(FaceFriction, NoPlaceOfThePoleIsSpecial) {
       EXPECT_NEAR(here.moment, there.moment, 3e-9);
     }
   }
-  // a slip without turning is resisted at the centre of pressure by all of the force
+  // a slip without turning is resisted at the centre of pressure by the full force
   const FaceFriction straight = friction_against(p, {0, 2}, 0);
   EXPECT_NEAR(straight.force[1], 2, 1e-14);
   EXPECT_NEAR(straight.moment, 0.4 * 2 * 4 / 12, 1e-14);

@@ -7,7 +7,7 @@
 namespace voussoir {
 namespace {
 
-// ∫(e^x - 1) dx from 0: by its series where the difference would cancel
+// ∫(e^x - 1) dx from 0: by its series if the difference would cancel
 double integral_of_expm1(double x) {
   constexpr double small = 0.05;  // the first term left out is 2e-16 of the sum
   if (std::abs(x) > small) return std::expm1(x) - x;
@@ -84,7 +84,7 @@ SlipReturn return_to_cone(const JointProperties& p, double friction, double plas
   }
   double low = 0, high = trial / stiffness;
   double slip = p.laws.friction == FrictionLaw::hardening ? low : high;
-  // Newton's steps shorten quadratically; halving, which rounding may ask for, needs as many as a double has digits
+  // Newton's steps shorten quadratically; halving, which rounding may require, needs as many as a double has digits
   constexpr int limit = 2 * std::numeric_limits<double>::digits;
   for (int i = 0; i < limit; ++i) {
     const FrictionAnswer at = friction_answer(p, friction, plastic_slip + slip, stress, strength_factor);
@@ -107,7 +107,7 @@ JointForce<Dim> joint_law(const JointProperties& p, double friction, double dash
   const double area = kinematics.area;
   JointForce<Dim> result;
 
-  // the normal force; a bond breaks where it is pulled beyond its strength
+  // the normal force; a bond breaks when it is pulled beyond its strength
   NormalAnswer normal = normal_answer(p, kinematics.overlap, history.bonded);
   const double damping = dashpot * kinematics.closing_speed;
   if (history.bonded && normal.stress * area + damping < -p.tension * area) {
@@ -119,13 +119,13 @@ JointForce<Dim> joint_law(const JointProperties& p, double friction, double dash
     return history.bonded ? force : std::max(force, 0.0);
   };
 
-  // the spring's energy at the shear force that stands changes with its stiffness
+  // at constant shear force the spring's energy changes with its stiffness
   const double per_area = shear_stiffness_at(p, normal.stress), stiffness = per_area * area;
   if (history.shear_stiffness > 0 && per_area > 0 && per_area != history.shear_stiffness)
     result.stiffening = 0.5 * shear.squaredNorm() / area * (1 / history.shear_stiffness - 1 / per_area);
   history.shear_stiffness = per_area;
 
-  // elastic trial; slip breaks a bond, and what is left is friction
+  // elastic trial; slip breaks a bond and leaves friction
   const Vector<Dim> old_shear = shear;
   shear -= stiffness * kinematics.slip;
   const double trial = length_of<Dim>(shear);
@@ -139,7 +139,7 @@ JointForce<Dim> joint_law(const JointProperties& p, double friction, double dash
       history.bonded = false;
       normal = normal_answer(p, kinematics.overlap, false);
     }
-    double limit = strength();  // of the bond's loss; a little slip hardens, so that there may be none left to find
+    double limit = strength();  // after the bond's loss; hardening may leave no slip
     if (stiffness > 0 && trial > limit) {
       const SlipReturn back = return_to_cone(p, friction, history.plastic_slip, trial, stiffness, normal_force(),
                                              normal.stress, strength_factor);

@@ -16,7 +16,7 @@ struct NormalAnswer {
 };
 
 // Stress of a joint closed by `overlap`, m, >= 0. A tensile strength σt shifts the origin to δ0 = σt/kn, where it
-// stays: the stress reaches -σt as the overlap reaches 0, and without a bond there is none below δ0 (Eqs 6.5, 6.6).
+// stays: the stress reaches -σt as the overlap reaches 0, and without a bond it is zero below δ0 (Eqs 6.5, 6.6).
 //   constant  σ = kn u
 //   linear    σ = (k0/c)(e^(c u) - 1)                 integral of dσ/du = k0 + c σ        (Eqs 4.10, 4.12, 4.14)
 //   power     σ = ((1-m) k1 u)^(1/(1-m))              integral of dσ/du = k1 (σ/1 Pa)^m   (Eq. 4.13)
@@ -25,12 +25,12 @@ NormalAnswer normal_answer(const JointProperties& properties, double overlap, bo
 // the overlap, m, at a compressive stress, Pa
 double overlap_at(const JointProperties& properties, double stress);
 
-// Pa/m at a normal stress, Pa; none at all under tension where it is a power of the stress (Eqs 4.11, 4.17)
+// Pa/m at a normal stress, Pa; zero under tension if it is a power of the stress (Eqs 4.11, 4.17)
 double shear_stiffness_at(const JointProperties& properties, double stress);
 
 // tan φ after a plastic slip `slip`, m, under a normal stress, Pa, where `friction`, rad, is the joint's own
 // (Eqs 4.16, 4.18, 6.7), and its derivative, 1/m. In a search for a factor of safety the joint's friction angle is that
-// of tan φ over the factor; here it divides what softening takes, and elsewhere cohesion.
+// of tan φ over the factor; here it divides the softening drop, elsewhere the cohesion.
 struct FrictionAnswer {
   double coefficient = 0, slope = 0;
 };
@@ -38,9 +38,9 @@ FrictionAnswer friction_answer(const JointProperties& properties, double frictio
                                double strength_factor = 1);
 
 // The plastic slip p of a return to the cone after the slip β = `plastic_slip`: trial - K p = μ(β + p) N, within [0,
-// trial/K], where the left side less the right goes from positive to not positive. Hardening makes that difference
-// convex, softening concave: one root either way, to which Newton's method runs from one side. Needs K > 0 and trial >
-// μ(β) N.
+// trial/K], over which the left side minus the right changes from positive to not positive. Hardening makes that
+// difference convex, softening concave: one root either way, to which Newton's method runs from one side. Needs K > 0
+// and trial > μ(β) N.
 struct SlipReturn {
   double slip = 0;         // m
   bool snap_back = false;  // friction fell faster than the spring unloads, N |μ'| > K: no quasi-static path leads here
@@ -48,8 +48,8 @@ struct SlipReturn {
 SlipReturn return_to_cone(const JointProperties& properties, double friction, double plastic_slip, double trial,
                           double stiffness, double normal_force, double stress, double strength_factor = 1);
 
-// As elastic_coulomb, for a joint with any laws; stiffness per area only. Of the history it brings shear force, plastic
-// slip, shear stiffness and bond up to date.
+// As elastic_coulomb, for a joint with any laws; stiffness per area only. It updates the history's shear force, plastic
+// slip, shear stiffness and bond.
 template <int Dim>
 JointForce<Dim> joint_law(const JointProperties& properties, double friction, double dashpot,
                           const JointKinematics<Dim>& kinematics, JointState<Dim>& history, double strength_factor = 1);

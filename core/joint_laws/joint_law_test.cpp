@@ -19,7 +19,7 @@ using shapes::Random;
 
 // roundings of a few functions, relative
 constexpr double rounding = 1e-13;
-// what the issue asks of a path against its closed form, relative
+// required accuracy of a path against its closed form, relative
 constexpr double closed_form = 1e-10;
 
 // ---- the laws of thesis 4.12 and 6.3 --------------------------------------------------------------------------------
@@ -67,7 +67,7 @@ JointProperties bonded_joint() {  // Eqs 6.3-6.6
   return p;
 }
 std::vector<JointProperties> every_law() {
-  JointProperties brittle = linear();  // several at once
+  JointProperties brittle = linear();  // several laws together
   brittle.name = "brittle";
   brittle.laws.friction = FrictionLaw::softening;
   brittle.laws.bond = true;
@@ -165,7 +165,7 @@ TEST(ShearLaw, HardeningAndSofteningFollowTheirCurves) {
         EXPECT_NEAR(at.slip, at.shear_stress / ks + at.plastic_slip, closed_form * at.slip) << p.name;
         EXPECT_FALSE(at.snap_back);
       }
-      // the same whatever the steps: the state after one step is that after two hundred
+      // the same for any steps: the state after one step is that after two hundred
       JointPath once = sheared(stress, first + 3 * scale);
       once.steps = 1;
       EXPECT_NEAR(follow(p, once).back().shear_stress, points.back().shear_stress, closed_form * stress) << p.name;
@@ -195,7 +195,7 @@ TEST(ShearLaw, TangentIsThatOfTheCurve) {
 }
 
 // Eqs 6.3 and 6.4
-TEST(ShearLaw, CohesionIsLostAtOnce) {
+TEST(ShearLaw, CohesionIsLostAtTheFirstSlip) {
   const JointProperties p = bonded_joint();
   JointPath path = sheared(1e6, 3e-3);
   path.bonded = true;
@@ -222,23 +222,23 @@ TEST(ShearLaw, TensionAndSlipBreakTheSameBond) {
   history.bonded = true;
   EXPECT_NEAR(joint_law<2>(p, p.friction, 0, k, history).force[1], -2 * 2e9 * 28e-6, 1e-6);
   EXPECT_TRUE(history.bonded);
-  // a dashpot that pulls beyond the strength breaks it, and what is broken does not pull
+  // a dashpot that pulls beyond the strength breaks it, and a broken bond does not pull
   k.closing_speed = -1;
   EXPECT_EQ(joint_law<2>(p, p.friction, 1e6, k, history).force[1], 0);
   EXPECT_FALSE(history.bonded);
-  // slip at a pull: the strength c A + tan φ F is less than under no load; beyond it nothing is left
+  // slip under tension: the strength c A + tan φ F is less than without load; beyond it there is none
   history.bonded = true;
   k.closing_speed = 0;
-  k.slip = {-1e-3, 0};  // asks for 2 MN, of which 1.574 - 0.094 MN are there
+  k.slip = {-1e-3, 0};  // the trial is 2 MN, the strength 1.574 - 0.094 MN
   const JointForce<2> torn = joint_law<2>(p, p.friction, 0, k, history);
   EXPECT_FALSE(history.bonded);
   EXPECT_EQ(torn.force, Vector<2>::Zero());
   EXPECT_EQ(history.shear_force, Vector<2>::Zero());
 }
 
-// A factor divides friction, what softening takes of it, and cohesion: the joint answers as one of that strength, and
-// one of factor 1 as ever, to the bit. Tension stays.
-TEST(ShearLaw, AFactorDividesTheWholeStrengthInShear) {
+// A factor divides friction, its softening drop and cohesion: the joint behaves as one of that strength, and with a
+// factor of 1 as without one, to the bit. Tensile strength is not divided.
+TEST(ShearLaw, AFactorDividesTheFullShearStrength) {
   constexpr double factor = 1.6;
   JointProperties p = softened();
   p.laws.bond = true;
@@ -297,8 +297,8 @@ TEST(ShearLaw, ConstantNormalStiffnessRaisesTheStress) {
 // ---- energy
 // -----------------------------------------------------------------------------------------------------------
 
-// Random paths in all laws: what slips away is never negative, and what the forces did on the joint is stored, lost or
-// counted as stiffening. The last holds to the error of the trapezoid rule: small steps.
+// Random paths in all laws: dissipation is never negative, and the work of the forces on the joint is stored,
+// dissipated or counted as stiffening. The latter up to the error of the trapezoid rule: small steps.
 TEST(JointEnergy, DissipationIsNeverNegative) {
   Random random(41);
   constexpr int paths = 100000, length = 8;
@@ -331,7 +331,7 @@ TEST(JointEnergy, DissipationIsNeverNegative) {
   EXPECT_GT(slid, paths);
 }
 
-TEST(JointEnergy, WorkIsStoredLostOrBooked) {
+TEST(JointEnergy, WorkIsStoredDissipatedOrCounted) {
   for (const JointProperties& p : {plain(), linear(), hardened(), softened()}) {
     // closes, shears, closes more under shear, shears back and opens
     const double deep = overlap_at(p, 2e6), ks = shear_stiffness_at(p, 1e6), reach = 1.5e6 / ks;

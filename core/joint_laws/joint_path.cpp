@@ -6,8 +6,8 @@
 namespace voussoir {
 namespace {
 
-// Overlap and stress where the surroundings, a spring set at `stress` and `overlap`, have risen by `rise`: the root of
-// what the joint answers less what they press, which grows with the overlap.
+// Overlap when the joint has risen by `rise` against the surroundings, a spring: the root of the joint's stress minus
+// that of the spring, which grows with the overlap.
 double overlap_between(const JointProperties& p, const JointPath& path, double start, double rise, bool bonded) {
   if (path.surroundings == 0) return start;
   const auto excess = [&](double overlap) {
@@ -25,7 +25,7 @@ double overlap_between(const JointProperties& p, const JointPath& path, double s
   return high;
 }
 
-// a piece of joint of 1 m², in the laboratory
+// a specimen of joint of 1 m²
 struct Specimen {
   const JointProperties& properties;
   JointState<2> history;

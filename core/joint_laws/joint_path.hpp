@@ -1,4 +1,4 @@
-// One joint of unit area on the paths of laboratory tests: what a law answers, apart from any block.
+// One joint of unit area on the paths of laboratory tests: the response of a law without any block.
 #pragma once
 
 #include <vector>
@@ -7,12 +7,12 @@
 
 namespace voussoir {
 
-// One path: first the normal stress is raised from none to `normal_stress` and, where `unload` says so, taken back as
-// far as it goes; then the joint is sheared to `slip`, or `cycles` times to slip, -slip and back to nothing.
-//   Constant normal load: `surroundings` is 0. Constant normal stiffness: what presses the joint is a spring of
-// `surroundings`, which a joint that rises by `dilation` times the slip from nothing compresses.
+// One path: first the normal stress is raised from none to `normal_stress` and, if `unload` is set, lowered again as
+// far as possible; then the joint is sheared to `slip`, or `cycles` times to slip, -slip and back to 0.
+//   Constant normal load: `surroundings` is 0. Constant normal stiffness: the joint is pressed by a spring of stiffness
+//   `surroundings`, which it compresses as it rises by `dilation` times the slip.
 struct JointPath {
-  double normal_stress = 0;  // Pa, where shear begins; the largest of a path without shear
+  double normal_stress = 0;  // Pa, at which shear begins; the largest of a path without shear
   bool unload = false;
   double slip = 0;          // m
   int cycles = 0;           // 0: one way only
@@ -32,7 +32,7 @@ struct JointPathPoint {
   bool bonded = false, snap_back = false;
 };
 
-// from the unloaded joint on; the first point is there
+// from the unloaded joint on, which is the first point
 std::vector<JointPathPoint> follow(const JointProperties& properties, const JointPath& path);
 
 }  // namespace voussoir

@@ -1,4 +1,4 @@
-// The properties of a joint: what its laws (joint_law.hpp, elastic_coulomb.hpp) are made of.
+// The properties of a joint: the parameters of its laws (joint_law.hpp, elastic_coulomb.hpp).
 #pragma once
 
 #include <bit>
@@ -21,7 +21,7 @@ enum class FrictionLaw : unsigned char {
   softening   // tan φ - softening_drop (1 - e^(-β/softening_slip))
 };
 
-// the laws of a joint; what they are made of stands in its properties
+// the laws of a joint; their parameters are in its properties
 struct JointLaws {
   StiffnessLaw normal = StiffnessLaw::constant, shear = StiffnessLaw::constant;
   FrictionLaw friction = FrictionLaw::constant;
@@ -29,20 +29,20 @@ struct JointLaws {
 
   bool depends_on_stress() const { return normal != StiffnessLaw::constant || shear != StiffnessLaw::constant; }
 
-  // Linear springs, constant friction, no bond: elastic_coulomb answers. Asked of every contact at every step, so the
-  // four are compared at once.
+  // Linear springs, constant friction, no bond: elastic_coulomb applies. Checked for every contact in every step, so
+  // the four are compared together.
   bool is_plain() const { return std::bit_cast<std::uint32_t>(*this) == 0; }
 };
 
 struct JointProperties {
   std::string name;
-  // Pa/m per area, or N/m when the stiffness is constant; where it depends on stress: without stress (linear), or at
+  // Pa/m per area, or N/m when the stiffness is constant; if it depends on stress: without stress (linear), or at
   // 1 Pa (power)
   double normal_stiffness = 0;
   double shear_stiffness = 0;       // same unit
   double friction = 0;              // rad, 0 <= friction < pi/2; of hardening the last, of softening the first
-  bool constant_stiffness = false;  // N/m whatever the area, which then is never computed (but with sub-contacts)
-  int sub_contacts = 1;             // points that carry a face, along each of its directions; 1: the contact's own
+  bool constant_stiffness = false;  // N/m for any area, which then is never computed (except with sub-contacts)
+  int sub_contacts = 1;             // contact points of a face along each of its directions; 1: the contact's own
 
   JointLaws laws{};
   // those that no law uses are zero

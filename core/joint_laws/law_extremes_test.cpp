@@ -1,5 +1,5 @@
 // The joint law at its extremes: turns in any number of steps, forces of any size, paths of any kind. Suites named
-// …Long hold the long siblings of the tests before them (`make test-long`).
+// …Long contain the long siblings of the tests before them (`make test-long`).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,13 +22,13 @@ double walk(long long steps) {
   return 1e-12 + 4 * ulp * std::sqrt(static_cast<double>(steps));
 }
 
-// what may lie outside the cone: the product limit/trial times the trial's components, and its norm
+// what rounding may leave outside the cone: the product limit/trial times the trial's components, and its norm
 constexpr double cone_rounding = 4 * ulp;
 
 // work on closed loops: some thousand products and sums
 constexpr double work_tolerance = 1e-10;
 
-// long double has the exponents that squares of 1e±300 need, and more digits than what it judges
+// long double has the exponents that squares of 1e±300 need, and more digits than the numbers that it checks
 template <int Dim>
 long double length(const Vector<Dim>& v) {
   return v.template cast<long double>().norm();
@@ -83,7 +83,7 @@ TEST(LawExtremesLong, AFullTurnOfTheNormalIn1e7Steps) {
   expect_full_turn<3>(62, 10'000'000);
 }
 
-// a contact that stands still, or trembles in its normal's last digits
+// a contact that does not move, or whose normal varies in its last digits
 template <int Dim>
 void expect_standing(std::uint64_t seed, long long steps) {
   Random random(seed);
@@ -99,11 +99,11 @@ void expect_standing(std::uint64_t seed, long long steps) {
   }
 }
 
-TEST(LawExtremes, AStandingNormalKeepsTheShear) {
+TEST(LawExtremes, AConstantNormalKeepsTheShear) {
   expect_standing<2>(63, 500'000);
   expect_standing<3>(64, 500'000);
 }
-TEST(LawExtremesLong, AStandingNormalKeepsTheShearFor1e7Steps) {
+TEST(LawExtremesLong, AConstantNormalKeepsTheShearFor1e7Steps) {
   expect_standing<2>(63, 10'000'000);
   expect_standing<3>(64, 10'000'000);
 }
@@ -138,7 +138,7 @@ void expect_exact_return(std::uint64_t seed) {
       const double friction = shapes::uniform(random, 0, 1.5), overlap = shapes::power_of_ten(random, -12, -2);
       JointKinematics<Dim> k = pressed<Dim>(n, overlap, shapes::power_of_ten(random, -6, 2));
       const double normal_force = joint.normal_stiffness * k.area * overlap, limit = std::tan(friction) * normal_force;
-      // half of the trial is there already, or all of it comes with the slip
+      // half of the trial is the old force, or all of it comes with the slip
       const double trial = excess * shapes::uniform(random, 1, 1.1) * limit, before = i % 2 ? 0 : trial / 2;
       k.slip = -(trial - before) / (joint.shear_stiffness * k.area) * across;
       Vector<Dim> shear = before * across;
@@ -164,7 +164,7 @@ void expect_zero_cases(std::uint64_t seed) {
   Vector<Dim> shear = Vector<Dim>::Zero();
   EXPECT_EQ(elastic_coulomb<Dim>(joint, std::tan(0.5), 0, pressed<Dim>(n, 1e-3, 1), shear).plastic_slip, 0);
   EXPECT_EQ(shear, Vector<Dim>(Vector<Dim>::Zero()));
-  // no normal force, no friction, no area: nothing can be carried
+  // no normal force, no friction, no area: there can be no shear force
   for (const auto& [friction, overlap, area] : {std::array{0.5, 0.0, 1.0}, {0.0, 1e-3, 1.0}, {0.5, 1e-3, 0.0}})
     for (const double slip : {0.0, 1e-300, 1e-3, 1e3}) {
       shear = 5 * across;
@@ -191,8 +191,8 @@ TEST(LawExtremes, NothingIsDividedByZero) {
 
 // ---- closed loops ---------------------------------------------------------------------------------------------------
 
-// Slips there and back between ±amplitude, and once more. Sticking below the limit gives all work back; above it every
-// cycle costs 4 limit (amplitude - limit / stiffness), however long the steps.
+// Slips there and back between ±amplitude, and once more. Sticking below the limit returns all work; above it every
+// cycle dissipates 4 limit (amplitude - limit / stiffness), at any size of the steps.
 template <int Dim>
 void expect_triangle_loop(std::uint64_t seed, double amplitude_over_limit) {
   Random random(seed);
@@ -227,7 +227,7 @@ void expect_triangle_loop(std::uint64_t seed, double amplitude_over_limit) {
   }
 }
 
-TEST(LawExtremes, AClosedLoopCostsWhatPlasticityCosts) {
+TEST(LawExtremes, AClosedLoopDissipatesThePlasticWork) {
   for (const double amplitude : {0.5, 0.999, 1.001, 3.0, 1e4}) {
     expect_triangle_loop<2>(70, amplitude);
     expect_triangle_loop<3>(71, amplitude);
@@ -236,8 +236,8 @@ TEST(LawExtremes, AClosedLoopCostsWhatPlasticityCosts) {
 
 // Slip round a circle of radius a, N chords a turn. In the steady state the plastic slip runs round a circle of radius
 // ρ with a² = ρ² + r² + 2 ρ r sin(π/N), r = limit / stiffness (each chord lies along the force that follows it): a turn
-// costs limit N 2 ρ sin(π/N), and limit 2 π sqrt(a² - r²) as N grows.
-TEST(LawExtremes, ACircularLoopCostsWhatPlasticityCosts) {
+// dissipates limit N 2 ρ sin(π/N), and limit 2 π sqrt(a² - r²) as N grows.
+TEST(LawExtremes, ACircularLoopDissipatesThePlasticWork) {
   Random random(72);
   const JointProperties joint{"joint", 2e9, 1e9, 0.5, false};
   const Vector<3> n = shapes::direction<3>(random), first = perpendicular(n), second = n.cross(first);
@@ -374,7 +374,7 @@ void expect_no_pull(std::uint64_t seed) {
       const Vector<Dim> along = answer.force - shear;
       EXPECT_GE(along.dot(n), 0);
       released += along.isZero(0);
-      // where the dashpot would pull there is no force at all, shear included
+      // when the dashpot would pull there is no force at all, shear included
       if (along.isZero(0)) {
         EXPECT_TRUE(shear.isZero(0));
       }

@@ -1,4 +1,4 @@
-// The joint law: the friction cone, shear carried along, and energy.
+// The joint law: the friction cone, rotation of the shear force, and energy.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@ constexpr double pi = std::numbers::pi;
 // a few roundings, relative to the forces
 constexpr double rounding = 1e-14;
 
-// 1e4 carries of one force, each with a few roundings of its length
+// 1e4 rotations of one force, each with a few roundings of its length
 constexpr double carry_tolerance = 1e-12;
 
 const JointProperties joint{"joint", 2e9, 1e9, 0.5, false};
@@ -43,7 +43,7 @@ void expect_return_to_the_cone(std::uint64_t seed) {
       const double overlap = shapes::power_of_ten(random, -9, -2), friction = shapes::uniform(random, 0.05, 1.5);
       JointKinematics<Dim> k = pressed<Dim>(n, overlap, Vector<Dim>::Zero());
       const double normal_force = joint.normal_stiffness * k.area * overlap, limit = std::tan(friction) * normal_force;
-      // a slip that asks for 1 to 10 times 10^decade the limit
+      // a slip whose trial is 1 to 10 times 10^decade the limit
       const Vector<Dim> across = perpendicular(n);
       const double trial = limit * std::pow(10, decade) * shapes::uniform(random, 1.01, 10);
       k.slip = -trial / (joint.shear_stiffness * k.area) * across;
@@ -115,7 +115,7 @@ TEST(Coulomb, NeverPulls) {
   EXPECT_GT(held_back, 100);
 }
 
-// work put in = elastic energy + dissipation, with an excess of the step's own making that is never negative
+// work put in = elastic energy + dissipation, with an excess due to the step's size that is never negative
 template <int Dim>
 void expect_energy_on_random_paths(std::uint64_t seed) {
   Random random(seed);
@@ -140,10 +140,10 @@ void expect_energy_on_random_paths(std::uint64_t seed) {
   }
 }
 
-TEST(Coulomb, MakesNoEnergyOnRandomPaths3D) {
+TEST(Coulomb, CreatesNoEnergyOnRandomPaths3D) {
   expect_energy_on_random_paths<3>(34);
 }
-TEST(Coulomb, MakesNoEnergyOnRandomPaths2D) {
+TEST(Coulomb, CreatesNoEnergyOnRandomPaths2D) {
   expect_energy_on_random_paths<2>(35);
 }
 
@@ -162,14 +162,14 @@ TEST(Coulomb, APathInAPlaneIsTheSameInBothDimensions) {
   }
 }
 
-// ---- shear carried along --------------------------------------------------------------------------------------------
+// ---- rotation of the shear force ------------------------------------------------------------------------------------
 
 // turn about a unit axis by Rodrigues' formula
 Vector<3> rotated(const Vector<3>& v, const Vector<3>& axis, double angle) {
   return std::cos(angle) * v + std::sin(angle) * axis.cross(v) + (1 - std::cos(angle)) * axis.dot(v) * axis;
 }
 
-// what replaces Eq. 4.4
+// in place of Eq. 4.4
 TEST(Carried, AFullTurnOfTheNormalBringsTheShearBack) {
   Random random(37);
   for (const int steps : {5, 12, 360, 10'000}) {
@@ -189,7 +189,7 @@ TEST(Carried, AFullTurnOfTheNormalBringsTheShearBack) {
 }
 
 TEST(Carried, AroundAConeItTurnsByTheEnclosedSolidAngle) {
-  // carrying without spin is parallel transport: round a spherical polygon the force turns by the polygon's excess
+  // rotation without spin is parallel transport: round a spherical polygon the force turns by the polygon's excess
   for (const int steps : {5, 12, 100})
     for (const double opening : {0.1, 0.6, 1.2}) {
       const auto corner = [&](int i) {
@@ -218,7 +218,7 @@ TEST(Carried, FollowsTheSpinAboutTheNormal) {
   }
 }
 
-// what replaces Eq. 4.4
+// in place of Eq. 4.4
 TEST(Carried, TurnsWithAPairThatTurnsAsOneBody) {
   // first order at worst in the step, and no change of length
   Random random(38);

@@ -57,7 +57,7 @@ double reach_over_size(const JointSet& set) {
   return std::max(1.0, set.elongation) / 2;
 }
 
-// Joints whose centre lies within radius + reach of the ball's centre, by powers of the size: the binomial terms of
+// Joints whose centre is within radius + reach of the ball's centre, by powers of the size: the binomial terms of
 // (radius + reach)^Dim times the volume of the unit ball and the density of centres.
 template <int Dim>
 std::array<double, Dim + 1> numbers_by_power(const JointSet& set, double radius) {
@@ -94,7 +94,7 @@ Vector<2> trace_normal(const JointSet& set, double deviation) {
 
 // A pole around the mean at an angle whose cosine has density ~ exp(κ cos): 1 - cos = -log(u + (1 - u) exp(-2κ))/κ.
 Vector<3> fisher(const Vector<3>& mean, double constant, RandomStream& random) {
-  // beyond this the far end has no weight that a double could hold
+  // beyond this the weight of the far end is below the smallest double
   constexpr double no_weight = 350;
   const double far_end = constant < no_weight ? portable::exp(-2 * constant) : 0;
   const double u = random.uniform();
@@ -147,8 +147,8 @@ DrawnJoint<Dim> persistent_joint(const JointSet& set, const Ball<Dim>& ball, dou
   return joint;
 }
 
-// By how many distances one of the joints at equal distances lies beyond the ball's centre: that through the stated
-// point, or the first anywhere within one distance.
+// The distance of one of the equally spaced joints from the ball's centre, in spacings: that of the joint through the
+// stated point, or random within one spacing.
 template <int Dim>
 double phase_of(const JointSet& set, const Ball<Dim>& ball, double distance, RandomStream& random) {
   if (set.point.empty()) return random.uniform();

@@ -1,9 +1,9 @@
-// Joint sets: a random pattern of joints from what a geologist states about it.
+// Joint sets: a random pattern of joints from the statistics that a geologist states.
 //
 // Finite joints are a marked Poisson process: centres of constant density in unbounded rock, sizes and orientations
 // independent of place and of each other. Of it exactly those joints are drawn that may reach the ball around the
 // domain, with the sizes that such joints have (large ones reach it from farther away): nothing is cut off at a margin,
-// so the domain's border sees no edge effect, whatever the law of sizes. Persistent joints are a Poisson process of
+// so there is no edge effect at the domain's border, for any law of sizes. Persistent joints are a Poisson process of
 // planes, or planes at equal distances (Dershowitz & Herda 1992 for the measures of intensity).
 #pragma once
 
@@ -36,10 +36,11 @@ struct JointSet {
 
   // exactly one: mean distance along the mean normal, or area per volume P32 (2-D: length per area P21)
   std::optional<double> spacing, intensity;  // m; 1/m
-  double persistence = 1;  // with spacing: fraction of the planes at this spacing that is joint (Einstein et al. 1983)
+  double persistence =
+      1;  // with spacing: fraction of the planes at this spacing that is jointed (Einstein et al. 1983)
   Arrangement arrangement = Arrangement::poisson;  // of persistent joints
   std::vector<double> point;  // m, the file's coordinates: one of those at equal distances passes through it; empty:
-                              // the first of them anywhere
+                              // at a random place
 
   std::uint64_t seed = 0;
 };
@@ -50,7 +51,7 @@ struct JointSet {
 template <int Dim>
 double mean_projection(const JointSet& set);
 
-// P32 (2-D: P21) that the set states, 1/m
+// stated P32 (2-D: P21) of the set, 1/m
 template <int Dim>
 double stated_intensity(const JointSet& set);
 
@@ -76,7 +77,7 @@ struct Ball {
 template <int Dim>
 Ball<Dim> ball_around(const Polytope<Dim>& domain, const Vector<Dim>& origin);
 
-// how many joints `draw` draws on average: ask before drawing
+// how many joints `draw` draws on average: check it before drawing
 template <int Dim>
 double expected_number(const JointSet& set, double radius);
 

@@ -88,7 +88,7 @@ TEST(RandomStream, HasTheMomentsOfItsLaws) {
   expect_moments([&] { return random.normal(); }, 0, 1, 3);
   for (const double mean : {0.3, 7.0})
     expect_moments([&] { return static_cast<double>(random.poisson(mean)); }, mean, mean, 3 + 1 / mean);
-  // in a ball r³ (in a disc r²) is uniform, and every direction alike
+  // in a ball r³ (in a disc r²) is uniform, and every direction equally likely
   expect_moments([&] { return std::pow(random.in_ball<3>().norm(), 3); }, 0.5, 1.0 / 12, 1.8);
   expect_moments([&] { return random.in_ball<2>().squaredNorm(); }, 0.5, 1.0 / 12, 1.8);
   expect_moments([&] { return random.in_ball<3>().normalized()[2]; }, 0, 1.0 / 3, 1.8);
@@ -96,11 +96,11 @@ TEST(RandomStream, HasTheMomentsOfItsLaws) {
 }
 
 // Computed apart from this program: the engine after Nishimura (2000), everything else in decimal arithmetic of 50
-// digits. Any compiler and processor must come to these numbers but for a few roundings, and all of them to the same.
+// digits. Any compiler and processor must produce these numbers but for a few roundings, and all of them the same.
 TEST(RandomStream, GivesTheSameNumbersAsFiftyDigits) {
   boost::random::mt19937_64 engine;
   engine.discard(9999);
-  EXPECT_EQ(engine(), 9981545732273789042u);  // what the C++ standard promises of it
+  EXPECT_EQ(engine(), 9981545732273789042u);  // as the C++ standard requires
   RandomStream random(7, "P");
   EXPECT_EQ(random.uniform(), 0.737561615436724);
   EXPECT_DOUBLE_EQ(random.exponential(), 0.03635534416422676);
@@ -174,7 +174,7 @@ TEST(Outline, AreaInsideIsExact) {
 
 // ---- intensity
 
-// over many seeds: the mean is what was stated, and the errors reported are the deviation that seeds have
+// over many seeds: the mean is the stated one, and the errors reported are the deviation between seeds
 template <int Dim>
 void expect_intensity(JointSet set, const Polytope<Dim>& domain, const Polytope<Dim>& probe, int seeds) {
   const Vector<Dim> origin = Vector<Dim>::Zero();
@@ -201,8 +201,8 @@ void expect_intensity(JointSet set, const Polytope<Dim>& domain, const Polytope<
   EXPECT_NEAR(squares / seeds / variance, 1, errors * std::sqrt((2 + fourth / (variance * variance)) / seeds));
 }
 
-// A corner of the domain, its middle, and all of it hold the same: no edge effect, though half of all joints' area
-// belongs to joints larger than the domain.
+// A corner of the domain, its middle, and all of it have the same intensity: no edge effect, though half of all joints'
+// area belongs to joints larger than the domain.
 TEST(Draw, IntensityIsTheSameEverywhereInTheDomain) {
   const Polytope<3> domain = box<3>({0, 0, 0}, {4, 4, 4});
   JointSet set = finite_set();
@@ -331,7 +331,7 @@ TEST(Statistics, SizesOfJointsCentredInTheDomainAreTheLaws) {
     EXPECT_GT(n, 3000);
     EXPECT_NEAR(found.size.value, mean, errors * deviation / std::sqrt(n));
     EXPECT_NEAR(found.size_deviation, deviation, errors * deviation * std::sqrt((kurtosis - 1) / (4 * n)) + 1e-12);
-    // so many centres: a Poisson number of its own
+    // the number of centres, itself Poisson distributed
     const double centres = 4 / mean_measure<3>(set) * 8000;
     EXPECT_NEAR(n, centres, errors * std::sqrt(centres));
   };
@@ -346,7 +346,7 @@ TEST(Statistics, SizesOfJointsCentredInTheDomainAreTheLaws) {
 
 // ---- spacing
 
-// A rod along the joints' normal: what one line through rock meets.
+// A rod along the joints' normal, as a single line through rock.
 TEST(Statistics, LinesMeetARodsJoints) {
   const Polytope<3> rod = box<3>({-1, -1, 0}, {1, 1, 4000});
   JointSet set = persistent_set(0.5);
@@ -355,7 +355,7 @@ TEST(Statistics, LinesMeetARodsJoints) {
   const SetStatistics<3> found = measure<3>(set, draw<3>(set, ball), ball, rod, Vector<3>::Zero());
   EXPECT_NEAR(found.intensity.value, 0.5, errors * std::sqrt(0.5 / 4000));
   EXPECT_NEAR(found.intensity.error, std::sqrt(0.5 / 4000), 0.1 * std::sqrt(0.5 / 4000));
-  // every joint crosses the whole rod, so that every line meets it
+  // every joint crosses the full rod, so that every line meets it
   EXPECT_NEAR(found.frequency.value, found.intensity.value, 1e-12);
   EXPECT_NEAR(found.frequency.error, found.intensity.error, 1e-12);
 }
@@ -368,7 +368,7 @@ TEST(Statistics, SpacingsOnScanlines) {
   const Ball<2> ball = ball_around<2>(domain, Vector<2>::Zero());
   SetStatistics<2> found = measure<2>(set, draw<2>(set, ball), ball, domain, Vector<2>::Zero());
   EXPECT_NEAR(found.frequency.value, 0.5, errors * std::sqrt(0.5 / 600));
-  // every line sees the same 300 joints: 300 spacings, each as often as there are lines
+  // every line meets the same 300 joints: 300 spacings, each as often as there are lines
   const double n = 300;
   const Moments spacing = moments_of(found.spacings);
   EXPECT_NEAR(spacing.mean.value, 2, errors * 2 / std::sqrt(n));
@@ -381,7 +381,8 @@ TEST(Statistics, SpacingsOnScanlines) {
   EXPECT_EQ(found.inside, 300);
 }
 
-// One joint of equal distances passes through the stated point, whatever seed and ball, the others lie from there.
+// One of the equally spaced joints passes through the stated point, for any seed and ball, and the others are spaced
+// from there.
 TEST(Equal, OneJointPassesThroughTheStatedPoint) {
   const Vector<3> point(12.25, -3.5, 7.75);
   for (const double radius : {5.0, 60.0})
@@ -403,7 +404,7 @@ TEST(Equal, OneJointPassesThroughTheStatedPoint) {
         EXPECT_LE((joint.point - ball.centre).norm(), radius * (1 + 1e-12));
         nearest = std::min(nearest, std::abs(distances));
       }
-      EXPECT_EQ(nearest < 1e-12, std::abs(through) <= radius) << "it is drawn where the ball holds it";
+      EXPECT_EQ(nearest < 1e-12, std::abs(through) <= radius) << "it is drawn if it meets the ball";
     }
 }
 

@@ -1,6 +1,6 @@
 // Elementary functions from +, -, *, / and exact scaling alone, in a fixed order: the same bits wherever doubles are
-// IEEE 754 and nothing is fused. The C library's differ in the last bit from one system to the next, and with them
-// every joint drawn by them would.
+// IEEE 754 and nothing is fused. The C library's differ in the last bit from one system to the next, and every joint
+// drawn by them would differ too.
 #pragma once
 
 namespace voussoir::portable {

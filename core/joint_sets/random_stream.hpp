@@ -1,6 +1,6 @@
 // Random numbers that are the same on every platform: Boost's Mersenne twister (its sequence is defined bit by bit),
-// and transformations that use IEEE arithmetic and `portable_math` only. No distribution of a library is used: their
-// algorithms are nobody's promise.
+// and transformations that use IEEE arithmetic and `portable_math` only. No distribution of a library is used: no
+// standard fixes their algorithms.
 #pragma once
 
 #include <boost/random/mersenne_twister.hpp>
@@ -22,12 +22,12 @@ class RandomStream {
   // mean 1: -log u
   double exponential();
 
-  // mean 0, deviation 1: the first of a pair by Marsaglia's polar method; the second is thrown away, so that what is
-  // drawn next never depends on how many were asked for before
+  // mean 0, deviation 1: the first of a pair by Marsaglia's polar method; the second is thrown away, so that the next
+  // number never depends on how many were drawn before
   double normal();
 
-  // How many points of a Poisson process lie in a stretch of this length, by its exponential gaps: exact at any mean,
-  // in time that grows with it.
+  // The number of points of a Poisson process in an interval of this length, by its exponential gaps: exact at any
+  // mean, in time that grows with it.
   long long poisson(double mean);
 
   // uniform in the unit ball, on the unit circle; by rejection

@@ -10,7 +10,7 @@ namespace {
 // lines along each side of their bundle: enough that a few joints are met many times, few enough to cost nothing
 constexpr int lines_per_side = 8;
 
-// An intensity gathers what each joint adds to it.
+// An intensity, summed over the joints.
 class Intensity {
  public:
   void add(double x) {
@@ -41,7 +41,7 @@ struct Scanline {
   std::vector<double> hits;
 };
 
-// Where lines stand along a side of the domain's shadow: in the middles of equal stretches.
+// The places of lines along a side of the domain's projection: the middles of equal intervals.
 template <int Dim>
 std::vector<Vector<Dim>> places_along(const Vector<Dim>& side, const Polytope<Dim>& domain) {
   double low = side.dot(domain.vertices[0]), high = low;
@@ -55,7 +55,7 @@ std::vector<Vector<Dim>> places_along(const Vector<Dim>& side, const Polytope<Di
   return places;
 }
 
-// parallel lines through the domain, in a rectangular lattice across its shadow
+// parallel lines through the domain, in a rectangular lattice across its projection
 template <int Dim>
 std::vector<Scanline<Dim>> scanlines(const Vector<Dim>& direction, const Polytope<Dim>& domain) {
   const Vector<Dim> side = perpendicular(direction);
@@ -115,7 +115,7 @@ Polytope<3> section(const Polytope<3>& solid, const Vector<3>& centre, int axis,
 }
 
 // Traces on three sections. A thin slab turns area into length: a joint's area in it over its thickness, times the sine
-// of the angle between joint and section, is the trace, exact but where an end or an edge lies within the slab.
+// of the angle between joint and section, is the trace, exact unless an end or an edge is within the slab.
 void measure_traces(const std::vector<DrawnJoint<3>>& joints, const Vector<3>& centre, double radius,
                     const Polytope<3>& domain, const Vector<3>& origin, SetStatistics<3>& found) {
   constexpr double thickness_over_radius = 1e-6;
@@ -139,14 +139,14 @@ void measure_traces(const std::vector<DrawnJoint<3>>& joints, const Vector<3>& c
   }
 }
 
-// of the poles of what lies inside, each taken to the mean's side
+// of the poles of the joints inside, each taken to the mean's side
 void measure_scatter(const JointSet& set, const std::vector<DrawnJoint<3>>& joints, SetStatistics<3>& found) {
   const Vector<3> mean = mean_normal<3>(set);
   Vector<3> sum = Vector<3>::Zero();
   for (std::size_t i = 0; i < joints.size(); ++i)
     if (found.measures[i] > 0) sum += joints[i].normal.dot(mean) < 0 ? Vector<3>(-joints[i].normal) : joints[i].normal;
   const auto n = static_cast<double>(found.inside);
-  // parallel joints: what is left is the sum's rounding
+  // parallel joints: the difference is the sum's rounding
   constexpr double rounding = 1e-12;
   const double fall = n - sum.norm();
   if (n < 2 || fall <= rounding * n) return;

@@ -1,4 +1,4 @@
-// What a drawn joint set is inside the domain: intensities, spacing, orientation, size, each with its standard error.
+// A drawn joint set inside the domain: intensities, spacing, orientation, size, each with its standard error.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@ namespace voussoir {
 
 struct Estimate {
   double value = 0;
-  double error = 0;  // standard error; 0 where one sample tells none
+  double error = 0;  // standard error; 0 if a single sample gives none
 };
 
 // Intensities are sums over joints, so of a Poisson process their variance is the sum of squares (Campbell 1909);
@@ -22,11 +22,11 @@ struct SetStatistics {
   Estimate intensity;            // the same measured
 
   double stated_frequency = 0;   // P10 along the mean normal, 1/m
-  Estimate frequency;            // on scanlines through the whole domain
+  Estimate frequency;            // on scanlines across the domain
   double scanned = 0;            // their length, m
   std::vector<double> spacings;  // between neighbours on them, m, ascending; short domains miss the wide ones
 
-  // 3-D: traces on the planes through the ball's centre normal to x, y, z, P21 in 1/m; what is stated follows from P32
+  // 3-D: traces on the planes through the ball's centre normal to x, y, z, P21 in 1/m; the stated ones follow from P32
   // and the orientations drawn
   std::vector<double> stated_traces;
   std::vector<Estimate> traces;
@@ -49,7 +49,7 @@ struct Moments {
 };
 Moments moments_of(const std::vector<double>& sample);
 
-// the size that holds `fraction` of the total: of volumes ascending, the smallest that with all below it makes up the
+// the size at `fraction` of the total: of volumes ascending, the smallest whose sum with all below it reaches the
 // fraction
 double size_at_fraction(const std::vector<double>& ascending, double fraction);
 

@@ -31,7 +31,7 @@ TEST(FactorOfSafety, OfABlockOnAnInclineIsItsStrengthOverItsWeight) {
       EXPECT_NEAR(found.stands, exact, 1e-7 * exact) << dip << " " << cohesion;
       EXPECT_NEAR(found.collapses, exact, 1e-7 * exact);
       EXPECT_LT(found.evidence.gap, rounding);
-      EXPECT_EQ(find_interfaces(model).front().cohesion, 0) << "where bonds are not asked for";
+      EXPECT_EQ(find_interfaces(model).front().cohesion, 0) << "without bonds";
     }
 }
 
@@ -44,12 +44,12 @@ TEST(FactorOfSafety, IsThatOfTheNamedPropertiesAndOfFurtherLoads) {
   EXPECT_EQ(find_factor_of_safety(model, faces, {"unused"}).status, LimitStatus::carries_any);
   const double ratio = std::tan(30 * degree) / std::tan(20 * degree);
   EXPECT_NEAR(find_factor_of_safety(model, faces, {"rock"}).stands, ratio, 2e-7);
-  // half the weight lifted: friction has half to work on; along the plane there is half to carry
+  // half the weight lifted: normal force and driving force are halved
   Loads lifted(model.bodies.size());
   for (std::size_t b = 0; b < lifted.size(); ++b)
     if (!model.bodies[b].fixed) lifted[b].force = -0.5 * model.bodies[b].mass * model.gravity;
   EXPECT_NEAR(find_factor_of_safety(model, faces, {}, lifted).stands, ratio, 2e-7);
-  // lifted across the plane alone
+  // lifted only perpendicular to the plane
   const Vector<2> normal = matrix(Rotation<2>{20 * degree}) * Vector<2>(0, 1);
   for (std::size_t b = 0; b < lifted.size(); ++b)
     lifted[b].force = lifted[b].force.dot(normal) * normal;
@@ -58,9 +58,9 @@ TEST(FactorOfSafety, IsThatOfTheNamedPropertiesAndOfFurtherLoads) {
   EXPECT_NEAR(find_critical_friction(model, faces, {}, lifted).stands, critical, bracket);
 }
 
-// 1 m of water behind a block of 1 m x 1 m and 20 kN, its table with the first, the last or a middle point at the
+// 1 m of water behind a block of 1 m x 1 m and 20 kN, with the first, the last or a middle point of its table at the
 // block's face: the same thrust of 5 kN.
-TEST(CriticalFriction, CountsWaterWhoseTableBendsAtAFace) {
+TEST(CriticalFriction, IncludesWaterWithAKinkAtAFace) {
   Model<2> model = limit_models::model_of(
       {{"floor", limit_models::box(-2, -1, 3, 0), true}, {"block", limit_models::box(0, 0, 1, 1)}});
   for (Body<2>& body : model.bodies)

@@ -7,14 +7,14 @@
 namespace voussoir {
 namespace {
 
-// of programs whose numbers are of order one; above the rounding of some thousand pivots
+// for programs with numbers of order one; above the rounding of some thousand pivots
 constexpr double simplex_tolerance = 1e-11;
 
-// pivots by rows and columns; the simplex method takes one or two, and may turn in circles for ever
+// pivots per rows and columns; the simplex method takes one or two, and may cycle
 constexpr int most_pivots = 100;
 
 // A pivot is at least this fraction of the largest entry of its row. GLPK's own 0.1 left forces out of balance by 1e-5
-// in a wall of 400 blocks and found the first basis of one of 900 singular; this costs no time that could be measured.
+// in a wall of 400 blocks and found the first basis of one of 900 singular; this costs no measurable time.
 constexpr double pivot_tolerance = 0.9;
 
 bool is_usable(const LinearProgram& program) {
@@ -46,7 +46,7 @@ GlpkProblem build(const LinearProgram& program) {
   std::vector<double> coefficients;
   for (std::size_t j = 0; j < program.columns.size(); ++j) {
     const ProgramColumn& column = program.columns[j];
-    rows.assign(1, 0);  // GLPK counts from 1
+    rows.assign(1, 0);  // GLPK's indices start at 1
     coefficients.assign(1, 0);
     for (const auto& [row, coefficient] : column.entries) {
       rows.push_back(row + 1);

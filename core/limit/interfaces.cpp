@@ -7,11 +7,11 @@
 namespace voussoir {
 namespace {
 
-// of the smaller inscribed radius: corners written with seven digits lie on one line to this; it moves no lever arm
-// more
+// of the smaller inscribed radius: corners written with seven digits are on one line within this; lever arms change by
+// no more
 constexpr double coplanar = 1e-6;
 
-// a face as a stretch of its plane, in model coordinates
+// a face as a segment of its plane, in model coordinates
 struct Face {
   HalfSpace<2> plane;
   std::array<Vector<2>, 2> ends;
@@ -44,7 +44,7 @@ PlacedPart place(const Model<2>& model, const PartId& id) {
   return placed;
 }
 
-// the stretch that two faces share, as an interface from a to b; its joint and friction are the caller's
+// the common segment of two faces, as an interface from a to b; the caller sets its joint and friction
 bool meet(const Face& a, const Face& b, double tolerance, Interface& found) {
   if (a.plane.normal.dot(b.plane.normal) >= 0) return false;
   const Vector<2> origin = a.ends[0], along = (a.ends[1] - a.ends[0]).normalized();
@@ -81,7 +81,7 @@ std::vector<Interface> find_interfaces(const Model<2>& model, bool bonded) {
   std::vector<PlacedPart> parts;
   for (const PartId& id : model.parts)
     if (model.bodies[id.body].present) parts.push_back(place(model, id));
-  // swept from left to right: only what begins before the part ends can touch it
+  // swept from left to right: only parts that begin before this part ends can touch it
   std::stable_sort(parts.begin(), parts.end(),
                    [](const PlacedPart& a, const PlacedPart& b) { return a.low[0] < b.low[0]; });
 

@@ -1,4 +1,4 @@
-// Where two blocks of a 2-D assembly lie face on face: the joints' stretches that limit analysis puts forces on.
+// The segments in which faces of two blocks of a 2-D assembly touch: limit analysis has forces there.
 #pragma once
 
 #include <array>
@@ -15,15 +15,15 @@ struct Interface {
   int joint = no_joint;           // of the two faces' joints the later cut, as in a contact
   int properties = 0;             // index into Model::properties
   double friction = 0;            // rad
-  double cohesion = 0;            // Pa; no tension is ever carried
+  double cohesion = 0;            // Pa; there is no tension
 
   double length() const { return (ends[1] - ends[0]).norm(); }  // m
 };
 
-// Every stretch where faces of two present bodies, not both fixed, lie on each other in the reference configuration.
-// Faces count as lying on each other when they are no farther apart than 1e-6 of the smaller inscribed radius along
-// the whole stretch, and when it is longer than that. Sorted by bodies, then by place. Corners that touch a face or
-// another corner are no interface. `bonded`: they have the cohesion that their properties state, else none.
+// Every segment in which faces of two present bodies, not both fixed, touch in the reference configuration. Faces count
+// as touching if they are no farther apart than 1e-6 of the smaller inscribed radius along the complete segment, and if
+// it is longer than that. Sorted by bodies, then by position. Corners that touch a face or another corner are not
+// interfaces. `bonded`: they have the cohesion that their properties state, else none.
 std::vector<Interface> find_interfaces(const Model<2>& model, bool bonded = false);
 
 }  // namespace voussoir

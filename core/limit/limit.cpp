@@ -14,27 +14,27 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-constexpr double largest_factor = 1e6;                // of weights: what carries more, carries any
+constexpr double largest_factor = 1e6;                // of weights: a structure that supports more supports any load
 constexpr double least_friction = 0;                  // of the bisection
 constexpr double largest_friction = 89 * degree;      // beyond it a cone is a half-plane
 constexpr double friction_tolerance = 1e-6 * degree;  // width of the bracket
-// A factor F is bisected as 1/(1 + F), which takes all of them into a finite range: of that variable
+// A factor F is bisected as 1/(1 + F), which maps all factors to a finite range: for that variable
 constexpr double least_left = 0, most_left = 1000.0 / 1001;
-constexpr double left_tolerance = 2e-8;  // below it the solver no longer tells what is missing from its own rounding
-// Where the solver gives up so many tolerances from the end, feasibility is a matter of rounding: the bracket stays
+constexpr double left_tolerance = 2e-8;  // below it the solver does not separate missing force from rounding
+// If the solver gives up within this many tolerances of the end, feasibility is decided by rounding: the bracket stays
 // wider.
 constexpr double near_enough = 100;
-constexpr double balanced = 1e-10;  // of a body's weight: ten times what the solver's tolerance may leave
+constexpr double balanced = 1e-10;  // of a body's weight: ten times the residual that the solver's tolerance allows
 
-// The rows of the program are the balance of every free freedom, each divided by its body's own weight (moments by its
-// radius too): a small block that falls is seen as well as a large one.
+// The rows of the program are the equilibrium of every degree of freedom, each divided by its body's own weight
+// (moments by its radius too), so that a small falling block is detected like a large one.
 struct Rows {
   std::vector<std::array<int, 3>> of_body;  // x, y, moment; -1: held
   std::vector<double> weight, lever;        // by body: N, m
   int count = 0;
 };
 
-// m/s², which makes the weights: the largest load over its body's mass, a moment divided by the body's radius too
+// m/s², the unit of the weights: the largest load over its body's mass, a moment divided by the body's radius too
 double acceleration_of(const Model<2>& model, const Loads& loads) {
   double largest = 0;
   for (std::size_t b = 0; b < loads.size(); ++b) {
@@ -61,7 +61,7 @@ Rows number_rows(const Model<2>& model, double acceleration) {
   return rows;
 }
 
-// Forces between two bodies are counted in the lighter one's weight, N: no coefficient of the program exceeds 1.
+// Forces between two bodies are in units of the lighter one's weight, N: no coefficient of the program exceeds 1.
 double force_unit(const Rows& rows, const Interface& face) {
   return std::min(rows.weight[face.body_a], rows.weight[face.body_b]);
 }
@@ -89,8 +89,8 @@ Vector<2> tangent_of(const Interface& face) {
   return {-face.normal[1], face.normal[0]};
 }
 
-// Three columns for every end of every interface: the two sides of the cone, and what cohesion adds to the shear. The
-// sides are unit forces, so that a friction angle near 90 degrees is an angle like any other.
+// Three columns for every end of every interface: the two sides of the cone, and the shear by cohesion. The
+// sides are unit forces, so that a friction angle near 90 degrees needs no special treatment.
 constexpr std::size_t columns_of_an_end = 3;
 
 void add_ends(const Model<2>& model, const Rows& rows, const std::vector<Interface>& interfaces,
@@ -109,7 +109,7 @@ void add_ends(const Model<2>& model, const Rows& rows, const std::vector<Interfa
   }
 }
 
-// what loads are to the free freedoms, as fractions of each body's weight
+// components of the loads along the degrees of freedom, as fractions of each body's weight
 void for_each_load(const Rows& rows, const Loads& loads, const auto& use) {
   for (std::size_t b = 0; b < loads.size(); ++b) {
     const std::array<int, 3>& row = rows.of_body[b];
@@ -134,7 +134,7 @@ std::vector<std::array<EndForce, 2>> read_forces(const Rows& rows, const std::ve
 }
 
 // The multipliers as velocities: a column that may grow has no negative reduced cost, that is, no force within its cone
-// takes power from an opening joint; so the velocities are the multipliers' opposite, by each row's weight.
+// does negative work at an opening joint; so the velocities are the multipliers' opposite, by each row's weight.
 std::vector<BodyVelocity> read_velocities(const Rows& rows, const std::vector<double>& y) {
   std::vector<BodyVelocity> velocities(rows.of_body.size());
   double fastest = 0;
@@ -150,7 +150,7 @@ std::vector<BodyVelocity> read_velocities(const Rows& rows, const std::vector<do
   return velocities;
 }
 
-// the velocity of body_b against body_a at a point
+// the velocity of body_b relative to body_a at a point
 Vector<2> opening_at(const Model<2>& model, const Interface& face, const Vector<2>& point,
                      const std::vector<BodyVelocity>& velocities) {
   const auto velocity = [&](int body) {
@@ -160,7 +160,7 @@ Vector<2> opening_at(const Model<2>& model, const Interface& face, const Vector<
   return velocity(face.body_b) - velocity(face.body_a);
 }
 
-// the largest velocity at an end of an interface against a side of its cone
+// the largest inadmissible velocity at an end of an interface, against a side of its cone
 double find_inadmissible(const Model<2>& model, const std::vector<Interface>& interfaces,
                          const std::vector<BodyVelocity>& velocities) {
   double largest = 0;
@@ -202,9 +202,9 @@ bool stands(const Margin& margin) {
   return margin.solution.status == ProgramStatus::optimal && margin.certificate.primal <= balanced;
 }
 
-// Whether loads that are not carried at the weakest strength, whose program this is, are carried at any above it: by
-// forces without bound, since joints that press on each other without any load take any shear as soon as they have
-// friction. Such joints may in turn let others press on each other. `gains`: interfaces whose friction grows.
+// Whether loads that are not supported at the weakest strength, whose program this is, are supported at any higher one:
+// by unbounded forces, because joints with self-stress take any shear as soon as they have friction. Such joints may in
+// turn make self-stress in others possible. `gains`: interfaces whose friction grows.
 bool carried_beyond(LinearProgram program, const std::vector<bool>& gains) {
   for (bool grown = true; grown;) {
     const std::vector<bool> unbounded = unbounded_columns(program);
@@ -222,8 +222,8 @@ bool carried_beyond(LinearProgram program, const std::vector<bool>& gains) {
   return stands(find_margin(program));
 }
 
-// Whether joints that may press on each other without any load move in the mechanism, and without them loads are not
-// carried. No mechanism: all joints count.
+// Whether joints with possible self-stress move in the mechanism, and the loads are not supported without them. No
+// mechanism: all joints count.
 bool may_rest_on_self_stress(const Model<2>& model, const std::vector<Interface>& interfaces, LinearProgram program,
                              const std::vector<BodyVelocity>& mechanism) {
   constexpr double still = 1e-6;  // of the fastest body: far above the rounding of multipliers
@@ -250,13 +250,13 @@ std::vector<bool> choose(const Model<2>& model, const std::vector<std::string>& 
   return chosen;
 }
 
-// a measure of strength, from where little is left to where much is, and how interfaces take it
+// a measure of strength, its range from weak to strong, and its use by interfaces
 struct StrengthRange {
   double weakest, strongest, tolerance;
   std::function<void(double strength, std::vector<Interface>& interfaces)> weaken;
 };
 
-// between which two strengths loads are just carried
+// the two strengths between which loads are just supported
 CriticalStrength bisect(const Model<2>& model, const Rows& rows, const std::vector<Interface>& interfaces,
                         const Loads& dead, const StrengthRange& range) {
   CriticalStrength result;
@@ -311,10 +311,10 @@ CriticalStrength bisect(const Model<2>& model, const Rows& rows, const std::vect
   return result;
 }
 
-// The strength at which gravity and further loads are just carried, and whether it says what it seems to say.
+// The strength at which gravity and further loads are just supported, and whether it depends on self-stress.
 CriticalStrength find_strength(const Model<2>& model, const std::vector<Interface>& interfaces, const Loads& besides,
                                const StrengthRange& range) {
-  constexpr double margin = 1.01;  // joints that press on each other at so much more strength count
+  constexpr double margin = 1.01;  // joints with self-stress at this much more strength count
   Loads dead = loads_of_acceleration(model, model.gravity);
   for (std::size_t b = 0; b < besides.size(); ++b)
     dead[b] += besides[b];
@@ -334,7 +334,7 @@ CriticalStrength find_strength(const Model<2>& model, const std::vector<Interfac
       gains.push_back(strongest[i].friction > weakest[i].friction);
     if (carried_beyond(equilibrium(model, rows, weakest, dead), gains)) found.status = LimitStatus::not_attained;
   }
-  // Towards the critical strength of blocks that are jammed forces grow without bound, and the solver gives up sooner:
+  // Near the critical strength of jammed blocks forces grow without bound, and the solver gives up sooner:
   // the bracket then stays wider.
   const bool wide =
       found.status == LimitStatus::solver_failed && found.missing > 0 && found.stands <= margin * found.collapses;
@@ -370,13 +370,13 @@ LoadFactor find_load_factor(const Model<2>& model, const std::vector<Interface>&
                acceleration = of_dead > 0 ? of_dead : acceleration_of(model, live);
   const Rows rows = number_rows(model, acceleration);
   if (rows.count == 0) return result.status = LimitStatus::nothing_free, result;
-  double largest_fraction = 0;  // of a weight, the live load's: the program's factor is that of the load over it
+  double largest_fraction = 0;  // of a weight, the live load's: the program's factor is that of the load divided by it
   if (acceleration > 0)
     for_each_load(rows, live,
                   [&](int, double fraction) { largest_fraction = std::max(largest_fraction, std::abs(fraction)); });
   if (largest_fraction == 0) return result.status = LimitStatus::no_load, result;
 
-  // the dead load first: without it there is no factor to look for
+  // the dead load first: if it is not supported there is no factor
   if (of_dead > 0) {
     const Margin margin = find_margin(equilibrium(model, rows, interfaces, dead));
     ++result.evidence.programs;
@@ -426,7 +426,7 @@ CriticalStrength find_critical_friction(const Model<2>& model, const std::vector
 CriticalStrength find_factor_of_safety(const Model<2>& model, const std::vector<Interface>& interfaces,
                                        const std::vector<std::string>& properties, const Loads& besides) {
   const std::vector<bool> chosen = choose(model, properties);
-  // the strength that is left, of what is stated: 1/F
+  // the remaining fraction of the stated strength: 1/F
   const auto weaken = [&](double fraction, std::vector<Interface>& trial) {
     const double left = fraction / (1 - fraction);
     for (std::size_t i = 0; i < trial.size(); ++i) {

@@ -1,4 +1,4 @@
-// Rigid-block limit analysis against closed forms and published numbers, and the proofs that come with its answers.
+// Rigid-block limit analysis against closed forms and published numbers, and the proofs of its results.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -63,7 +63,8 @@ void expect_proven(const LoadFactor& found) {
   EXPECT_LE(found.evidence.inadmissible, rounding);
 }
 
-// ---- the linear program and its judge ------------------------------------------------------------------------------
+// ---- the linear program and its verification
+// ------------------------------------------------------------------------------
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -72,7 +73,7 @@ LinearProgram small_program() {
   return {{4}, {{-1, 0, infinity, {{0, 1}}}, {-2, 0, 3, {{0, 1}}}, {0, 0, infinity, {{0, 1}}}}};
 }
 
-TEST(LinearPrograms, AreSolvedAndJudged) {
+TEST(LinearPrograms, AreSolvedAndVerified) {
   const LinearProgram program = small_program();
   ProgramSolution solution = solve(program);
   ASSERT_EQ(solution.status, ProgramStatus::optimal);
@@ -82,7 +83,7 @@ TEST(LinearPrograms, AreSolvedAndJudged) {
   EXPECT_LE(certificate.primal_violation, rounding);
   EXPECT_LE(certificate.dual_violation, rounding);
 
-  // a worse point opens the gap; a wrong one, and wrong multipliers, are reported
+  // a worse point increases the gap; an infeasible one, and wrong multipliers, are reported
   solution.x = {2, 2, 0};
   EXPECT_NEAR(judge(program, solution).primal, -6, rounding);
   solution.x = {1, 3.5, 0};
@@ -91,7 +92,7 @@ TEST(LinearPrograms, AreSolvedAndJudged) {
   EXPECT_NEAR(judge(program, solution).dual_violation, 0.25, rounding);
 }
 
-TEST(LinearPrograms, WithoutAnAnswerSaySo) {
+TEST(LinearPrograms, WithoutASolutionReportIt) {
   LinearProgram program = small_program();
   program.columns[0].cost = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(solve(program).status, ProgramStatus::failed);
@@ -104,7 +105,7 @@ TEST(LinearPrograms, WithoutAnAnswerSaySo) {
 
 // ---- interfaces ----------------------------------------------------------------------------------------------------
 
-TEST(Interfaces, AreTheStretchesThatFacesShare) {
+TEST(Interfaces, AreTheCommonSegmentsOfFaces) {
   const Model<2> model = model_of({{"floor", box(-5, -1, 5, 0), true},
                                    {"wall", box(2, 0, 3, 5), true},
                                    {"low", box(0, 0, 2, 1)},
@@ -146,7 +147,7 @@ TEST(CriticalFriction, OfABlockOnAnInclineIsTheDip) {
   }
 }
 
-TEST(CriticalFriction, IsSoughtForTheNamedPropertiesOnly) {
+TEST(CriticalFriction, IsFoundForTheNamedPropertiesOnly) {
   Model<2> model = block_on_plate(2, 0.1, 40 * degree, 50);
   model.properties.push_back(model.properties[0]);
   model.properties[1].name = "unused";
@@ -158,7 +159,7 @@ TEST(CriticalFriction, IsSoughtForTheNamedPropertiesOnly) {
   EXPECT_THROW(find_critical_friction(model, faces, {"roc"}), std::out_of_range);
 }
 
-// a pebble on the same incline is found as well as the rock beside it, which stands
+// a pebble on the incline is found although the rock beside it is stable
 TEST(CriticalFriction, IsThatOfTheLightestBlockToo) {
   const double dip = 30 * degree;
   const Model<2> model = model_of({{"plate", turned(box(-3, -1, 3, 0), dip), true},
@@ -168,8 +169,8 @@ TEST(CriticalFriction, IsThatOfTheLightestBlockToo) {
   EXPECT_NEAR(critical_friction(model).stands, dip, bracket);
 }
 
-// a slender block topples whatever the friction, unless it cannot turn
-TEST(CriticalFriction, DoesNotHelpWhatTopples) {
+// a slender block topples whatever the friction, unless it cannot rotate
+TEST(CriticalFriction, DoesNotPreventToppling) {
   Model<2> model = block_on_plate(1, 4, 20 * degree);
   CriticalStrength found = critical_friction(model);
   EXPECT_EQ(found.status, LimitStatus::carries_nothing);
@@ -181,7 +182,7 @@ TEST(CriticalFriction, DoesNotHelpWhatTopples) {
   EXPECT_NEAR(found.stands, 20 * degree, bracket);
 }
 
-TEST(CriticalFriction, IsNotSoughtWhereNothingCanMoveOrPush) {
+TEST(CriticalFriction, IsNotFoundIfNothingCanMoveOrLoad) {
   Model<2> model = block_on_plate(1, 1, 0);
   EXPECT_EQ(critical_friction(model).status, LimitStatus::carries_any) << "flat";
   model.gravity.setZero();
@@ -201,8 +202,8 @@ TEST(LoadFactor, OfABlockIsItsSlendernessOrItsFriction) {
   expect_proven(slides);
 }
 
-// the upper of two unit squares, shifted to the right, tips alone or takes the lower one along
-TEST(LoadFactor, OfAnOverhangingStackIsTheLeastStablePart) {
+// the upper of two unit squares, shifted to the right, tips alone or with the lower one
+TEST(LoadFactor, OfAnOverhangingStackIsThatOfItsLeastStablePart) {
   for (const double shift : {0.1, 0.3, 0.4, 0.49}) {
     const Model<2> model = model_of({{"floor", box(-5, -1, 5, 0), true},
                                      {"low", box(-0.5, 0, 0.5, 1)},
@@ -234,7 +235,7 @@ TEST(LoadFactor, OfCohesionOnAnInclineIsCoulombs) {
   EXPECT_NEAR(found.factor, cohesion * length / (weight * (std::sin(dip) - std::cos(dip) * std::tan(30 * degree))),
               rounding);
 
-  // under a flatter joint friction alone carries any weight
+  // on a flatter joint friction alone supports any weight
   const Model<2> flat = block_on_plate(length, height, 20 * degree, 30);
   EXPECT_EQ(load_factor(flat, find_interfaces(flat), {0, 0}, flat.gravity).status, LimitStatus::carries_any);
 }
@@ -247,7 +248,7 @@ Model<2> column(double friction_deg = 40) {
 }
 constexpr double column_weight = 1 * 3 * 2000 * 10;
 
-// about its edge: F y = W b/2; where friction gives before, F = W tan(friction)
+// about its edge: F y = W b/2; or, if friction fails before, F = W tan(friction)
 TEST(AppliedForces, TipAColumnAboutItsEdgeOrPushItAway) {
   const double weight = column_weight;
   for (const double height : {0.5, 1.5, 2.0, 3.0})
@@ -263,11 +264,11 @@ TEST(AppliedForces, TipAColumnAboutItsEdgeOrPushItAway) {
   // through its centroid, and obliquely at a corner: about the edge at (0.5, 0), gravity's lever is 0.5
   EXPECT_NEAR(forced(column(), {{"push", "block", {weight, 0}}}).factor, 0.5 / 1.5, rounding);
   const LoadFactor oblique = forced(column(), {{"rope", "block", {weight, -2 * weight}, {0.5, 3}}});
-  EXPECT_NEAR(oblique.factor, 0.5 / 3, rounding) << "what pulls down at the edge's plumb has no lever";
+  EXPECT_NEAR(oblique.factor, 0.5 / 3, rounding) << "a vertical force above the edge has no lever arm";
 }
 
-// several on one block sum up; two that cancel are a couple, which tips by its moment alone
-TEST(AppliedForces, OfOneBlockSumUp) {
+// several on one block are added; two that cancel are a couple, which tips by its moment only
+TEST(AppliedForces, OnOneBlockAreAdded) {
   const double weight = column_weight;
   EXPECT_NEAR(
       forced(column(), {{"low", "block", {weight, 0}, {-0.5, 1}}, {"high", "block", {weight, 0}, {-0.5, 2}}}).factor,
@@ -278,17 +279,18 @@ TEST(AppliedForces, OfOneBlockSumUp) {
   expect_proven(couple);
 }
 
-TEST(AppliedForces, NeedNoGravity) {
+TEST(AppliedForces, ActWithoutGravity) {
   Model<2> model = column();
   model.gravity.setZero();
   const LoadFactor away = forced(model, {{"pull", "block", {1, 3}, {0, 3}}});
   ASSERT_EQ(away.status, LimitStatus::found);
   EXPECT_EQ(away.factor, 0);
   EXPECT_EQ(forced(model, {{"press", "block", {0.4, -3}, {0, 3}}}).status, LimitStatus::carries_any);
-  EXPECT_EQ(forced(model, {{"tip", "block", {0.6, -3}, {0, 3}}}).factor, 0) << "it meets the ground beyond the edge";
+  EXPECT_EQ(forced(model, {{"tip", "block", {0.6, -3}, {0, 3}}}).factor, 0)
+      << "its line of action meets the ground beyond the edge";
 }
 
-// however small or large they are stated; and on what cannot move they are no load
+// for any magnitude; on fixed blocks they are no load
 TEST(AppliedForces, OfAnySize) {
   const double weight = column_weight;
   for (const double size : {1e-9, 1e-3, 1e12})
@@ -305,7 +307,7 @@ TEST(AppliedForces, OfAnySize) {
 
 // ---- slopes of many blocks -----------------------------------------------------------------------------------------
 
-// Equilibrium and cone at `stands`, velocities and their power at `collapses`: summed here once more.
+// Equilibrium and cone at `stands`, velocities and their power at `collapses`: summed here independently.
 void expect_proven(const Model<2>& model, const std::vector<Interface>& faces, const CriticalStrength& found) {
   std::vector<Vector<3>> load(model.bodies.size(), Vector<3>::Zero());
   double weight = 0, power = 0, fastest_closing = 0;
@@ -340,7 +342,7 @@ void expect_proven(const Model<2>& model, const std::vector<Interface>& faces, c
   EXPECT_LE(fastest_closing, rounding) << "associated flow";
 }
 
-// cases/slump: 15.335 by another rigid-block limit analysis, stated with three decimals
+// cases/slump: 15.335 by another rigid-block limit analysis, published with three decimals
 TEST(Slump, RotatesItsOuterLayerAt15335) {
   const Model<2> model =
       prepare<2>(read_scene(std::filesystem::path(VOUSSOIR_SOURCE_DIR) / "cases/slump/scene.toml")).model;
@@ -349,10 +351,10 @@ TEST(Slump, RotatesItsOuterLayerAt15335) {
   const CriticalStrength found = find_critical_friction(model, faces);
   ASSERT_EQ(found.status, LimitStatus::found);
   EXPECT_NEAR(found.stands / degree, 15.335, 0.001);
-  EXPECT_LT(found.evidence.gap, 1e-3 * found.missing) << "or the lower end of the bracket is not proven";
+  EXPECT_LT(found.evidence.gap, 1e-3 * found.missing) << "else the lower end of the bracket is not proven";
   expect_proven(model, faces, found);
 
-  // the outer layer's seven blocks turn alike, nothing else moves
+  // the outer layer's seven blocks rotate together, nothing else moves
   const Mechanism mechanism = describe_mechanism(model, found.state.velocities);
   ASSERT_EQ(mechanism.moving.size(), 7u);
   EXPECT_EQ(mechanism.turning, 7);
@@ -366,7 +368,7 @@ TEST(Slump, RotatesItsOuterLayerAt15335) {
 }
 
 // Goodman & Bray's (1976) slope, as in Hoek & Bray (1981, chapter 9): sixteen columns 10 m thick on a base of 30
-// degrees stepped by b = 1 m, which shorten by a1 = 5 m a step below the crest and by a2 = 5.2 m above it.
+// degrees stepped by b = 1 m, which shorten by a1 = 5 m per step below the crest and by a2 = 5.2 m above it.
 constexpr int columns = 16, crest = 10;
 constexpr double thickness = 10, step = 1, below = 5, above = 5.2, base_dip = 30 * degree;
 
@@ -380,14 +382,14 @@ Model<2> toppling_slope() {
     const double left = (n - 1) * thickness, right = n * thickness, bottom = n * step;
     blocks.push_back(
         {"column " + std::to_string(n), turned(box(left, bottom, right, bottom + column_height(n)), base_dip)});
-    // its riser leans back, so that it holds no column from behind
+    // its riser is inclined backwards, so that it supports no column from behind
     blocks.push_back({"step " + std::to_string(n),
                       turned({{left + 1, -5}, {right + 1, -5}, {right, bottom}, {left, bottom}}, base_dip), true});
   }
   return model_of(blocks);
 }
 
-// Goodman & Bray's own recursion: the force that the lowest column still needs at its foot, in units of weight
+// Goodman & Bray's own recursion: the force that the lowest column needs at its foot, in units of weight
 double toe_force(double friction) {
   const double mu = std::tan(friction), s = std::sin(base_dip), c = std::cos(base_dip);
   double push = 0;
@@ -402,8 +404,8 @@ double toe_force(double friction) {
   return push;
 }
 
-// Limit equilibrium finds 38.15; with associated flow it would stand at 33.4: the caveat that every answer carries.
-TEST(Toppling, ShowsWhatAssociatedFlowCosts) {
+// Limit equilibrium finds 38.15; with associated flow the slope is stable at 33.4: the limitation of every result.
+TEST(Toppling, ShowsTheErrorOfAssociatedFlow) {
   EXPECT_GT(toe_force(38.1 * degree), 0);
   EXPECT_EQ(toe_force(38.2 * degree), 0) << "the geometry is Goodman & Bray's";
 

@@ -18,7 +18,7 @@ Certificate judge(const LinearProgram& program, const ProgramSolution& solution)
       residual[row] -= coefficient * x;
       reduced_cost -= coefficient * solution.y[row];
     }
-    // the bound that makes this column cheapest; where there is none, the cost may only be zero
+    // the bound at which this column has the least cost; without a bound the cost must be zero
     const double bound = reduced_cost > 0 ? column.low : column.high;
     if (std::isfinite(bound))
       certificate.dual += reduced_cost * bound;

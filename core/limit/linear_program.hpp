@@ -1,4 +1,4 @@
-// A linear program in sparse columns, its solution by GLPK, and what the solution proves by our own arithmetic.
+// A linear program in sparse columns, its solution by GLPK, and an independent verification of the solution.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@ namespace voussoir {
 
 struct ProgramColumn {
   double cost = 0;
-  double low = 0, high = 0;                     // infinite where there is no bound
+  double low = 0, high = 0;                     // infinite without a bound
   std::vector<std::pair<int, double>> entries;  // row from 0, coefficient
 };
 
@@ -27,16 +27,16 @@ struct ProgramSolution {
   std::vector<double> y;  // by row: the multipliers
 };
 
-// What x and y are worth, computed from the program's own numbers. With no violation at all, the optimum lies between
-// `dual` and `primal`.
+// Values of x and y, computed from the program's own numbers. Without any violation, the optimum is between `dual` and
+// `primal`.
 struct Certificate {
   double primal = 0;            // cost·x
-  double dual = 0;              // right_side·y and what bounded columns add
+  double dual = 0;              // right_side·y plus the terms of bounded columns
   double primal_violation = 0;  // largest |A x - right_side| and distance of x beyond a bound
   double dual_violation = 0;    // largest reduced cost of the wrong sign in a column without a bound on that side
 };
 
-// By GLPK's simplex method; its word on optimality is not needed where a Certificate is asked. A number that is not
+// By GLPK's simplex method; its optimality status is not needed if a Certificate is computed. A number that is not
 // finite (except bounds) gives `failed`.
 ProgramSolution solve(const LinearProgram& program);
 

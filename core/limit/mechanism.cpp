@@ -5,7 +5,7 @@
 namespace voussoir {
 namespace {
 
-// far above the multipliers' rounding, far below what a figure or a table shows
+// far above the multipliers' rounding, far below the resolution of a figure or a table
 constexpr double at_rest = 1e-6;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Who moves in a mechanism, and how: rotation against translation.
+// The moving bodies of a mechanism: rotation and translation.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@ struct BlockMotion {
   double speed = 0;                 // of its centroid, relative to the mechanism's fastest block (BodyVelocity)
   double turning = 0;               // of its farthest corner about the centroid, same unit
   double rotation_fraction = 0;     // of the block's kinetic energy: I w² / (m v² + I w²)
-  std::optional<Vector<2>> centre;  // about which it turns, m, world coordinates; none: it only translates
+  std::optional<Vector<2>> centre;  // about which it rotates, m, world coordinates; none: it only translates
 };
 
 struct Mechanism {

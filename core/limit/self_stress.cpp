@@ -4,8 +4,8 @@
 
 namespace voussoir {
 
-// Solutions of A x = 0 can be added and scaled, so that one has all columns that any has, each at 1 at least: the
-// largest sum of min(x, 1) is their number.
+// Solutions of A x = 0 can be added and scaled, so that one of them has all columns that any of them has, each at least
+// 1: the largest sum of min(x, 1) is their number.
 std::vector<bool> unbounded_columns(const LinearProgram& program) {
   const std::size_t count = program.columns.size();
   if (count == 0) return {};
@@ -15,7 +15,7 @@ std::vector<bool> unbounded_columns(const LinearProgram& program) {
     if (std::isfinite(column.low) && std::isfinite(column.high)) column.low = column.high = 0;
     homogeneous.columns.push_back(column);
   }
-  for (const ProgramColumn& column : program.columns) {  // up to 1 of each that counts
+  for (const ProgramColumn& column : program.columns) {  // up to 1 of each relevant one
     const bool counts = std::isfinite(column.low) && !std::isfinite(column.high);
     homogeneous.columns.push_back({counts ? -1.0 : 0.0, 0, counts ? 1.0 : 0.0, column.entries});
   }

@@ -1,4 +1,4 @@
-// Blocks jammed between walls: how limit analysis tells that a load is held by forces that nothing asks for.
+// Blocks jammed between walls: detection by limit analysis of loads supported by forces that no load requires.
 #include "core/limit/self_stress.hpp"
 
 #include <gtest/gtest.h>
@@ -39,8 +39,8 @@ TEST(SelfStress, IsTheColumnsThatGrowWithoutBound) {
   EXPECT_TRUE(unbounded_columns({{1, 2}, {}}).empty()) << "of blocks that touch nothing";
 }
 
-// Stones of one width in a row between two fixed walls, each of which leans away from the other by `lean` as it rises:
-// below 0 the slot opens downwards. All is turned about the origin.
+// Stones of one width in a row between two fixed walls, each inclined away from the other by `lean` upwards: below 0
+// the slot opens downwards. Everything is rotated about the origin.
 std::vector<TestBlock> slot(int stones, double width, double height, double lean, double turn) {
   const double half = 0.5 * stones * width, off = height * std::tan(lean);
   std::vector<TestBlock> blocks{
@@ -57,7 +57,7 @@ std::vector<TestBlock> slot(int stones, double width, double height, double lean
   return blocks;
 }
 
-// Between parallel walls any friction holds a row of stones, if they are pressed as hard as it takes: none at zero.
+// Between parallel walls any friction above zero holds a row of stones, with sufficient normal force.
 TEST(SelfStress, BetweenParallelWallsHoldsAtAnyFrictionAboveZero) {
   Random random(11);
   for (int i = 0; i < 40; ++i) {
@@ -70,8 +70,8 @@ TEST(SelfStress, BetweenParallelWallsHoldsAtAnyFrictionAboveZero) {
   }
 }
 
-// A stone between a wall and a block that friction alone keeps between a floor and a roof: forces of a second order.
-TEST(SelfStress, MayNeedAnotherToPressAgainst) {
+// A stone between a wall and a block that only friction holds between a floor and a roof: self-stress of second order.
+TEST(SelfStress, MayDependOnAnotherSelfStress) {
   const Model<2> model = model_of({{"floor", box(0, -1, 2, 0), true},
                                    {"roof", box(0, 1, 2, 2), true},
                                    {"between", box(0, 0, 1, 1)},
@@ -79,7 +79,7 @@ TEST(SelfStress, MayNeedAnotherToPressAgainst) {
                                    {"stone", box(-1, 0, 0, 1)}});
   const std::vector<Interface> faces = find_interfaces(model);
   EXPECT_EQ(find_critical_friction(model, faces).status, LimitStatus::not_attained);
-  // the other way is free without the roof: the stone then needs all of its own friction to push the block
+  // without the roof the block can move: the stone then needs all of its own friction to push the block
   Model<2> open = model;
   for (Body<2>& body : open.bodies)
     body.present = body.name != "roof";
@@ -87,9 +87,9 @@ TEST(SelfStress, MayNeedAnotherToPressAgainst) {
   EXPECT_EQ(found.status, LimitStatus::found);
 }
 
-// Walls that lean inwards as they rise, by `lean`, hold a stone from a friction of `lean` on: two cones then face each
-// other. Walls that lean outwards hold it without friction.
-TEST(SelfStress, InASlotThatOpensDownwardsIsTold) {
+// Walls inclined inwards by `lean` hold a stone from a friction angle of `lean` on: two cones then face each other.
+// Walls inclined outwards hold it without friction.
+TEST(SelfStress, InASlotThatOpensDownwardsIsReported) {
   Random random(12);
   for (int i = 0; i < 40; ++i) {
     const double lean = uniform(random, 0.5, 25) * degree, height = 1, width = uniform(random, 1.2, 2);
@@ -116,8 +116,8 @@ TEST(SelfStress, InASlotThatOpensDownwardsIsTold) {
   }
 }
 
-// What friction holds because the load presses on it, and a jam that has no part in what fails, are no matter of it.
-TEST(SelfStress, IsNotToldOfLoadsThatPressOnTheirJoints) {
+// Friction due to the load's own normal force, and a jam that is not part of the mechanism, are not reported.
+TEST(SelfStress, IsNotReportedForLoadsThatCompressTheirJoints) {
   Random random(13);
   for (int i = 0; i < 20; ++i) {
     const double dip = uniform(random, 2, 25) * degree;
@@ -127,7 +127,7 @@ TEST(SelfStress, IsNotToldOfLoadsThatPressOnTheirJoints) {
     EXPECT_NEAR(found.stands, dip, bracket);
     EXPECT_FALSE(found.self_stress);
   }
-  // a stone on a floor between walls, beside a block that slides
+  // a stone on a floor between walls, next to a sliding block
   std::vector<TestBlock> blocks = slot(1, 1, 1, 0, 0);
   blocks.push_back({"floor", box(-0.5, -1, 0.5, 0), true});
   EXPECT_FALSE(find_critical_friction(model_of(blocks), find_interfaces(model_of(blocks))).self_stress);

@@ -27,7 +27,7 @@ Vector<3> face_centroid(const Polytope<3>& part, std::size_t face) {
   return area > 0 ? Vector<3>(corner + moment / area) : corner;
 }
 
-// a point of a face, and the part of its area that it is for
+// a point of a face, and the part of the area that it represents
 template <int Dim>
 struct FacePoint {
   Vector<Dim> place;  // m
@@ -37,8 +37,8 @@ struct FacePoint {
 template <int Dim>
 using Corners = std::vector<Vector<Dim>>;  // of a face, in order around it
 
-// The pieces of a face below and above an elevation, over each of which the stress is linear: the face itself where it
-// is all on one side.
+// The pieces of a face below and above an elevation, over each of which the stress is linear: the face itself if it is
+// entirely on one side.
 template <int Dim>
 std::vector<Corners<Dim>> split_at(Corners<Dim> face, double elevation) {
   const auto height = [&](const Vector<Dim>& corner) { return corner[Dim - 1] - elevation; };
@@ -46,7 +46,7 @@ std::vector<Corners<Dim>> split_at(Corners<Dim> face, double elevation) {
   const auto is_above = [&](const Vector<Dim>& corner) { return height(corner) > 0; };
   if (std::ranges::none_of(face, is_below) || std::ranges::none_of(face, is_above)) return {std::move(face)};
   Corners<Dim> below, above;
-  const std::size_t edges = Dim == 2 ? 1 : face.size();  // an edge in the plane has one, not a way there and back
+  const std::size_t edges = Dim == 2 ? 1 : face.size();  // a face in the plane is one edge, not a ring
   for (std::size_t k = 0; k < face.size(); ++k) {
     const Vector<Dim>&a = face[k], &b = face[(k + 1) % face.size()];
     if (!is_above(a)) below.push_back(a);
@@ -67,7 +67,7 @@ std::vector<FacePoint<2>> face_points(const Corners<2>& edge, const Vector<2>&) 
   return {{middle - arm, half}, {middle + arm, half}};
 }
 
-// of triangles around the first corner the middles of their sides: exact to the second order
+// the middles of the sides of triangles around the first corner: exact to the second order
 std::vector<FacePoint<3>> face_points(const Corners<3>& ring, const Vector<3>& normal) {
   const Vector<3>& corner = ring[0];
   std::vector<FacePoint<3>> points;

@@ -1,4 +1,4 @@
-// Stress brought in from outside: forces on the faces that no joint made.
+// Boundary stress: forces on the faces that no joint made.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace voussoir {
 
-// What a stress (Pa, compression positive, world axes) does to the faces of an unturned part that no joint made:
+// The forces of a stress (Pa, compression positive, world axes) on the faces of an unturned part that no joint made:
 // -stress n A at the centroid of each, n its outward normal. Faces that it does not load are left out.
 template <int Dim>
 std::vector<DeadLoad<Dim>> boundary_loads(const Polytope<Dim>& part, const Matrix<Dim>& stress);
@@ -17,13 +17,13 @@ std::vector<DeadLoad<Dim>> boundary_loads(const Polytope<Dim>& part, const Matri
 template <int Dim>
 struct DepthStress {
   Matrix<Dim> above = Matrix<Dim>::Zero();      // at and above the surface
-  Matrix<Dim> per_depth = Matrix<Dim>::Zero();  // Pa/m: what each metre below it adds
-  double surface = 0;                           // m: its elevation, as the part's coordinates have it
+  Matrix<Dim> per_depth = Matrix<Dim>::Zero();  // Pa/m: increase with depth below it
+  double surface = 0;                           // m: its elevation, in the part's coordinates
 
   Matrix<Dim> at(const Vector<Dim>& point) const;
 };
 
-// The same of such a stress, at as many points of each face as give its force and its moment exactly. A face that the
+// The forces of such a stress, at as many points of each face as give its force and its moment exactly. A face that the
 // surface crosses is cut there, since the stress is linear only on either side of it.
 template <int Dim>
 std::vector<DeadLoad<Dim>> boundary_loads(const Polytope<Dim>& part, const DepthStress<Dim>& stress);

@@ -1,4 +1,4 @@
-// Stress on outer faces: its resultants, what a joint carries under it, and its place in the energy ledger.
+// Stress on outer faces: its resultants, the force of a joint under it, and its part in the energy balance.
 #include "core/load/boundary_stress.hpp"
 
 #include <gtest/gtest.h>
@@ -63,7 +63,7 @@ TEST(BoundaryStress, BalancesItselfOnEveryBlock) {
   EXPECT_LT(sum.force.norm() + sum.moment.norm(), 1e-12 * 3e5 * 8);
 }
 
-// Compression pushes inwards, shear along; a face that a joint made carries nothing.
+// Compression pushes inwards, shear along; a face that a joint made has no load.
 TEST(BoundaryStress, LoadsOuterFacesOnly) {
   Polytope<3> part = make_block<3>(cube<3>(1), {no_joint, 0, 0, 0, 0, 0}).part;
   const Matrix<3> stress = some_stress<3>();
@@ -78,8 +78,9 @@ TEST(BoundaryStress, LoadsOuterFacesOnly) {
   EXPECT_TRUE(boundary_loads<3>(part, Matrix<3>::Zero()).empty());
 }
 
-// A block on a plate, whose base a joint made, is pushed down and sideways on its other faces: at rest the joint
-// carries that and the weight. The settled block then turns freely under a couple, and both balances of energy close.
+// A block on a plate, whose base a joint made, is pushed down and sideways on its other faces: in equilibrium the joint
+// supports these forces and the weight. The settled block then turns freely under a couple, and both balances of energy
+// close.
 template <int Dim>
 void expect_pressed_joint() {
   Vector<Dim> low = Vector<Dim>::Constant(-3), high = Vector<Dim>::Constant(3);
@@ -106,16 +107,16 @@ void expect_pressed_joint() {
   const RunReport report = run(model, settings, {.rest = true, .step_limit = 100000}, {.properties = {}}, state);
   ASSERT_EQ(report.reason, StopReason::equilibrium);
   Vector<Dim> expected = model.bodies[block].mass * model.gravity;
-  expected -= stress.col(Dim - 1);  // what the faces but the base leave: the base's own fraction, area 1
+  expected -= stress.col(Dim - 1);  // all faces but the base: the sum without the base's part, area 1
   Vector<Dim> carried = Vector<Dim>::Zero();
   for (const Contact<Dim>& c : state.contacts.list)
     carried += (model.parts[c.part_a].body == block ? 1.0 : -1.0) * c.force;
   EXPECT_LT((carried - expected).norm(), 1e-5 * expected.norm());
-  EXPECT_LT(state.ledger.energy.relative_error(), 1e-3) << "of linear springs whose area stays";
+  EXPECT_LT(state.ledger.energy.relative_error(), 1e-3) << "linear springs of constant area";
   EXPECT_GT(state.ledger.energy.flows[Source::boundary_stress], 0);
 }
 
-TEST(BoundaryStress, IsBorneByTheJoint) {
+TEST(BoundaryStress, IsSupportedByTheJoint) {
   expect_pressed_joint<3>();
   expect_pressed_joint<2>();
 }
@@ -153,8 +154,9 @@ TEST(BoundaryStress, GrowsWithDepth) {
 
 using oracle::Real;
 
-// Of the stress on one face, about the origin: chords across the way along which its depth changes fastest, by Gauss's
-// three points between corners and surface. Chord, its middle and depth are linear there, their product a cubic.
+// Of the stress on one face, about the origin: chords across the direction in which its depth changes fastest, by
+// Gauss's three points between corners and surface. Chord, its middle and depth are linear there, their product a
+// cubic.
 Load<3> load_by_chords(const std::vector<oracle::RealVector<3>>& ring, const oracle::RealVector<3>& normal,
                        const DepthStress<3>& stress) {
   using Point = oracle::RealVector<3>;
@@ -263,7 +265,7 @@ TEST(BoundaryStress, IsClippedAtItsSurface) {
   expect_clipped_at_the_surface<3>();
 }
 
-// One sheared face turns a block that is free in space: what the load gives is what the motion has.
+// One sheared face turns a block that is free in space: the work of the load is the kinetic energy.
 TEST(BoundaryStress, WorkOnATurningBlockIsItsKineticEnergy) {
   Model<3> model = model_of<3>({outer_body<3>(cube<3>(1), false, "block")});
   model.gravity.setZero();
@@ -273,9 +275,9 @@ TEST(BoundaryStress, WorkOnATurningBlockIsItsKineticEnergy) {
   settings.time.step = 1e-4;
   State<3> state = initial_state(model);
   run(model, settings, {.end_time = 0.2}, {.properties = {}}, state);
-  const EnergyLedger& e = state.ledger.energy;
+  const EnergyBalance& e = state.ledger.energy;
   EXPECT_GT(rotation_vector(state.bodies.motions[0].rotation).norm(), 1e-3);
-  EXPECT_NEAR(e.kinetic, e.external(), 1e-3 * e.kinetic) << "the flow is half of 2,000 steps' last ahead";
+  EXPECT_NEAR(e.kinetic, e.external(), 1e-3 * e.kinetic) << "the flow is half a step of 2,000 ahead";
   EXPECT_LT(std::abs(e.flows[Source::contacts]), 1e-12 * e.largest_energy);
   EXPECT_LT(e.relative_error(), 1e-12);
 }

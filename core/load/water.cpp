@@ -6,7 +6,7 @@
 namespace voussoir {
 namespace {
 
-// a corner of what is being cut, seen from the body's centroid, and how deep it lies
+// a corner of the piece being cut, seen from the body's centroid, and its depth
 template <int Dim>
 struct Corner {
   Vector<Dim> place;
@@ -18,7 +18,8 @@ double depth_at(const WaterStretch<Dim>& stretch, const Vector<Dim>& centroid, c
   return stretch.rise.dot(Vector<Dim>(stretch.point - centroid) - place);
 }
 
-// where the edge from one corner to another crosses zero of a height over a cut: the same point from either side
+// the point at which the edge from one corner to another crosses zero of a height over a cut: the same point from
+// either side
 template <int Dim>
 Corner<Dim> crossing(const Corner<Dim>& a, double height_a, const Corner<Dim>& b, double height_b) {
   if (height_a > height_b) return crossing(b, height_b, a, height_a);
@@ -26,7 +27,8 @@ Corner<Dim> crossing(const Corner<Dim>& a, double height_a, const Corner<Dim>& b
   return {a.place + fraction * (b.place - a.place), a.depth + fraction * (b.depth - a.depth)};
 }
 
-// The part of a polygon on which a height is positive (Sutherland & Hodgman 1974). Each corner's height is asked once.
+// The part of a polygon on which a height is positive (Sutherland & Hodgman 1974). Each corner's height is evaluated
+// once.
 template <class Height>
 void clip(std::vector<Corner<3>>& polygon, std::vector<Corner<3>>& cut, const Height& height) {
   cut.clear();
@@ -39,7 +41,7 @@ void clip(std::vector<Corner<3>>& polygon, std::vector<Corner<3>>& cut, const He
   std::swap(polygon, cut);
 }
 
-// the buffers of this thread: no step asks for memory once they have grown
+// the buffers of this thread: no step allocates memory once they have grown
 template <int Dim>
 struct Buffers {
   std::vector<Corner<Dim>> polygon, cut, corners;
@@ -146,7 +148,7 @@ void add_face(const std::vector<Corner<2>>& edge, const Vector<2>& normal, Load<
   load.moment -= moment(weighted, length);
 }
 
-// The part of an edge, two corners, on which a height is positive. An edge on which it is zero all along is left out,
+// The part of an edge, two corners, on which a height is positive. An edge on which it is zero throughout is left out,
 // or kept if `with_border`.
 template <class Height>
 void clip_edge(std::vector<Corner<2>>& edge, const Height& height, bool with_border = false) {
@@ -159,7 +161,7 @@ void clip_edge(std::vector<Corner<2>>& edge, const Height& height, bool with_bor
   edge[of_a < 0 ? 0 : 1] = middle;
 }
 
-// A vertical edge exactly at a bend belongs to the stretch that ends there, and to that alone: both neighbours have the
+// A vertical edge exactly at a bend belongs only to the stretch that ends there: both neighbours have the
 // same depth at the bend.
 void clip_face(std::vector<Corner<2>>& edge, std::vector<Corner<2>>&, const WaterStretch<2>& stretch,
                const Vector<2>& centroid) {
@@ -175,9 +177,9 @@ void clip_face(std::vector<Corner<3>>& polygon, std::vector<Corner<3>>& cut, con
   clip(polygon, cut, [](const Corner<3>& c) { return c.depth; });
 }
 
-// Each edge below the surface adds what lies between it and the surface straight above, with the sign of its direction
-// along x: what the part does not fill cancels, and where the stretch ends nothing needs closing. `alone`: the body
-// lies within one stretch.
+// Each edge below the surface adds the region between it and the surface straight above, with the sign of its direction
+// along x: regions outside the part cancel, and no edge is needed at the end of the stretch. `alone`: the body is
+// within one stretch.
 void add_part(const Polytope<2>& part, const WaterStretch<2>& stretch, bool alone, const Standing<2>& at,
               Submerged<2>& sum) {
   auto& [edge, cut, corners] = buffers<2>();
@@ -211,7 +213,7 @@ void list_stretches(std::span<const double> numbers, std::vector<WaterStretch<2>
     const double x = numbers[2 * k], h = numbers[2 * k + 1];
     Vector<2> rise(0, 1);
     if (k + 1 < points) rise[0] = -(numbers[2 * k + 3] - h) / (numbers[2 * k + 2] - x);
-    if (rise == stretches.back().rise) continue;  // no bend: a block that lies across this point is not cut there
+    if (rise == stretches.back().rise) continue;  // no bend: a block across this point is not cut there
     stretches.back().to = x;
     stretches.push_back({.from = x, .point = {x, h}, .rise = rise});
   }
@@ -236,7 +238,7 @@ Submerged<Dim> submerged(const std::vector<Polytope<Dim>>& parts, double radius,
     const double depth = depth_at<Dim>(stretch, standing.centroid, Vector<Dim>::Zero());
     const double reach = radius * stretch.rise.norm();
     if (depth <= -reach) continue;
-    if (alone && depth >= reach) {  // the first moment of a body about its centroid is none
+    if (alone && depth >= reach) {  // the first moment of a body about its centroid is zero
       double volume = 0;
       for (const Polytope<Dim>& part : parts)
         volume += part.mass.volume;

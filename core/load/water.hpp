@@ -1,6 +1,6 @@
-// Water on blocks: a pressure p = γ max(0, h(x) - z) on their faces where they now are, z being the last coordinate. It
-// stands still: no flow, no drag, no added mass. Every integral is exact up to rounding. All results are those of a
-// unit weight γ of 1 N/m³; lengths in m, in one frame.
+// Water on blocks: a pressure p = γ max(0, h(x) - z) on their faces in the current position, z being the last
+// coordinate. The water is static: no flow, no drag, no added mass. Every integral is exact up to rounding. All results
+// are those of a unit weight γ of 1 N/m³; lengths in m, in one frame.
 #pragma once
 
 #include <limits>
@@ -26,14 +26,14 @@ struct WaterStretch {
 template <int Dim>
 void list_stretches(std::span<const double> numbers, std::vector<WaterStretch<Dim>>& stretches);
 
-// where a body stands: its parts lie in its frame, whose origin is its centroid
+// the pose of a body: its parts are in its frame, whose origin is its centroid
 template <int Dim>
 struct Standing {
   Vector<Dim> centroid = Vector<Dim>::Zero();
   Matrix<Dim> axes = Matrix<Dim>::Identity();
 };
 
-// The part of a body that lies below the surface, moments about the body's centroid.
+// The part of a body below the surface, moments about the body's centroid.
 template <int Dim>
 struct Submerged {
   double volume = 0;                               // m³ (2-D: m²)
@@ -43,9 +43,9 @@ struct Submerged {
 };
 
 // Volume form, for a surface that wets every face: the pressures' resultant is that of their gradient over the volume
-// below the surface, whose pieces are cut at the borders of the stretches (what acts on these cuts cancels). The load
+// below the surface, whose pieces are cut at the borders of the stretches (the forces on these cuts cancel). The load
 // is minus the gradient of the potential. `radius`: the largest distance of a vertex from the body's centroid: bodies
-// wholly below the surface or above it are not cut.
+// entirely below the surface or above it are not cut.
 template <int Dim>
 Submerged<Dim> submerged(const std::vector<Polytope<Dim>>& parts, double radius, const Standing<Dim>& standing,
                          std::span<const WaterStretch<Dim>> surface);
@@ -61,12 +61,12 @@ Load<Dim> uniform_pressure_on_face(const Polytope<Dim>& part, std::size_t face, 
 template <int Dim>
 double greatest_depth(const Vector<Dim>& centroid, double radius, std::span<const WaterStretch<Dim>> surface);
 
-// At most how fast the gradient of the pressure changes, in all: that of the steepest stretch, which ends at the
+// Upper bound of the total change of the pressure gradient: that of the steepest stretch, which ends at the
 // surface, and the bends between stretches, N/m³ at 1 N/m³.
 template <int Dim>
 double steepness(std::span<const WaterStretch<Dim>> surface);
 
-// Upper bounds of how a water's load changes with the pose of a body, whatever the pose, for a steepness of 1 N/m³. A
+// Upper bounds of the derivative of a water's load by the pose of a body, at any pose, for a steepness of 1 N/m³. A
 // section of a convex part is at most half of its surface: translation with the section, rotation with its second
 // moment and with the lever of the buoyancy.
 template <int Dim>

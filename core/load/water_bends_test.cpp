@@ -44,7 +44,7 @@ auto integrated(const std::vector<Real>& places, const Function& f) {
   return sum;
 }
 
-// where a function that is straight between these places crosses zero is a place, too
+// adds the places at which a function that is linear between the given ones crosses zero
 template <class Function>
 std::vector<Real> with_zeros(std::vector<Real> places, const Function& f) {
   std::ranges::sort(places);
@@ -62,7 +62,7 @@ struct Push {
   Real moment = 0;  // about `centroid`
 };
 
-// of pressure on an edge whose outer side lies to the right of the way from a to b
+// of pressure on an edge whose outer side is on the right of the line from a to b
 Push pressure_on(const Point& a, const Point& b, const std::vector<double>& table, const Point& centroid) {
   const auto at = [&](Real t) { return Point(a + t * (b - a)); };
   const auto depth = [&](Real t) { return surface_at(table, at(t)[0]) - at(t)[1]; };
@@ -99,7 +99,7 @@ std::vector<Point> hull_of(std::vector<Point> points) {
   return hull;
 }
 
-// what lies below the surface: volume, and its first moment about the origin
+// the part below the surface: volume, and its first moment about the origin
 oracle::RealVector<3> wet_part(const std::vector<Point>& ring, const std::vector<double>& table) {
   const auto [low, high] = std::ranges::minmax(ring, {}, [](const Point& p) { return p[0]; });
   const Real from = low[0], width = high[0] - low[0];
@@ -133,7 +133,7 @@ oracle::RealVector<3> wet_part(const std::vector<Point>& ring, const std::vector
   });
 }
 
-// whole numbers, in ascending order where they are places along x
+// whole numbers, in ascending order if they are places along x
 std::vector<double> random_table(Random& random) {
   std::vector<double> table;
   double x = integer(random, -grid, 0);
@@ -142,7 +142,7 @@ std::vector<double> random_table(Random& random) {
   return table;
 }
 
-// A convex polygon with corners on the grid, turned by quarters from how its body holds it.
+// A convex polygon with corners on the grid, turned by quarter turns from its position in its body.
 struct OnGrid {
   std::vector<Point> ring;  // in the world
   Polytope<2> part;
@@ -168,7 +168,7 @@ struct OnGrid {
     part = moved_origin<2>(part, part.mass.centroid);
   }
 
-  // the ends of a face in the world, the outer side to the right of the way between them
+  // the ends of a face in the world, the outer side on the right of the line between them
   std::array<Point, 2> face(std::size_t f) const {
     std::array<Point, 2> ends;
     for (int k = 0; k < 2; ++k) {
@@ -194,7 +194,7 @@ double tolerance(std::span<const WaterStretch<2>> surface) {
   return 1e-12 * steepness<2>(surface) * grid * grid;
 }
 
-TEST(BentWater, PressesOnFacesAsTheQuadratureSays) {
+TEST(BentWater, PressesOnFacesAsByQuadrature) {
   Random random(52);
   std::vector<WaterStretch<2>> surface;
   int faces = 0, wet_at_bends = 0, wrong = 0;
@@ -217,7 +217,7 @@ TEST(BentWater, PressesOnFacesAsTheQuadratureSays) {
   EXPECT_GT(wet_at_bends, 500);
 }
 
-TEST(BentWater, LiftsTheVolumeThatTheQuadratureSays) {
+TEST(BentWater, LiftsTheVolumeAsByQuadrature) {
   Random random(53);
   std::vector<WaterStretch<2>> surface;
   for (int i = 0; i < cases; ++i) {
@@ -242,9 +242,9 @@ TEST(BentWater, LiftsTheVolumeThatTheQuadratureSays) {
   }
 }
 
-// At any bend, the first and the last one too, and from either side: what acts on a face there is what acts a hair
-// beside it.
-TEST(BentWater, AtABendIsThatBesideIt) {
+// At any bend, the first and the last one too, and from either side: the load on a face there is the load a hair beside
+// it.
+TEST(BentWater, AtABendEqualsItsLoadBesideTheBend) {
   Random random(54);
   constexpr double hair = 1e-9;  // m
   std::vector<WaterStretch<2>> surface;

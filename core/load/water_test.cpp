@@ -1,4 +1,5 @@
-// Pressure of water on single blocks: volumes and moments by plain geometry, faces against volume, published numbers.
+// Pressure of water on single blocks: volumes and moments by elementary geometry, faces against volume, published
+// numbers.
 #include "core/load/water.hpp"
 
 #include <gtest/gtest.h>
@@ -165,7 +166,7 @@ class Water : public testing::Test {};
 TYPED_TEST_SUITE(Water, Dimensions);
 
 // Eq. 6.8
-TYPED_TEST(Water, HasVolumeAndMomentsOfPlainGeometry) {
+TYPED_TEST(Water, HasVolumeAndMomentsOfElementaryGeometry) {
   constexpr int Dim = TypeParam::value;
   Random random(Dim);
   int cut = 0;
@@ -230,7 +231,7 @@ TYPED_TEST(Water, OfOnePressureBalancesAroundABlock) {
   }
 }
 
-// the load is minus the gradient of the potential, by central differences along every freedom
+// the load is minus the gradient of the potential, by central differences along every degree of freedom
 TYPED_TEST(Water, HasTheGradientOfItsPotential) {
   constexpr int Dim = TypeParam::value;
   Random random(30 + Dim);
@@ -255,7 +256,7 @@ TYPED_TEST(Water, HasTheGradientOfItsPotential) {
   }
 }
 
-// How the load changes with the pose never exceeds the bound that the time step is chosen by.
+// The derivative of the load by the pose never exceeds the bound that determines the time step.
 TYPED_TEST(Water, IsNoStifferThanItsBound) {
   constexpr int Dim = TypeParam::value;
   Random random(40 + Dim);
@@ -287,7 +288,7 @@ std::vector<WaterStretch<3>> level_3d(double h) {
   return surface;
 }
 
-// a unit cube that stands on its corner, the water so far above the corner
+// a unit cube that stands on its corner, the water at this height above the corner
 TEST(WaterNumbers, OfACubeOnItsCorner) {
   const std::vector<Polytope<3>> cube_parts{block<3>(cube<3>(0.5))};
   const Vector<3> diagonal = Vector<3>::Ones().normalized();
@@ -309,8 +310,8 @@ TEST(WaterNumbers, OfACubeOnItsCorner) {
   }
 }
 
-// 2 x 1 m at 20 degrees, its centre 0.1 m above the level: the buoyancy acts at the centroid of what is wet, not at the
-// block's own, and turns the block
+// 2 x 1 m at 20 degrees, its centre 0.1 m above the level: the buoyancy acts at the centroid of the wet part, not at
+// that of the block, and turns the block
 TEST(WaterNumbers, OfATurnedBlock) {
   const std::vector<Polytope<2>> parts{block<2>(box<2>({-1, -0.5}, {1, 0.5}))};
   std::vector<WaterStretch<2>> surface;

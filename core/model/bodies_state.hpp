@@ -1,5 +1,5 @@
-// Where bodies are and how they move. Positions are reference + displacement, so small steps far from the origin
-// survive.
+// Where bodies are and how they move. Positions are reference + displacement, so that small steps far from the origin
+// are not lost.
 #pragma once
 
 #include <vector>
@@ -18,14 +18,14 @@ struct Motion {
   Spin<Dim> angular_momentum = Spin<Dim>::Zero();  // principal axes, kg m²/s, half a step behind
 };
 
-// where a body stands
+// the placement of a body
 template <int Dim>
 struct Placement {
   Vector<Dim> displacement;  // m
   Rotation<Dim> rotation;
 };
 
-// where a body is and how it goes, as its contacts ask; rebuilt every step
+// position and motion of a body, as its contacts need them; rebuilt every step
 template <int Dim>
 struct CachedPose {
   Vector<Dim> reference, displacement;  // m
@@ -39,11 +39,11 @@ template <int Dim>
 struct BodiesState {
   std::vector<Motion<Dim>> motions;        // by body
   std::vector<CachedPose<Dim>> poses;      // by body; rebuilt every step
-  std::vector<Placement<Dim>> listed_at;   // where the bodies stood when the candidates were last listed
-  std::vector<Placement<Dim>> counted_at;  // by body: up to where its travel is counted
-  std::vector<double> path_bounds;         // m, by body: how far any of its points may have gone, all ways added up
-  std::vector<char> left_behind;  // by body: has failed in a search that its failure does not end, and counts no more
-                                  // where rest is judged; empty: none
+  std::vector<Placement<Dim>> listed_at;   // by body: when the candidates were last listed
+  std::vector<Placement<Dim>> counted_at;  // by body: up to which its path is counted
+  std::vector<double> path_bounds;         // m, by body: bound of the path of any of its points
+  std::vector<char> left_behind;           // by body: failed in a search that its failure does not end, and excluded
+                                           // from the check of equilibrium; empty: none
 };
 
 // The second body's centroid seen from the first's, m: reference positions first, so that small displacements are not
@@ -51,7 +51,7 @@ struct BodiesState {
 template <int Dim>
 Vector<Dim> between(const CachedPose<Dim>& a, const CachedPose<Dim>& b);
 
-// where the body stands as loads ask
+// the pose of the body, as loads need it
 template <int Dim>
 Standing<Dim> standing(const CachedPose<Dim>& pose);
 

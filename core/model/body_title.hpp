@@ -1,4 +1,4 @@
-// What a body is called in messages: by the names that the scene has, its number beside them.
+// The title of a body in messages, made of names in the scene; its number is printed beside it.
 #pragma once
 
 #include <string>

@@ -12,7 +12,7 @@ void list_by_body(const Model<Dim>& model, ContactsState<Dim>& contacts) {
       for (const int part : {contacts.list[i].part_a, contacts.list[i].part_b})
         visit(model.parts[part].body, static_cast<int>(i));
   };
-  // the end of each body's, lowered to its begin as they go in from the last to the first
+  // the end of each body's range, lowered to its begin as contacts are filled in from the last to the first
   each([&](int body, int) { ++first[body]; });
   for (std::size_t b = 0; b + 1 < first.size(); ++b)
     first[b + 1] += first[b];

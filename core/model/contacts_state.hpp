@@ -1,4 +1,4 @@
-// Candidate pairs of parts: those that touch carry the history of their joint.
+// Candidate pairs of parts: those that touch have the history of their joint.
 #pragma once
 
 #include <algorithm>
@@ -12,13 +12,13 @@
 
 namespace voussoir {
 
-// The contacts of each body in their order: those of body b lie in `places` from first[b] up to first[b + 1].
+// The contacts of each body in their order: those of body b are in `places` from first[b] up to first[b + 1].
 struct ContactsByBody {
   std::vector<int> first, places;
 };
 
-// What a contact does to its bodies, apart from all else that is known of it: bodies ask for it in another order than
-// contacts lie in.
+// The load of a contact on its bodies, apart from its other data: bodies read loads in another order than that of the
+// contacts.
 template <int Dim>
 struct ContactLoad {
   int second = -1;                             // the second body; -1: they do not touch
@@ -29,7 +29,7 @@ struct ContactLoad {
 
 template <int Dim>
 struct ContactsState {
-  std::vector<Contact<Dim>> list;     // candidate pairs by (part a, part b); those that touch carry history
+  std::vector<Contact<Dim>> list;     // candidate pairs by (part a, part b); those that touch have a history
   std::vector<SubContact<Dim>> subs;  // as many places for each contact, in their order; none if no joint has any
   std::vector<IntegratedContact<Dim>>
       faces;                            // by contact, of the integrated ones; found every step; none if no joint is
@@ -43,14 +43,14 @@ std::size_t sub_stride(const ContactsState<Dim>& contacts) {
   return contacts.list.empty() ? 0 : contacts.subs.size() / contacts.list.size();
 }
 
-// The sub-contacts that carry a contact, none if it carries itself; `place` counts in ContactsState::list.
+// The sub-contacts of a contact, none if its force acts at its own point; `place` counts in ContactsState::list.
 template <class AnyContacts>
 auto subs_of(AnyContacts& contacts, std::size_t place) {
   const std::size_t stride = sub_stride(contacts);
   return std::span(contacts.subs).subspan(place * stride, std::min<std::size_t>(stride, contacts.list[place].cells));
 }
 
-// how many of a contact's bonds are whole: its own, or those of its sub-contacts
+// how many of a contact's bonds are intact: its own, or those of its sub-contacts
 template <int Dim>
 long long whole_bonds(const ContactsState<Dim>& contacts, std::size_t place) {
   const Contact<Dim>& c = contacts.list[place];

@@ -1,12 +1,12 @@
-// What of a struct is saved, hashed and found again, listed once for each: the checkpoint (core/run/fields.hpp) and the
-// hash of a state (state_hash.cpp) follow from it. Each list is bound to its struct: a member that is added there and
-// not here does not compile.
+// The members of a struct that are saved, hashed or recomputed, listed once for each struct: the checkpoint
+// (core/run/fields.hpp) and the hash of a state (state_hash.cpp) follow from it. Each list is bound to its struct: a
+// member that is added there and not here does not compile.
 //
 // visit_fields(object, visit) calls visit(use, members...), in the order in which they are hashed, with
 //   Hashed       part of the state's hash, and saved
 //   HashedIfSet  the same, if it is not zero
-//   Saved        saved: what follows from hashed members, or of an iteration, or constant while a simulation lasts
-//   Found        neither: found again before it is read
+//   Saved        saved: follows from hashed members, or belongs to an iteration, or is constant during a simulation
+//   Found        neither: recomputed before it is read
 #pragma once
 
 #include <concepts>
@@ -171,7 +171,7 @@ void visit_fields(Just<Schedule> auto& s, auto&& visit) {
   visit(Saved{}, time, gravity_factor, last_gravity_factor, friction, strength_factor, last_water, started, ends);
 }
 
-// ---- what is counted -----------------------------------------------------------------------------------------------
+// ---- counts --------------------------------------------------------------------------------------------------------
 
 void visit_fields(Just<BondTally> auto& b, auto&& visit) {
   auto& [made, removed] = b;
@@ -183,7 +183,7 @@ void visit_fields(Just<EnergyFlows> auto& f, auto&& visit) {
   visit(Saved{}, values);
 }
 
-void visit_fields(Just<EnergyLedger> auto& e, auto&& visit) {
+void visit_fields(Just<EnergyBalance> auto& e, auto&& visit) {
   auto& [flows, kinetic, elastic, kinetic_origin, elastic_origin, motion_error, contact_error, worst_error,
          largest_energy, phase] = e;
   visit(Saved{}, flows, kinetic, elastic, kinetic_origin, elastic_origin, motion_error, contact_error, worst_error,

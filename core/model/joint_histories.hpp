@@ -1,5 +1,5 @@
-// What the joints of a state remember, apart from their contacts: so much of these is copied and put back by a solver
-// that tries out motions.
+// The histories of a state's joints, apart from their contacts: the part that a solver copies and restores when it
+// tries motions.
 #pragma once
 
 #include <cstddef>
@@ -35,7 +35,7 @@ std::span<const JointState<Dim>> subs_of(const JointHistories<Dim>& histories, i
 template <int Dim>
 JointHistories<Dim> histories_of(const ContactsState<Dim>& contacts);
 
-// Puts them back. The contacts are those of the histories, in their order.
+// Restores them. The contacts are those of the histories, in their order.
 template <int Dim>
 void set_histories(const JointHistories<Dim>& histories, ContactsState<Dim>& contacts);
 

@@ -1,4 +1,4 @@
-// The energy balance, the bonds that broke, and what a run has cost.
+// The energy balance, the bonds that broke, and the cost of a run.
 #pragma once
 
 #include <iterator>
@@ -7,19 +7,19 @@
 
 namespace voussoir {
 
-// Bonds, each contact or sub-contact that carries one counted: what led to this state. Those whole are in the contacts.
+// Bonds, counted by contact or sub-contact: the history of this state. Intact ones are in the contacts.
 struct BondTally {
-  long long made = 0, removed = 0;  // removed: whole when a block of theirs was
+  long long made = 0, removed = 0;  // removed: intact when one of their blocks was removed
 };
 
-// the tally, and what has become of the bonds
+// the tally, and the present state of the bonds
 struct BondCount {
   long long made = 0, whole = 0, broken = 0, removed = 0;
-  long long due = 0;  // contacts whose joint is to be bonded where it first presses, and has not pressed yet
+  long long due = 0;  // contacts whose joint is to be bonded when it is first compressed, and has not been yet
 };
 
 struct Ledger {
-  EnergyLedger energy;
+  EnergyBalance energy;
   BondTally bonds;
 };
 
@@ -28,20 +28,20 @@ struct Counters {
   long long contact_evaluations = 0;  // pairs that went through the narrow phase
   long long motion_skips = 0;         // separated pairs whose bodies have not moved enough to meet
   long long axis_hits = 0;            // pairs still separated by the plane of the step before
-  long long cold_starts = 0;          // pairs resolved from nothing
+  long long cold_starts = 0;          // pairs resolved without a start
   long long lp_solves = 0;
   long long lp_pivots = 0;
   long long newton_iterations = 0;
-  long long centre_fallbacks = 0;  // Newton failed, Ipopt answered
+  long long centre_fallbacks = 0;  // Newton failed, Ipopt succeeded
   long long areas = 0;
-  long long undecided = 0;         // pairs nearer to touching than rounding can tell
-  long long unconverged = 0;       // contacts without an answer: the run fails
+  long long undecided = 0;         // pairs nearer to touching than rounding resolves
+  long long unconverged = 0;       // contacts without a result: the run fails
   long long normal_fallbacks = 0;  // normals taken from a face or from the LP's multipliers
   long long deep_overlaps = 0;     // overlaps beyond the potential particle's radius
   long long snap_backs = 0;        // slips in which friction fell faster than the shear spring could unload
   long long neighbour_builds = 0;
-  long long static_iterations = 0;  // Newton's method on the joints: steps accepted
-  long long static_rejections = 0;  // and refused
+  long long static_iterations = 0;  // static solver: steps accepted
+  long long static_rejections = 0;  // and rejected
   long long linear_iterations = 0;  // of its linear systems
   long long static_fallbacks = 0;   // increments that it left to relaxation
 };

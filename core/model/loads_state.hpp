@@ -12,7 +12,7 @@ namespace voussoir {
 template <int Dim>
 using LoadsBySource = BySource<std::vector<Load<Dim>>, load_count>;
 
-// What excavated rock did to a body that it held, as far as it is not yet let off.
+// The relief load on a body that excavated rock supported.
 template <int Dim>
 struct ReliefLoad {
   int body = 0;
@@ -24,8 +24,8 @@ struct ReliefLoad {
 template <int Dim>
 struct LoadsState {
   std::vector<Load<Dim>> total;          // by body: of all sources together, before damping
-  LoadsBySource<Dim> by_source;          // by body; none of a source that the scene does not use
-  std::vector<BodyStiffness> stiffened;  // by body: what loads other than the contacts add; none where none does
+  LoadsBySource<Dim> by_source;          // by body; empty for a source that the scene does not use
+  std::vector<BodyStiffness> stiffened;  // by body: added by loads other than the contacts; empty if none adds any
   std::vector<ReliefLoad<Dim>> relief;   // by excavation, then by body
 };
 

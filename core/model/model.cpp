@@ -17,7 +17,7 @@ void find_principal_axes(Body<2>& body, const MassProperties<2>& mass, double de
 
 void find_principal_axes(Body<3>& body, const MassProperties<3>& mass, double density) {
   const Matrix<3> tensor = density * inertia_tensor(mass);
-  // axes that are principal already, to rounding, stay as they are: eigenvectors of equal moments are arbitrary
+  // axes that are principal already, to rounding, are kept: eigenvectors of equal moments are arbitrary
   const double off_diagonal = std::max({std::abs(tensor(0, 1)), std::abs(tensor(0, 2)), std::abs(tensor(1, 2))});
   if (off_diagonal <= 1e-13 * tensor.trace()) {
     body.inertia = tensor.diagonal();
@@ -45,7 +45,7 @@ bool contains(const Body<Dim>& body, const Vector<Dim>& point) {
   });
 }
 
-// visits the outer faces of a body that look along an axis, with where they lie, m
+// visits the outer faces of a body that face along an axis, with their position, m
 template <int Dim, class Visit>
 void each_outer_face(const Body<Dim>& body, int axis, double sign, const Visit& visit) {
   constexpr double aligned = 1 - 1e-12;
@@ -55,7 +55,7 @@ void each_outer_face(const Body<Dim>& body, int axis, double sign, const Visit& 
         visit(body.reference[axis] + part.vertices[part.loops[f].front()][axis]);
 }
 
-// a side of the model: where the outermost of all such faces lie
+// a side of the model: the position of the outermost of all such faces
 struct Side {
   int axis = 0;
   double sign = 1, place = 0, size = 0;  // m
@@ -174,7 +174,7 @@ Body<Dim> assemble_body(std::vector<Polytope<Dim>> parts, double density) {
   for (Polytope<Dim>& p : parts) {
     body.parts.push_back(moved_origin<Dim>(std::move(p), body.reference));
     const Polytope<Dim>& moved = body.parts.back();
-    // found again: moved there, the second moment of a small part far from the origin would be lost
+    // recomputed: if moved there, the second moment of a small part far from the origin would be lost
     const MassProperties<Dim> own = is_particle(moved) ? moved_origin<Dim>(moved.particle->mass.mass, -moved.centre)
                                                        : integrate(moved.vertices, moved.loops);
     total.second_moment += own.second_moment;

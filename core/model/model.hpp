@@ -28,8 +28,8 @@ struct Body {
   Matrix<Dim> principal_axes = Matrix<Dim>::Identity();  // columns in the body's frame
   double radius = 0;                                     // largest distance of a vertex from the centroid, m
   double size = 0;                                       // smallest inscribed radius of its parts, m
-  bool fixed = false;                                    // held, but for what Model::prescribed forces upon it
-  bool prescribed = false;                               // moves as Model::prescribed says
+  bool fixed = false;                                    // held, except for the motion in Model::prescribed
+  bool prescribed = false;                               // moves as Model::prescribed states
   bool present = true;                                   // false once excavated: ids never change
   std::array<bool, Dim> free_translation;                // world axes; all true unless restrained
   std::array<bool, spin_freedoms<Dim>> free_rotation;
@@ -37,7 +37,7 @@ struct Body {
   bool immobile() const { return fixed && !prescribed; }
 };
 
-// a motion forced upon a body: its forced freedoms are not free while it lasts
+// a motion forced upon a body: its forced degrees of freedom are not free while it lasts
 template <int Dim>
 struct PrescribedMotion {
   int body = 0;
@@ -63,8 +63,8 @@ template <int Dim>
 struct AppliedForce {
   std::string name;
   int body = 0;
-  Vector<Dim> place = Vector<Dim>::Zero();  // where it acts, body frame, m
-  Vector<Dim> force = Vector<Dim>::Zero();  // N, at a factor of 1; world axes, or the body's where it turns with it
+  Vector<Dim> place = Vector<Dim>::Zero();  // point of action, body frame, m
+  Vector<Dim> force = Vector<Dim>::Zero();  // N, at a factor of 1; world axes, or the body's if it turns with it
   bool turns_with_body = false;
   TimeFactor factor;       // of the time since the stage began
   double last_factor = 1;  // when it ends
@@ -75,18 +75,18 @@ struct Water {
   std::string name;
   double unit_weight = 9810;   // N/m³
   bool uniform = false;        // a constant pressure
-  std::vector<double> values;  // before the first stage; those of now lie in State::schedule
+  std::vector<double> values;  // before the first stage; the present ones are in State::schedule
 };
 
 // the numbers of each water
 using WaterValues = std::vector<std::vector<double>>;
 
-// a convex region that a stage takes out
+// a convex region that a stage excavates
 template <int Dim>
 struct Excavation {
   std::string name;
   HalfSpaces<Dim> region;   // m
-  double least_radius = 0;  // m: a body of which no more than smaller parts is left goes, too
+  double least_radius = 0;  // m: a body of which only smaller parts remain is removed, too
 };
 
 // a named discontinuity, in slicing order
@@ -119,9 +119,9 @@ struct Model {
       water_of_joint;            // the water on the faces of each joint and, last, on faces that no joint made; -1: dry
   bool water_by_volume = false;  // the one water is a table on all faces: its load has a potential
   std::vector<BodyStiffness> water_bounds;      // by body: core/load/water.hpp, greatest_water_stiffness
-  std::vector<Excavation<Dim>> excavations;     // that stages take out, in the order of the scene
+  std::vector<Excavation<Dim>> excavations;     // that stages excavate, in the order of the scene
   std::vector<BoltProperties> bolt_properties;  // by name, in alphabetical order
-  std::vector<Bolt<Dim>> bolts;                 // by their properties: what stages install
+  std::vector<Bolt<Dim>> bolts;                 // by their properties: those that stages install
   std::vector<Lining> linings;                  // likewise, by name, in alphabetical order; in the plane
   int default_properties = 0;                   // of contacts between faces that no joint made
   Vector<Dim> gravity = Vector<Dim>::Zero();    // m/s²
@@ -135,7 +135,7 @@ struct Model {
 template <int Dim>
 Body<Dim> make_body(std::vector<Polytope<Dim>> parts, double density);
 
-// The same from parts in the order in which they are to stay.
+// The same from parts in their final order.
 template <int Dim>
 Body<Dim> assemble_body(std::vector<Polytope<Dim>> parts, double density);
 
@@ -155,7 +155,7 @@ void list_parts(Model<Dim>& model);
 template <int Dim>
 void assign_waters(Model<Dim>& model, std::vector<Water> waters, std::vector<int> water_of_joint);
 
-// Model::water_bounds, where there is water
+// Model::water_bounds, if there is water
 template <int Dim>
 void bound_water_stiffness(Model<Dim>& model);
 
@@ -164,12 +164,12 @@ template <int Dim>
 std::vector<std::string> side_names();
 
 // The bodies a selector names, in ascending order. Sides of joints are those of a body's reference centroid, `inside`
-// (world coordinates) tests its parts, and a side of the model is where its outer faces end along an axis; several
+// (world coordinates) tests its parts, and a side of the model is the end of its outer faces along an axis; several
 // conditions must all hold. An unknown name throws std::out_of_range with the name; choosing none is not an error here.
 template <int Dim>
 std::vector<int> select(const Model<Dim>& model, const Selector& selector);
 
-// Stresses the faces of a body that no joint made, its surface in model coordinates; it replaces what the body bore
+// Stresses the faces of a body that no joint made, its surface in model coordinates; it replaces the stress on the body
 // before.
 template <int Dim>
 void load_boundary(Model<Dim>& model, int body, const DepthStress<Dim>& stress);

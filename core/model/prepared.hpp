@@ -27,7 +27,7 @@ enum class Quantity {
   lining_force
 };
 
-// what a monitor may follow in history.csv
+// a quantity that a monitor may follow in history.csv
 struct Monitored {
   std::string_view word;
   Quantity quantity;
@@ -36,7 +36,7 @@ struct Monitored {
 };
 
 // every such quantity: of a body, the loads of each source among them; of a joint the resultant over its contacts and
-// its bonds; of a water its level; of bolts and linings their forces; of an opening how far its wall has moved inwards
+// its bonds; of a water its level; of bolts and linings their forces; of an opening the inward displacement of its wall
 inline std::vector<Monitored> monitored_quantities() {
   std::vector<Monitored> all{{"displacement", Quantity::displacement},
                              {"velocity", Quantity::velocity},
@@ -53,7 +53,7 @@ inline std::vector<Monitored> monitored_quantities() {
   return all;
 }
 
-// what a monitor of several bodies tells of them
+// how a monitor combines several bodies
 enum class Aggregate { one, sum, mean };
 
 // those that can be counted from the end of a stage
@@ -66,7 +66,7 @@ inline bool counts_from_stage(Quantity quantity) {
 struct WallPoint {
   std::array<double, 3> point{};
   std::array<double, 3> inwards{};  // unit, towards the opening's centre
-  std::array<double, 3> rock{};     // a point inside the part of a body whose face the wall is: it tells the body
+  std::array<double, 3> rock{};     // a point inside the part of a body whose face the wall is: it identifies the body
 };
 
 // a monitor whose subject was found
@@ -75,20 +75,20 @@ struct Monitor {
   Monitored followed{"displacement", Quantity::displacement};
   int subject = 0;   // body, or joint for contact_force and whole_bonds, or water for level, or Model::bolt_properties,
                      // or Model::linings
-  int points = 0;    // of a level: how many its table has; 0: a pressure
+  int points = 0;    // of a level: the number of points of its table; 0: a pressure
   Aggregate over{};  // of bodies
-  std::vector<int> group{};       // where it is over several: the bodies, ascending
+  std::vector<int> group{};       // if it is over several: the bodies, ascending
   int since = -1;                 // the stage, from 0, from whose end motion is counted; -1: from the start
   std::vector<WallPoint> wall{};  // of convergence
   int node = -1;                  // of a lining, that is followed; -1: the largest of all
 };
 
-// the sets of the model's joints, for those who look at them: nothing is computed by them
+// the sets of the model's joints, for display: no result depends on them
 struct JointSets {
   std::vector<int> of_joint{};  // by Model::joints: place in `names`; -1: of none
   std::vector<std::string> names{};
 
-  // -1 also for what no joint of the scene made
+  // -1 also for faces that no joint of the scene made
   int set_of(int joint) const { return joint >= 0 && joint < static_cast<int>(of_joint.size()) ? of_joint[joint] : -1; }
 };
 
@@ -100,7 +100,7 @@ struct Prepared {
   State<Dim> state;  // initial velocities set
   Settings settings;
   std::vector<StagePlan> stages;
-  std::optional<int> last_stage{};  // place of the last one that is to be done; none: all are
+  std::optional<int> last_stage{};  // place of the last one to be run; none: all are
   std::vector<Monitor> monitors;
   OutputPlan output;
   JointSets joint_sets{};

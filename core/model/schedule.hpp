@@ -18,11 +18,11 @@ struct Schedule {
                                                           // empty: no factor has been searched
   WaterValues water, last_water;                          // the numbers of Model::waters, and those of the step before
   double started = 0;                                     // s: when the schedules began to run
-  double ends = std::numeric_limits<double>::infinity();  // s: when the run that is under way is complete; its last
+  double ends = std::numeric_limits<double>::infinity();  // s: when the present run is complete; its last
                                                           // step ends there
 };
 
-// Puts in force what a search is at: the friction angle, rad, of some joint properties, or the factor that divides
+// Applies the present value of a search: the friction angle, rad, of some joint properties, or the factor that divides
 // their tan φ and cohesion, both as the model states them.
 template <int Dim>
 void set_strength(const Model<Dim>& model, Searched searched, const std::vector<int>& properties, double level,

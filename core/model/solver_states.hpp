@@ -1,5 +1,5 @@
-// What the solvers keep from step to step, apart from the state of the rock: the time step, relaxation, the static
-// solver.
+// The data that the solvers keep from step to step, apart from the state of the rock: the time step, relaxation, the
+// static solver.
 #pragma once
 
 #include <vector>
@@ -19,14 +19,14 @@ struct TimeStep {
   std::vector<double> frequency;  // rad/s, by body: stiffest mode of the last estimate
 };
 
-// Adaptive dynamic relaxation (step/relaxation.hpp): what it keeps from step to step.
+// Adaptive dynamic relaxation (step/relaxation.hpp): the data that it keeps from step to step.
 template <int Dim>
 struct Relaxation {
-  bool under_way = false;               // the run seeks rest by it: inertia, velocities and time are fictitious
+  bool under_way = false;               // the run seeks equilibrium by it: inertia, velocities and time are fictitious
   bool rested = false;                  // it has stopped every body, and none has moved since
   std::vector<double> inertia;          // by body: fictitious over true mass and moments of inertia
   std::vector<Load<Dim>> contact_load;  // by body: of the step before, without weight
-  std::vector<Load<Dim>> imposed;       // by body: how a change of water has changed its load; none where it stands
+  std::vector<Load<Dim>> imposed;       // by body: the change of its load by a change of water; empty if there is none
   int until_renewal = 0;                // steps until the inertia is chosen again
 };
 
@@ -39,19 +39,19 @@ struct PairStiffness {
   int contact = 0;  // place in ContactsState::list; -1: of a bolt or a lining
   int body_a = 0, body_b = 0;
   Block stiffness = Block::Zero();          // minus the derivative, N/m, N and N m
-  Wrench wrench = Wrench::Zero();           // as it is, N and N m
+  Wrench wrench = Wrench::Zero();           // its present value, N and N m
   Vector<Dim> apart = Vector<Dim>::Zero();  // m, of the second centroid from the first
 };
 
-// Where an increment of the static solver begins: the parts of the state that a trial begins with, and what it is
-// judged against.
+// The start of an increment of the static solver: the parts of the state from which a trial begins, and the values with
+// which it is compared.
 template <int Dim>
 struct StaticBase {
   std::vector<Motion<Dim>> motions;  // by body
   JointHistories<Dim> histories;
   SupportsState<Dim> supports;
   Ledger ledger;
-  LoadsBySource<Dim> loads;  // under the loads of now
+  LoadsBySource<Dim> loads;  // under the present loads
   long long whole_bonds = 0;
   long long listed = 0;  // Counters::neighbour_builds that the histories belong to
 };
@@ -61,29 +61,29 @@ struct StaticProgress {
   int iteration = 0;  // accepted ones of this increment
   int since_commit = 0, tries = 0, flat = 0, polished = 0;
   double regularisation = 1;             // lambda
-  double overshoot = 0;                  // how many times the largest step the last one wanted to be
-  std::vector<double> accepted;          // by freedom: motion since the base
-  std::vector<double> residual, change;  // by freedom: what was out of balance, last step
+  double overshoot = 0;                  // the last step over the largest permitted one
+  std::vector<double> accepted;          // by degree of freedom: motion since the reference state
+  std::vector<double> residual, change;  // by degree of freedom: unbalanced forces, last step
   std::vector<double> merits;            // of the accepted ones
 };
 
-// What its linear system consists of.
+// The parts of its linear system.
 template <int Dim>
 struct StaticSystem {
   std::vector<PairStiffness<Dim>> stiffness, closed;  // of the contacts that touch; of those that touch without force
   std::vector<typename PairStiffness<Dim>::Block> of_water;  // by body; none without water
 };
 
-// Newton's method on the joints (step/static_solver.hpp): what an increment keeps from one evaluation to the next.
+// The static solver (step/static_solver.hpp): the data that an increment keeps from one evaluation to the next.
 template <int Dim>
 struct StaticIncrement {
-  // what the next evaluation is; `last`: of what has been accepted, before it is left to relaxation
+  // the kind of the next evaluation; `last`: of the accepted motion, before it is left to relaxation
   enum class Trial { waiting, start, step, forced, last };
   bool under_way = false;
   Trial trial = Trial::start;
   int increments_left = 0;    // after this one
-  double increment_time = 0;  // s: by how much the schedules go on with each
-  double ends = 0;            // s: where the last one puts them
+  double increment_time = 0;  // s: by how much the schedules advance with each
+  double ends = 0;            // s: their time after the last one
   // m, by body: the elastic displacement (core/step/elastic_displacement.hpp), by which slip since the base and steps
   // are measured, and where the bodies were when the solver began; none if the increments alone bound the slip
   std::vector<double> elastic;

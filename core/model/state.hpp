@@ -1,4 +1,5 @@
-// The changing side of a simulation, in parts: a step's functions take those that they change, and the rest const.
+// The changing side of a simulation, in parts: a step's functions take the parts that they change, and the others
+// const.
 #pragma once
 
 #include "core/model/bodies_state.hpp"
@@ -26,20 +27,20 @@ struct State {
   StaticIncrement<Dim> increment;
 };
 
-// Bodies that the model has got since follow at rest.
+// Bodies added to the model since then follow without motion.
 template <int Dim>
 void add_bodies(const Model<Dim>& model, BodiesState<Dim>& bodies, ContactsState<Dim>& contacts, LoadsState<Dim>& loads,
                 TimeStep& time_step);
 
-// Forgets lists, poses and loads that are found again from motions and contacts.
+// Clears lists, poses and loads that are recomputed from motions and contacts.
 template <int Dim>
 void forget_lists(BodiesState<Dim>& bodies, ContactsState<Dim>& contacts, TimeStep& time_step);
 
-// rest at the reference configuration
+// no motion, at the reference configuration
 template <int Dim>
 State<Dim> initial_state(const Model<Dim>& model);
 
-// of a body under the gravity of now, N
+// of a body under the present gravity, N
 template <int Dim>
 Vector<Dim> weight(const Model<Dim>& model, const Schedule& schedule, std::size_t body);
 

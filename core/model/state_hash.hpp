@@ -1,4 +1,4 @@
-// One short name for what a simulation has come to: equal hashes mean equal bits, whatever program computed them.
+// A short name for the state of a simulation: equal hashes mean equal bits, from any program.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What the hash of a state sees, and what it must not see.
+// Changes that the hash of a state must show, and changes that it must not.
 #include "core/model/state_hash.hpp"
 
 #include <gtest/gtest.h>
@@ -95,7 +95,7 @@ TEST(StateHash, CountersDoNotShow) {
   expect_that_bookkeeping_does_not_show<2>();
 }
 
-// The skin decides who is a candidate, never what happens.
+// The skin determines which pairs are candidates, never the result.
 template <int Dim>
 void expect_no_skin(const probe::Scene<Dim>& scene) {
   std::set<std::string> hashes;

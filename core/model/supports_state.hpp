@@ -10,7 +10,7 @@
 
 namespace voussoir {
 
-// The kinds of supports. Each room that does something of its own with them has a table with a row for each:
+// The kinds of supports. Each room that treats each of them differently has a table with a row for each:
 // support_table.hpp in core/scene, core/stage, core/step and core/output.
 enum class SupportKind { bolt, grouted_bolt, lining };
 inline constexpr std::size_t support_kinds = 3;

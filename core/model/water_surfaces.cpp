@@ -89,7 +89,7 @@ BodyStiffness water_stiffness(const Model<Dim>& model, const WaterSurfaces<Dim>&
         std::max(pressure, surface.stretches.empty()
                                ? surface.pressure
                                : surface.weight * greatest_depth<Dim>(standing.centroid, b.radius, surface.stretches));
-  // Each face for itself: all of the surface, twice what a section may be. A pressure turns with its face, at the
+  // Each face by itself: the full surface, twice the largest section. A pressure turns with its face, at the
   // radius at most: 2 |F| u θ <= |F| (u²/R + R θ²).
   const double area = 2 * model.water_bounds[body].translation;
   return {2 * bound.translation + pressure * area / b.radius, 2 * bound.rotation + 2 * pressure * area * b.radius};

@@ -1,4 +1,4 @@
-// How those who are asked for columns of history.csv give them.
+// The callback by which columns of history.csv are added.
 #pragma once
 
 #include <functional>

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view temporary_extension = ".voussoir-part";
 
-// the process id keeps two programs that write the same result from sharing a temporary file
+// with the process id two programs that write the same result do not share a temporary file
 fs::path temporary_name(const fs::path& path) {
   fs::path temporary = path;
   temporary += std::string(temporary_extension) + std::to_string(::getpid());
@@ -28,14 +28,14 @@ bool is_temporary(const fs::path& path) {
   return !process.empty() && std::all_of(process.begin(), process.end(), [](char c) { return '0' <= c && c <= '9'; });
 }
 
-// 0 or what went wrong
+// 0 or the error
 int flush(int file) {
   while (::fsync(file) != 0)
     if (errno != EINTR) return errno;
   return 0;
 }
 
-// 0 or what went wrong
+// 0 or the error
 int write_all(int file, std::string_view content) {
   while (!content.empty()) {
     const ssize_t written = ::write(file, content.data(), content.size());
@@ -46,7 +46,7 @@ int write_all(int file, std::string_view content) {
   return 0;
 }
 
-// A rename lasts only once its folder is on the disk. File systems that cannot flush a folder say EINVAL.
+// A rename is permanent only after its folder is on the disk. File systems that cannot flush a folder return EINVAL.
 void flush_folder(const fs::path& file) {
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -56,13 +56,13 @@ void flush_folder(const fs::path& file) {
   if (error != 0 && error != EINVAL) throw output_error(folder, error);
 }
 
-// a temporary file with the whole content on the disk; errors name the file that was meant
+// a temporary file with the complete content on the disk; errors name the intended file
 fs::path write_temporary(const fs::path& path, std::string_view content) {
   const fs::path temporary = temporary_name(path);
   const int file = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0666);
   if (file < 0) throw output_error(path, errno);
 
-  // a full disk may show only when the data is flushed or the file closed; a close that was interrupted has closed
+  // a full disk may be reported only when the data is flushed or the file closed; an interrupted close has closed
   int error = write_all(file, content);
   if (error == 0) error = flush(file);
   if (::close(file) != 0 && error == 0 && errno != EINTR) error = errno;
@@ -128,7 +128,7 @@ void prepare_folder(const fs::path& folder) {
   if (error) throw output_error(folder, error.value());
   if (!fs::is_directory(folder)) throw output_error(folder, ENOTDIR);
 
-  // hours of computing should not end at a folder that refuses files
+  // hours of computing should not be lost because a folder refuses files
   const fs::path probe = temporary_name(folder / "probe");
   const int file = ::open(probe.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0666);
   if (file < 0) throw output_error(folder, errno);

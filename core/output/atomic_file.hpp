@@ -1,5 +1,5 @@
-// Files appear whole or not at all: written under a temporary name beside the target, flushed to the disk, renamed, and
-// the folder flushed. Every function throws OutputError.
+// Files are written completely or not at all: under a temporary name in the target's folder, flushed to the disk,
+// renamed, and the folder flushed. Every function throws OutputError.
 #pragma once
 
 #include <filesystem>
@@ -12,23 +12,23 @@ namespace voussoir {
 // replaces `path` by `content`
 void write_file(const std::filesystem::path& path, std::string_view content);
 
-// as write_file; what `path` was becomes `previous` as soon as the new content is safe on the disk
+// as write_file; the old file becomes `previous` when the new content is safely on the disk
 void write_file_and_keep(const std::filesystem::path& path, const std::filesystem::path& previous,
                          std::string_view content);
 
-// Adds to a file. Not flushed to the disk, and a program that is killed may leave a part of it.
+// Appends to a file. Not flushed to the disk; a killed program may leave a part of the text.
 void append_to_file(const std::filesystem::path& path, std::string_view content);
 
-// `to` becomes what `from` was
+// renames `from` to `to`
 void move_file(const std::filesystem::path& from, const std::filesystem::path& to);
 
 // Temporary files of programs that were killed; the caller knows that no other program writes to the folder.
 void remove_unfinished_files(const std::filesystem::path& folder);
 
-// a file that need not be there
+// a file that may be absent
 void remove_file(const std::filesystem::path& path);
 
-// makes the folder and its parents, and proves that a file can be created there
+// makes the folder and its parents, and tests that a file can be created there
 void prepare_folder(const std::filesystem::path& folder);
 
 }  // namespace voussoir

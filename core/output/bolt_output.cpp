@@ -10,7 +10,7 @@
 namespace voussoir {
 namespace {
 
-// of a bar's bond in the two blocks at a joint, m: the farthest, with its sign
+// slip of a bar's bond in the two blocks at a joint, m: the largest, with its sign
 template <int Dim>
 double most_slip(const GroutedBolt<Dim>& grouted, int joint) {
   double most = 0;
@@ -41,7 +41,7 @@ void add_bolt_rows(const Model<Dim>& model, const State<Dim>& state, int stage, 
     row.z = Dim == 3 ? at[Dim - 1] : 0;
     return row;
   };
-  auto bar = state.supports.grouted.begin();  // that the spring is a joint of, where it is one
+  auto bar = state.supports.grouted.begin();  // the bar to which the spring belongs, if any
   for (std::size_t i = 0; i < state.supports.bolt_springs.size(); ++i) {
     const BoltSpring<Dim>& s = state.supports.bolt_springs[i];
     const BoltProperties& p = model.bolt_properties[model.bolts[s.bolt].properties];
@@ -76,14 +76,14 @@ std::string find_bolts_again(const Model<Dim>& model, int stages, const Results&
   std::vector<const BoltRow*> last;
   for (const BoltRow& row : results.bolts)
     if (row.stage == stages && row.joint > 0) last.push_back(&row);  // not of a grouted bolt's plate
-  if (last.size() != state.supports.bolt_springs.size()) return "lists other bolts than it holds";
+  if (last.size() != state.supports.bolt_springs.size()) return "lists other bolts than it contains";
   std::map<int, int> now;
   for (std::size_t i = 0; i < last.size(); ++i) {
     const auto is_it = [&](const Bolt<Dim>& b) {
       return model.bolt_properties[b.properties].name == last[i]->bolts && b.number == last[i]->bolt;
     };
     const auto found = std::ranges::find_if(model.bolts, is_it);
-    if (found == model.bolts.end()) return "holds bolts that this scene does not have";
+    if (found == model.bolts.end()) return "contains bolts that this scene does not have";
     now[state.supports.bolt_springs[i].bolt] = static_cast<int>(found - model.bolts.begin());
   }
   const auto renumber = [&](auto& installed) {
@@ -126,7 +126,7 @@ Vector<Dim> place_of(const Model<Dim>& model, const State<Dim>& state, int body,
   return model.origin + model.bodies[body].reference + m.displacement + matrix(m.rotation) * place;
 }
 
-// The nodes of a bar, the first and last moved out to collar and toe, where these are left.
+// The nodes of a bar, the first and last moved to collar and toe, if these still exist.
 template <int Dim>
 std::vector<Vector<Dim>> drawn_nodes(const Model<Dim>& model, const State<Dim>& state, const GroutedBolt<Dim>& g) {
   std::vector<Vector<Dim>> nodes;

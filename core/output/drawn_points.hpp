@@ -1,4 +1,4 @@
-// Points and names as frames hold them (vtp.hpp).
+// Points and names of frames (vtp.hpp).
 #pragma once
 
 #include <algorithm>
@@ -33,7 +33,7 @@ std::vector<std::string> names_of(const std::vector<Named>& list) {
   return names;
 }
 
-// nothing: there is no array of this name
+// nothing if there is no array of this name
 inline const std::vector<double>* values_of(const std::vector<DataArray>& arrays, std::string_view name) {
   const auto found = std::ranges::find(arrays, name, &DataArray::name);
   return found == arrays.end() ? nullptr : &found->values;

@@ -2,10 +2,11 @@
 // fewest digits that read back to the same number. Columns:
 //   time_s                 simulated time
 //   stage                  from 1
-//   trial                  where a stage searches by trials: 0 on the path to the answer, whose time never goes back,
-//                          or the number of the trial, from 1, that ended here and was taken back
+//   trial                  if a stage searches by trials: 0 on the path to the result, whose time never goes back, or
+//   the number of the
+// trial, from 1, that ended here and was undone
 //   friction_<name>_deg    friction angle in force of each joint property whose friction a stage reduces or states
-//   <monitor>_<quantity>…  what the monitors follow (core/output/monitor.hpp)
+//   <monitor>_<quantity>…  quantities of the monitors (core/output/monitor.hpp)
 #pragma once
 
 #include <filesystem>

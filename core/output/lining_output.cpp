@@ -46,11 +46,11 @@ std::string find_linings_again(const Model<Dim>& model, int stages, const Result
   std::vector<std::string> names;
   for (const LiningRow& row : results.linings)
     if (row.stage == stages && std::ranges::find(names, row.lining) == names.end()) names.push_back(row.lining);
-  if (names.size() != state.supports.linings.size()) return "lists other linings than it holds";
+  if (names.size() != state.supports.linings.size()) return "lists other linings than it contains";
   for (std::size_t i = 0; i < names.size(); ++i) {
     const auto found =
         std::ranges::find_if(model.linings, [&](const Lining& l) { return l.properties.name == names[i]; });
-    if (found == model.linings.end()) return "holds a lining that this scene does not have";
+    if (found == model.linings.end()) return "contains a lining that this scene does not have";
     state.supports.linings[i].lining = static_cast<int>(found - model.linings.begin());
   }
   return {};

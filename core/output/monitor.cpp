@@ -22,11 +22,11 @@ void append_vector(std::vector<Column>& columns, const std::string& name, const 
     columns.push_back({name + "_" + axis_names[k], unit});
 }
 
-// what the sources of a word exert on a body; nothing where the scene does not use them
+// the load from the sources of a word on a body; nothing if the scene does not use them
 template <int Dim>
 Vector<Dim> load_of(std::string_view word, int body, const State<Dim>& state) {
   Vector<Dim> sum = Vector<Dim>::Zero();
-  bool first = true;  // a sum of one is that one, to the sign of its zeros
+  bool first = true;  // a sum of one term is that term, to the sign of its zeros
   for (const SourceRow& row : std::span(source_table).first(load_count)) {
     const std::vector<Load<Dim>>& loads = state.loads.by_source[row.source];
     if (row.monitored != word || loads.empty()) continue;
@@ -36,7 +36,7 @@ Vector<Dim> load_of(std::string_view word, int body, const State<Dim>& state) {
   return sum;
 }
 
-// what all touching contacts of a joint carry together
+// the sum of all touching contacts of a joint
 template <int Dim>
 void append_joint(std::vector<double>& values, int joint, const Model<Dim>& model, const State<Dim>& state) {
   double normal = 0, shear = 0, area = 0, count = 0, mobilised = 0, tilt = 0, most = 0;
@@ -78,7 +78,7 @@ Rotation<3> after(const Rotation<3>& second, const Rotation<3>& first) {
   return {second.quaternion * first.quaternion};
 }
 
-// where the body stood when its motion began to count; a body that is put in later counts from its own start
+// the body's pose from which its motion is measured; a body that is installed later is measured from its own start
 template <int Dim>
 Placement<Dim> counted_from(int since, int body, const State<Dim>& state, const std::vector<StageEnd<Dim>>& ends) {
   const Motion<Dim>& now = state.bodies.motions[body];
@@ -89,7 +89,7 @@ Placement<Dim> counted_from(int since, int body, const State<Dim>& state, const 
   return static_cast<std::size_t>(body) < end->bodies.size() ? end->bodies[body] : start;
 }
 
-// one number, or a vector's; asks for no memory
+// one number, or those of a vector; allocates no memory
 using Components = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 3, 1>;
 
 // of one body
@@ -116,7 +116,7 @@ Components value_of(const Monitor& monitor, int body, const Model<Dim>& model, c
   }
 }
 
-// of one body, or over several; those that are gone do not count
+// of one body, or over several; excavated ones do not count
 template <int Dim>
 void append_bodies(std::vector<double>& values, const Monitor& monitor, const Model<Dim>& model,
                    const State<Dim>& state, const std::vector<StageEnd<Dim>>& ends) {
@@ -134,7 +134,7 @@ void append_bodies(std::vector<double>& values, const Monitor& monitor, const Mo
   values.insert(values.end(), sum.data(), sum.data() + sum.size());
 }
 
-// m: how far a point of a wall has moved inwards with its block; not a number where its block is gone
+// m: inward displacement of a point of a wall with its block; not a number if its block is excavated
 template <int Dim>
 double convergence(const WallPoint& wall, int since, const Model<Dim>& model, const State<Dim>& state,
                    const std::vector<StageEnd<Dim>>& ends) {

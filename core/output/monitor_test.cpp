@@ -1,4 +1,4 @@
-// Monitors on motions made by hand: convergence of a wall, and what is counted from the end of a stage.
+// Monitors on motions made by hand: convergence of a wall, and values measured from the end of a stage.
 #include "core/output/monitor.hpp"
 
 #include <gtest/gtest.h>
@@ -54,7 +54,7 @@ int body_at(const Model<2>& model, double x, double y) {
   return b;
 }
 
-// the motion that turns a body about a point of the scene by an angle, then shifts it
+// a rotation of a body about a point of the scene by an angle, then a displacement
 void move(const Model<2>& model, State<2>& state, int body, double angle, const Vector<2>& about, const Vector<2>& by) {
   const Vector<2> arm = model.origin + model.bodies[body].reference - about;
   const double c = std::cos(angle), s = std::sin(angle);
@@ -62,7 +62,7 @@ void move(const Model<2>& model, State<2>& state, int body, double angle, const 
   state.bodies.motions[body].displacement = Vector<2>(c * arm[0] - s * arm[1], s * arm[0] + c * arm[1]) - arm + by;
 }
 
-constexpr double rounding = 1e-14;  // m: coordinates are some metres, and a few are added up
+constexpr double rounding = 1e-14;  // m: sums of a few coordinates of some metres
 
 TEST(Convergence, IsTheMotionOfThePointOfTheWallTowardsTheCentre) {
   const Prepared<2> scene = scene_of(rock + wall("[90, 0, 180, 45]"));
@@ -73,13 +73,13 @@ TEST(Convergence, IsTheMotionOfThePointOfTheWallTowardsTheCentre) {
   for (const double value : monitor_values<2>(scene.monitors, model, state))
     EXPECT_EQ(value, 0);
 
-  // the wall lies on the outline: the crown at (5, 6), the sides at (6, 5) and (4, 5), the corner at (6, 6)
+  // the wall is on the outline: the crown at (5, 6), the sides at (6, 5) and (4, 5), the corner at (6, 6)
   const Vector<2> points[] = {{5, 6}, {6, 5}, {4, 5}, {6, 6}};
   for (int k = 0; k < 4; ++k)
     for (int axis = 0; axis < 2; ++axis)
       EXPECT_NEAR(scene.monitors[0].wall[k].point[axis], points[k][axis] - model.origin[axis], rounding);
 
-  // the block about the opening turns by a finite angle about the right side, and shifts
+  // the block around the opening rotates by a finite angle about the right side, and is displaced
   const int ring = body_at(model, 5, 6.2);
   const double angle = 0.3, x = 0.02, y = -0.05, c = std::cos(angle), s = std::sin(angle);
   move(model, state, ring, angle, {6, 5}, {x, y});
@@ -92,8 +92,8 @@ TEST(Convergence, IsTheMotionOfThePointOfTheWallTowardsTheCentre) {
   EXPECT_NEAR(values[3], -(-s + x + c - 1 + y) / std::sqrt(2.0), rounding);
 }
 
-// A tunnel of 8 m along y: the wall is seen from its middle, angles turn from x to z.
-TEST(Convergence, InSpaceIsSeenAcrossTheMiddleOfTheAxis) {
+// A tunnel of 8 m along y: the wall is seen from its middle, angles are from x towards z.
+TEST(Convergence, InThreeDimensionsIsAtTheMiddleOfTheAxis) {
   const Prepared<3> scene = prepare<3>(parse_scene(R"(
 dimension = 3
 density = 2500
@@ -140,14 +140,14 @@ TEST(Convergence, SumAndMeanAreOfAllPoints) {
     Model<2> model = scene.model;
     State<2> state = scene.state;
     excavate({"tunnel"}, scene.settings, false, model, state);
-    // a body that only shifts closes by what it does not
+    // a displacement without rotation changes no sum
     move(model, state, body_at(model, 5, 6.2), 0, {0, 0}, {moved[0], moved[1]});
     const std::vector<double> values = monitor_values<2>(scene.monitors, model, state);
     ASSERT_EQ(values.size(), 1u);
     EXPECT_NEAR(values[0], expected, rounding) << over;
     EXPECT_EQ(monitor_columns<2>(scene.monitors)[0].header(), "wall_" + std::string(over) + "_convergence_m");
   }
-  // a turn about the centre brings each of two opposite points inwards by 1 - cos
+  // a rotation about the centre moves each of two opposite points inwards by 1 - cos
   for (const auto& [over, factor] : {std::pair{"sum", 2.0}, std::pair{"mean", 1.0}}) {
     const Prepared<2> scene = scene_of(rock + wall("[0, 180]", "over = \"" + std::string(over) + "\"\n"));
     Model<2> model = scene.model;
@@ -158,7 +158,7 @@ TEST(Convergence, SumAndMeanAreOfAllPoints) {
   }
 }
 
-TEST(Convergence, IsFollowedBeforeTheOpeningIsThere) {
+TEST(Convergence, IsMonitoredBeforeTheExcavation) {
   const Prepared<2> scene = scene_of(rock + wall("[90]"));
   State<2> state = scene.state;
   // the rock of the opening and that about it are still one block, with another centroid
@@ -166,7 +166,7 @@ TEST(Convergence, IsFollowedBeforeTheOpeningIsThere) {
   EXPECT_NEAR(monitor_values<2>(scene.monitors, scene.model, state)[0], 0.2 + (1 - std::cos(0.1)), rounding);
 }
 
-TEST(Since, CountsFromTheEndOfAStageThroughAnExcavation) {
+TEST(Since, MeasuresFromTheEndOfAStageThroughAnExcavation) {
   const std::string text = rock + wall("[90, 0]", "since = \"stress\"\n") +
                            "[[monitors]]\nname = \"block\"\nquantities = [\"displacement\", \"rotation\"]\ninside = "
                            "[2, 5]\nsince = \"stress\"\n";
@@ -175,14 +175,14 @@ TEST(Since, CountsFromTheEndOfAStageThroughAnExcavation) {
   State<2> state = scene.state;
   const int block = body_at(model, 5, 5);
   move(model, state, block, 0.1, {5, 5}, {0.3, -0.2});
-  // nothing counts before the stage has ended, nor when it does
+  // zero before the stage has ended, and at its end
   for (const double value : monitor_values<2>(scene.monitors, model, state))
     EXPECT_EQ(value, 0);
   std::vector<StageEnd<2>> ends{stage_end<2>(0, state)};
   for (const double value : monitor_values<2>(scene.monitors, model, state, ends))
     EXPECT_EQ(value, 0);
 
-  // taking the opening out moves nothing, though the block has another centroid from then on
+  // the excavation moves nothing, though the block has another centroid from then on
   carry(excavate({"tunnel"}, scene.settings, false, model, state), ends[0]);
   for (const double value : monitor_values<2>(scene.monitors, model, state, ends))
     EXPECT_NEAR(value, 0, rounding);
@@ -191,7 +191,7 @@ TEST(Since, CountsFromTheEndOfAStageThroughAnExcavation) {
   ASSERT_EQ(values.size(), 5u);
   EXPECT_NEAR(values[0], 0.05 + (std::cos(0.1) - std::cos(0.15)), rounding);
   EXPECT_NEAR(values[1], -0.02 + (std::cos(0.1) - std::cos(0.15)), rounding);
-  // its centroid is the middle of the two joints and the hole; about (5, 5) it turned by 0.05 more
+  // its centroid is the middle of the two joints and the hole; it rotated about (5, 5) by another 0.05
   const Vector<2> arm = model.origin + model.bodies[block].reference - Vector<2>(5, 5);
   const auto at = [&](double angle, int k) {
     const double c = std::cos(angle), s = std::sin(angle);
@@ -202,7 +202,7 @@ TEST(Since, CountsFromTheEndOfAStageThroughAnExcavation) {
   EXPECT_NEAR(values[4], 0.05 * 180 / M_PI, 180 / M_PI * rounding);
 }
 
-TEST(Since, InSpaceTurnsAreThoseSinceThen) {
+TEST(Since, InThreeDimensionsRotationsAreThoseSinceThen) {
   Monitor monitor{.name = "b", .followed = {"rotation", Quantity::rotation}};
   monitor.since = 0;
   State<3> state;
@@ -223,7 +223,7 @@ TEST(Since, InSpaceTurnsAreThoseSinceThen) {
 }
 
 // A block that has tilted loses rock on one side: its centroid is another from then on, and it has not moved yet.
-TEST(Since, ASimulationTakesItsCountThroughAnExcavation) {
+TEST(Since, ASimulationKeepsItsReferenceThroughAnExcavation) {
   std::string text = rock;
   text.replace(text.find("gravity = [0, -10]"), 18, "gravity = [3, -10]");
   text.replace(text.find("friction_deg = 40"), 17, "friction_deg = 40, sub_contacts = 2");
@@ -239,17 +239,17 @@ TEST(Since, ASimulationTakesItsCountThroughAnExcavation) {
   EXPECT_NEAR((*first)[2], 0, rounding);
   EXPECT_NEAR((*first)[3], 0, rounding);
   const int block = body_at(scene.model, 8, 5);
-  EXPECT_GT(std::abs(whole.state.bodies.motions[block].rotation.angle), 1e-6) << "else there was nothing to carry";
+  EXPECT_GT(std::abs(whole.state.bodies.motions[block].rotation.angle), 1e-6) << "else there was nothing to test";
 }
 
-// a monitor of the block beside the opening, which counts from the start of a stage
+// a monitor of the block beside the opening, which measures from the start of a stage
 std::string counted(const std::string& stage) {
   return "[[monitors]]\nname = \"" + stage + "\"\nquantities = [\"displacement\"]\ninside = [2, 5]\nsince_start = \"" +
          stage + "\"\n";
 }
 
 // The rows of a simulation: nothing until the stage has ended, the same bits after a pause at any step.
-TEST(Since, ASimulationCountsFromThereAndResumesTheSame) {
+TEST(Since, ASimulationMeasuresFromThereAndResumesTheSame) {
   const Prepared<2> scene =
       scene_of(rock + wall("[90]", "since = \"stress\"\n") +
                "[[monitors]]\nname = \"all\"\nquantities = [\"displacement\"]\ninside = [2, 5]\n" + counted("stress") +
@@ -266,8 +266,8 @@ TEST(Since, ASimulationCountsFromThereAndResumesTheSame) {
       settled = row[4];
     }
   EXPECT_LT(settled, -1e-5) << "the rock has moved in the first stage";
-  // from the start of the first stage: as without it; of the second: from where the first ended; of the last: nothing
-  // until the second has ended
+  // from the start of the first stage: as without it; of the second: from the end of the first; of the last: zero until
+  // the second has ended
   double dug = 0;
   for (const std::vector<double>& row : history.rows) {
     if (row[1] == 2) dug = row[4];
@@ -275,9 +275,9 @@ TEST(Since, ASimulationCountsFromThereAndResumesTheSame) {
     EXPECT_EQ(row[8], row[1] == 1 ? 0 : row[4] - settled);
     EXPECT_EQ(row[10], row[1] == 3 ? row[4] - dug : 0);
   }
-  EXPECT_GT(dug - settled, 1e-6) << "digging has lifted it";
-  // the floor's joint, 8 m at 1 GPa/m, bears 4 m2 of rock less, and the crown rises with its block. Rest leaves 1e-9 of
-  // the mean contact force, at most 1 MN, over the joint's 8 GN/m
+  EXPECT_GT(dug - settled, 1e-6) << "the excavation has lifted it";
+  // the floor's joint, 8 m at 1 GPa/m, supports 4 m2 of rock less, and the crown rises with its block. The equilibrium
+  // tolerance is 1e-9 of the mean contact force, at most 1 MN, over the joint's 8 GN/m
   EXPECT_NEAR(history.rows.back()[2], -4 * 2000 * 10 / 8e9, 1e-9 * 1e6 / 8e9);
 
   for (const long long steps : {5, 400, 900}) {

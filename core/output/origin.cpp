@@ -10,13 +10,13 @@
 namespace voussoir {
 namespace {
 
-// On x86-64 glibc's functions with and without fused multiply-adds differ in about one value of a thousand: so many
-// values of a dozen functions leave no two alike.
+// On x86-64 glibc's functions with and without fused multiply-adds differ in about one value of a thousand: with this
+// number of values of a dozen functions no two libraries agree.
 constexpr int values_of_each = 2000;
 
 using Function = double (*)(double);
 
-// arguments in (0, 1) spread to where each function is used, and where none overflows or leaves its domain
+// arguments in (0, 1) mapped to the range in which each function is used, without overflow or leaving its domain
 constexpr Function functions[] = {
     [](double u) { return std::sin(200 * u - 100); },
     [](double u) { return std::cos(200 * u - 100); },

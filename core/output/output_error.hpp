@@ -11,7 +11,7 @@ struct OutputError : std::runtime_error {
   enum class Kind {
     failed,        // a write, flush or rename that went wrong
     disk_full,     // or a quota or a limit on the file's size
-    not_permitted  // a folder or file that refuses us
+    not_permitted  // a folder or file without permission to write
   };
 
   OutputError(const std::filesystem::path& path, const std::string& reason, Kind why = Kind::failed)

@@ -35,7 +35,7 @@ Results some_results() {
   return results;
 }
 
-TEST(ResultsJson, HoldsWhatTheRunFound) {
+TEST(ResultsJson, ContainsTheResultsOfTheRun) {
   const Results results = some_results();
   RunRecord record;
   record.title = "a \"wedge\"";
@@ -59,7 +59,7 @@ TEST(ResultsJson, HoldsWhatTheRunFound) {
   EXPECT_EQ(json["energy"]["potential"], -12);
   EXPECT_EQ(json["stages"][0]["relaxed"], true);
   EXPECT_EQ(json["energy"]["damping"], 3);
-  EXPECT_EQ(json["energy"]["closure"], 0.25);
+  EXPECT_EQ(json["energy"]["relative_energy_error"], 0.25);
   EXPECT_EQ(json["warnings"].back(), "late doubt");
   EXPECT_EQ(json["state_hash"], results.state_hash);
   EXPECT_EQ(json["timing"]["seconds"], 1.5);
@@ -75,7 +75,7 @@ TEST(ResultsJson, NamesItsOriginsOnce) {
   EXPECT_EQ(origins_of(json["program"]["origins"]), record.origins);
 }
 
-TEST(ResultsJson, NamesTheNumbersItCannotHold) {
+TEST(ResultsJson, NamesTheNumbersItCannotRepresent) {
   Results results = some_results();
   results.values[1].second.value = std::numeric_limits<double>::quiet_NaN();
   results.stages[0].time = std::numeric_limits<double>::infinity();
@@ -85,7 +85,7 @@ TEST(ResultsJson, NamesTheNumbersItCannotHold) {
   EXPECT_EQ(json["message"], "no bracket; height is not a finite number; stage settle.time_s is not a finite number");
 }
 
-TEST(ResultsJson, SaysWhyAStageHasNoMeasureOfEquilibrium) {
+TEST(ResultsJson, StatesWhyAStageHasNoMeasureOfEquilibrium) {
   Results results = some_results();
   const auto stage = [&](double unbalanced) {
     results.stages[0].unbalanced = unbalanced;
@@ -96,9 +96,9 @@ TEST(ResultsJson, SaysWhyAStageHasNoMeasureOfEquilibrium) {
   EXPECT_EQ(stage(1e-7)["unbalanced"], 1e-7);
   EXPECT_FALSE(stage(1e-7).contains("unbalanced_note"));
   EXPECT_TRUE(stage(std::numeric_limits<double>::infinity())["unbalanced"].is_null());
-  EXPECT_EQ(stage(std::numeric_limits<double>::infinity())["unbalanced_note"], "no contact carries a force");
+  EXPECT_EQ(stage(std::numeric_limits<double>::infinity())["unbalanced_note"], "no contact has a force");
   EXPECT_TRUE(stage(-1)["unbalanced"].is_null());
-  EXPECT_EQ(stage(-1)["unbalanced_note"], "rest was not sought");
+  EXPECT_EQ(stage(-1)["unbalanced_note"], "equilibrium was not sought");
 }
 
 TEST(HistoryCsv, NumbersReadBackExactly) {
@@ -117,7 +117,7 @@ TEST(Fingerprint, IsFnv1a) {
 
 // ---- files --------------------------------------------------------------------------------------------------------
 
-TEST(WriteFile, ReplacesWholeFilesAndNamesWhatFailed) {
+TEST(WriteFile, ReplacesCompleteFilesAndNamesFailures) {
   const TemporaryFolder folder;
   const fs::path file = folder.path / "file";
   write_file(file, "first");
@@ -126,7 +126,7 @@ TEST(WriteFile, ReplacesWholeFilesAndNamesWhatFailed) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path), {}), 1) << "no temporary file is left";
   try {
     write_file(file / "below_a_file", "x");
-    FAIL() << "a file is no folder";
+    FAIL() << "a file is not a folder";
   } catch (const OutputError& error) {
     EXPECT_NE(std::string(error.what()).find("below_a_file': Not a directory"), std::string::npos) << error.what();
   }

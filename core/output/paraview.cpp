@@ -40,7 +40,7 @@ void append_part(PolyData& data, BlockArrays& arrays, const Model<Dim>& model, c
   const Polytope<Dim>& part = body.parts[id.part];
   const Motion<Dim>& motion = state.bodies.motions[id.body];
 
-  // where the vertices are now; parts share no points, they may separate
+  // present positions of the vertices; parts share no points, because they may separate
   const int first_point = static_cast<int>(data.points.size());
   const Matrix<Dim> turn = matrix(motion.rotation);
   const Vector<Dim> centroid = body.reference + motion.displacement;
@@ -112,7 +112,7 @@ std::optional<std::size_t> frame_number(const std::string& series, const std::fi
   return {};
 }
 
-// the files of one series that are there, relative to the folder
+// the existing files of one series, relative to the folder
 std::vector<std::filesystem::path> files_of(const std::filesystem::path& folder, const std::string& series) {
   std::vector<std::filesystem::path> files;
   std::error_code error;
@@ -147,7 +147,7 @@ PolyData block_faces(const Model<Dim>& model, const State<Dim>& state, double ti
   for (const PartId& id : model.parts)
     if (model.bodies[id.body].present) append_part(data, arrays, model, state, id);
 
-  // in the plane a cell is a whole part: no single joint made it
+  // in 2-D a cell is a complete part: no single joint made it
   data.cell_data = {arrays.body, arrays.part};
   if (Dim == 3) {
     data.cell_data.push_back(arrays.joint);
@@ -158,7 +158,7 @@ PolyData block_faces(const Model<Dim>& model, const State<Dim>& state, double ti
   }
   data.cell_data.insert(data.cell_data.end(), {arrays.fixed, arrays.displacement, arrays.velocity});
 
-  // what acts on each block from outside, by source; N
+  // external loads on each block, by source; N
   for (const SourceRow& row : std::span(source_table).first(load_count)) {
     const std::vector<Load<Dim>>& loads = state.loads.by_source[row.source];
     if ((row.external == 0 && row.source != Source::water) || loads.empty()) continue;
@@ -179,7 +179,7 @@ PolyData block_faces(const Model<Dim>& model, const State<Dim>& state, double ti
 
 namespace {
 
-// deg: between the force and the normal; 0 of what is pulled
+// deg: between the force and the normal; 0 in tension
 template <int Dim>
 double mobilised_friction(const Vector<Dim>& force, const Vector<Dim>& normal, const Vector<Dim>& shear) {
   const double pressed = force.dot(normal);
@@ -257,7 +257,7 @@ PolyData force_lines(const Model<Dim>& model, const State<Dim>& state, double ti
   for (const auto& [bodies, carried] : pairs) {
     const int first = static_cast<int>(data.points.size());
     data.cells.push_back({first, first + 1});
-    // points of its own for each line: a tube's radius is that of its points
+    // separate points for each line: a tube's radius is that of its points
     for (const int body : {bodies.first, bodies.second}) {
       data.points.push_back(in_space(
           Vector<Dim>(model.origin + (model.bodies[body].reference + state.bodies.motions[body].displacement))));
@@ -310,7 +310,7 @@ void write_frame(FrameSeries& series, const Model<Dim>& model, const State<Dim>&
     if (row.lines && row.has(model))
       write_file(series.folder / frame_file(series.name, row.frames, frame), vtp(row.lines(model, state, time)));
   series.times.push_back(time);
-  write_collections(series);  // last: they never name a file that is not there
+  write_collections(series);  // last: they never name a missing file
 }
 
 template PolyData block_faces<2>(const Model<2>&, const State<2>&, double, const JointSets&);

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 using test::Element;
 using test::XmlReader;
 
-// unit cubes (squares) in a row, the first fixed, all far from the origin; the second moved and turned by 90 degrees
+// unit cubes (squares) in a row, the first fixed, all far from the origin; the second moved and rotated by 90 degrees
 template <int Dim>
 Model<Dim> row_of_blocks(int count) {
   Model<Dim> model;
@@ -66,7 +66,7 @@ State<Dim> moved_state(const Model<Dim>& model) {
   return state;
 }
 
-// checks that hold for every .vtp, then gives the piece
+// checks that apply to every .vtp, then returns the piece
 Element checked_piece(const std::string& text, const char* kind, const char* count) {
   const Element root = XmlReader(text).read();
   EXPECT_EQ(root.name, "VTKFile");
@@ -154,7 +154,7 @@ TEST(Paraview, CubesAreClosedByOutwardPolygons) {
   }
 }
 
-TEST(Paraview, CellsSayWhatTheyBelongTo) {
+TEST(Paraview, CellsNameTheirBodyAndJoint) {
   const Model<3> model = row_of_blocks<3>(2);
   const std::string text = vtp(block_faces(model, moved_state(model), 0.75));
   const Element data = checked_piece(text, "Polys", "NumberOfPolys").child("CellData");
@@ -178,7 +178,7 @@ TEST(Paraview, CellsSayWhatTheyBelongTo) {
   EXPECT_EQ(made_by_joint, 2);
 }
 
-// the turned block's points began where those of the model at rest are; each goes as v + w × r
+// the rotated block's points started at those of the initial model; each has the velocity v + w × r
 template <int Dim>
 void expect_points_to_tell_their_motion(const Spin<Dim>& spin) {
   const Model<Dim> model = row_of_blocks<Dim>(2);
@@ -205,12 +205,12 @@ void expect_points_to_tell_their_motion(const Spin<Dim>& spin) {
       EXPECT_NEAR(way[k + axis], now[k + axis] - start[k + axis], 2e-7);
       EXPECT_NEAR(velocity[k + axis], expected[axis], 5e-7);
     }
-    // a corner of a unit square that is turned by a quarter goes one side of it
+    // a corner of a unit square that is rotated by a quarter turn moves by one side
     EXPECT_NEAR(Vector<3>(way[k], way[k + 1] - (free ? 0.25 : 0), way[k + 2]).norm(), free ? 1 : 0, 1e-6);
   }
 }
 
-TEST(Paraview, PointsSayWhereTheyBeganAndHowTheyGo) {
+TEST(Paraview, PointsHaveDisplacementsAndVelocities) {
   expect_points_to_tell_their_motion<2>(Spin<2>(3));
   expect_points_to_tell_their_motion<3>({0, 0, 3});
 }
@@ -222,7 +222,7 @@ TEST(Paraview, FacesNameTheSetOfTheirJoint) {
         .child("CellData");
   };
   const Element named = cells({{0}, {"bedding"}});
-  EXPECT_EQ(named.named("set").numbers(), named.named("joint").numbers()) << "the one joint is of the one set";
+  EXPECT_EQ(named.named("set").numbers(), named.named("joint").numbers()) << "the only joint belongs to the only set";
   const std::vector<double> none(12, -1);
   EXPECT_EQ(cells({{-1}, {}}).named("set").numbers(), none);
   EXPECT_EQ(cells({}).named("set").numbers(), none);
@@ -248,7 +248,7 @@ TEST(Paraview, LinesJoinBodiesThatTouch) {
     EXPECT_NEAR(magnitude, std::sqrt(32), 1e-6);
 }
 
-TEST(Vtp, SinglePrecisionHoldsWhatItCan) {
+TEST(Vtp, SinglePrecisionReplacesWhatItCannotRepresent) {
   PolyData data;
   data.points = {{0, 0, 0}};
   data.point_data = {{"some", 1, false, {0.1, -1e300, 1e-300, std::nan(""), -3e38}, true}};
@@ -280,7 +280,7 @@ TEST(Paraview, OnlyTouchingContactsAreShown) {
   EXPECT_EQ(piece.child("PointData").named("overlap").numbers(), std::vector<double>{1e-4});
 }
 
-TEST(Paraview, ExcavatedBodiesAreGone) {
+TEST(Paraview, ExcavatedBodiesAreLeftOut) {
   Model<3> model = row_of_blocks<3>(3);
   model.bodies[1].present = false;
   const Element piece = checked_piece(vtp(block_faces(model, moved_state(model), 0)), "Polys", "NumberOfPolys");
@@ -331,7 +331,7 @@ TEST(Paraview, TrialsAreASeriesOfTheirOwn) {
   EXPECT_EQ(tried[1].number("timestep"), 3);
   EXPECT_EQ(tried[1].attributes.at("file"), "frames/trial_blocks_0001.vtp");
 
-  // neither takes the other's frames away
+  // neither removes the other's frames
   cut_back(folder.path, {});
   EXPECT_TRUE(fs::exists(folder.path / "frames/trial_contacts_0001.vtp"));
   EXPECT_FALSE(fs::exists(folder.path / "frames/blocks_0000.vtp"));

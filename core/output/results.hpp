@@ -1,4 +1,4 @@
-// What a simulation yields, free of files: values with units, the history of the monitors, counters, why it ended.
+// Results of a simulation, without files: values with units, the history of the monitors, counters, why it ended.
 #pragma once
 
 #include <optional>
@@ -11,30 +11,30 @@
 namespace voussoir {
 
 // done: every stage reached its goal; incomplete: a goal was not reached (no equilibrium, no bracket);
-// failed: a numerical failure (a contact without an answer, a non-finite force)
+// failed: a numerical failure (a contact without a solution, a non-finite force)
 enum class Outcome { done, incomplete, failed };
 
-// by how much a value moved as one thing was varied, in its unit
+// change of a value as one input was varied, in its unit
 struct BudgetLine {
   std::string varied, change;  // "stiffness", "4 times"
   double shift = 0;            // the value then, minus the value
-  double left = 0;             // what that says is left open: extrapolated, where an order is known
-  bool sensitivity = false;    // the scene calls it measured: told, but no error
+  double left = 0;             // the error estimated from it: extrapolated if an order is known
+  bool sensitivity = false;    // the scene states that it was measured: reported, but not an error
 };
 
 struct Value {
   double value = 0;
   std::string unit;                     // "deg", "m", "1" …
-  std::optional<double> error_bar;      // same unit: half width of what is left open by what it `covers`
-  std::string rule;                     // how it was found; may be empty
-  std::string covers = "bracket";       // or "budget": the search's bracket alone, or all that the budget varied
-  std::optional<double> bracket = {};   // with a budget: what the search alone leaves open
+  std::optional<double> error_bar;      // same unit: half width of the error from the sources that it `covers`
+  std::string rule;                     // how it was determined; may be empty
+  std::string covers = "bracket";       // or "budget": only the search's bracket, or everything that the budget varied
+  std::optional<double> bracket = {};   // with a budget: the error of the search only
   std::vector<BudgetLine> budget = {};  // by size
-  std::string divides = {};             // of a factor of safety: whose strength it divides, and what it leaves
+  std::string divides = {};  // of a factor of safety: the strengths that it divides, and those that it does not
 };
 
-// What a factor of safety divides, as a sentence: tan φ and, where it is counted, cohesion of joint properties by name;
-// none: of all.
+// The strengths that a factor of safety divides, as a sentence: tan φ and, if it is included, cohesion of joint
+// properties by name; none: of all.
 std::string divided_by_factor(const std::vector<std::string>& properties, bool cohesion = true);
 
 struct StageResult {
@@ -44,8 +44,8 @@ struct StageResult {
   long long steps = 0;
   double time = 0;       // s simulated within the stage
   double time_step = 0;  // s at its end
-  // the equilibrium measure of the state at its end, which after a search is the last stable one; infinite where no
-  // contact carries a force against what is unbalanced, negative where rest was not sought
+  // the equilibrium measure of the state at its end, which after a search is the last stable one; infinite if there is
+  // no contact force as a reference, negative if equilibrium was not sought
   double unbalanced = 0;
 };
 
@@ -53,7 +53,7 @@ struct StageResult {
 struct BondsOfJoint {
   std::string joint;              // its name or its set's; empty: of faces that no joint made
   long long whole = 0, made = 0;  // without those that were removed with their blocks
-  double area_share = 0;          // area of those that are whole over that of all
+  double area_share = 0;          // area of the intact ones over that of all
 };
 
 struct WholeBonds {
@@ -61,8 +61,8 @@ struct WholeBonds {
   std::vector<BondsOfJoint> by_joint{};
 };
 
-// What carried the blocks where a stage last was in equilibrium: at the end of a stage that settles, or in a search's
-// last stable trial. Each row is empty where the scene has nothing of the kind.
+// The bonds and supports that held the blocks when a stage was last in equilibrium: at the end of a settle stage, or in
+// a search's last stable trial. Each row is empty if the scene has nothing of the kind.
 struct StableState {
   std::string stage, kind;
   std::optional<double> level;  // of a search, in its unit
@@ -77,9 +77,9 @@ struct MovedBody {
   std::string name;             // of the body; may be empty
   double distance = 0;          // m
   double inscribed_radius = 0;  // m
-  int against = -1;             // the nearest of the bodies that it lay against and that stayed; -1: none did
+  int against = -1;             // the nearest of the bodies that it was in contact with and that stayed; -1: none
   std::vector<double> place{};  // m, world coordinates: its centroid at the end
-  bool left_all = false;        // it touches none of those any more that it touched, and hangs on no bolt
+  bool left_all = false;        // it has lost contact with all that it touched, and no bolt holds it
 };
 
 // column names carry their unit: time_s, wedge_displacement_x_m, friction_rock_deg …
@@ -107,13 +107,13 @@ struct LiningRow {
   int stage = 1;
   std::string lining;
   int node = 1;
-  double x = 0, y = 0;                    // m, world coordinates, where it is
+  double x = 0, y = 0;                    // m, world coordinates, present position
   double ux = 0, uy = 0;                  // m, since it was installed
   SectionForces forces;                   // means of its beams'
   std::optional<double> smoothed_moment;  // N m
-  double pressure = 0, shear = 0;         // Pa, of the rock on the outline that it stands for
+  double pressure = 0, shear = 0;         // Pa, of the rock on the outline that it represents
   int rock = -1;                          // the block opposite; -1: none
-  std::optional<double> use;              // of its strength
+  std::optional<double> use;              // utilisation of its strength
 };
 
 struct Results {
@@ -121,17 +121,17 @@ struct Results {
   std::string message;                                // one line: why it is incomplete or failed
   std::vector<std::pair<std::string, Value>> values;  // in the order found; names unique
   std::vector<StageResult> stages;
-  std::vector<StableState> at_last_stable_state;  // by stage, those of which something is to be told
+  std::vector<StableState> at_last_stable_state;  // by stage, those with something to report
   History history;
   std::vector<BoltRow> bolts;      // by stage, then by bolt
   std::vector<LiningRow> linings;  // by stage, then by lining and node
   Counters counters;
-  std::optional<BondCount> bonds;  // where a stage makes some
+  std::optional<BondCount> bonds;  // if a stage makes some
   std::vector<MovedBody> moved;    // by stage, the farthest first
-  double relief_left = 0;          // share of the forces of excavated rock that still acts at the end, the largest
-  EnergyLedger energy;
+  double forces_remaining = 0;     // largest fraction of excavation forces that still acts at the end
+  EnergyBalance energy;
   std::string state_hash;             // of the last state (core/model/state_hash.hpp)
-  std::vector<std::string> warnings;  // one line each: what the run itself showed to be doubtful
+  std::vector<std::string> warnings;  // one line each: doubtful results of the run
   double seconds = 0;                 // wall clock
   long long budget_evaluations = 0;   // contact evaluations of the budget's runs
 

@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// turns numbers into JSON and remembers the names of those that JSON cannot hold
+// converts numbers to JSON and records the names of those that JSON cannot represent
 struct NumberWriter {
   std::vector<std::string> not_finite;
 
@@ -45,12 +45,12 @@ Json values_json(const Results& results, NumberWriter& number) {
   return values;
 }
 
-// a number, or why there is none: neither of the two reasons is a failure
+// a number, or the reason for its absence: neither of the two reasons is a failure
 void add_unbalanced(Json& entry, double unbalanced, NumberWriter& number, const std::string& name) {
   const bool no_contact = std::isinf(unbalanced), not_sought = unbalanced < 0;
   entry["unbalanced"] = no_contact || not_sought ? Json() : number(unbalanced, name);
-  if (no_contact) entry["unbalanced_note"] = "no contact carries a force";
-  if (not_sought) entry["unbalanced_note"] = "rest was not sought";
+  if (no_contact) entry["unbalanced_note"] = "no contact has a force";
+  if (not_sought) entry["unbalanced_note"] = "equilibrium was not sought";
 }
 
 Json stages_json(const Results& results, NumberWriter& number) {
@@ -95,7 +95,7 @@ Json bonds_json(const WholeBonds& bonds, NumberWriter& number) {
   return json;
 }
 
-// an entry for each stage, in which each kind of strength has a row
+// an entry for each stage, with a row for each kind of strength
 Json stable_states_json(const Results& results, NumberWriter& number) {
   Json states = Json::array();
   for (const StableState& at : results.at_last_stable_state) {
@@ -125,7 +125,7 @@ Json moved_json(const std::vector<MovedBody>& moved, NumberWriter& number) {
   return list;
 }
 
-Json energy_json(const EnergyLedger& energy, NumberWriter& number) {
+Json energy_json(const EnergyBalance& energy, NumberWriter& number) {
   const std::pair<const char*, double> entries[] = {
       {"kinetic", energy.kinetic},
       {"elastic", energy.elastic},
@@ -136,7 +136,7 @@ Json energy_json(const EnergyLedger& energy, NumberWriter& number) {
       {"lost_area", energy.flows[Source::lost_area]},
       {"stiffening", energy.flows[Source::stiffening]},
       {"unexplained", energy.unexplained()},
-      {"closure", energy.relative_error()},
+      {"relative_energy_error", energy.relative_error()},
   };
   Json json = {{"unit", "J"}};
   for (const auto& [name, value] : entries)
@@ -206,11 +206,11 @@ std::string results_json(const Results& results, const RunRecord& record) {
   if (!record.rounds.empty()) json["accuracy"] = rounds_json(record.rounds);
   if (results.bonds) json["bonds"] = bonds_json(*results.bonds);
   if (!results.moved.empty()) json["moved"] = moved;
-  if (results.relief_left > 0) json["let_off"] = {{"share_left", results.relief_left}};
+  if (results.forces_remaining > 0) json["excavation_forces"] = {{"remaining", results.forces_remaining}};
   json["state_hash"] = results.state_hash;
   json["timing"] = {{"seconds", std::isfinite(results.seconds) ? Json(results.seconds) : Json()},
                     {"threads", record.threads}};
-  // a scene's title may hold bytes that are not UTF-8: replace them, a lost result would be worse
+  // a scene's title may contain bytes that are not UTF-8: replace them, because a lost result would be worse
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -1,4 +1,4 @@
-// What is told of supports, a row for each kind: tables, frames, monitors.
+// Output of supports, a row for each kind: tables, frames, monitors.
 #pragma once
 
 #include <filesystem>
@@ -12,25 +12,25 @@
 
 namespace voussoir {
 
-// A kind without entries is told by another row.
+// A kind without entries is output by another row.
 template <int Dim>
 struct OutputSupport {
   SupportKind kind;
-  // its table, and rows of it: what each carries at the end of a stage, counted from 1; the text is empty without rows
+  // its table, and its rows: the forces of each at the end of a stage, counted from 1; the text is empty without rows
   const char* table = nullptr;
   void (*add_rows)(const Model<Dim>&, const State<Dim>&, int stage, Results&) = nullptr;
   std::string (*csv)(const Results&) = nullptr;
-  // Numbers supports that are in place by this model, which may have others besides: by the rows of the stage that
-  // ended last. Gives what does not fit as the end of a sentence about the other run; empty: all does.
+  // Numbers the installed supports by this model, which may have more: by the rows of the stage that ended last.
+  // Returns a mismatch as the end of a sentence about the other run; empty: none.
   std::string (*find_again)(const Model<Dim>&, int stages, const Results&, State<Dim>&) = nullptr;
-  // frames: the word in the names of their files, whether the model has any, what is drawn of them, and the force along
-  // a line, which the viewer shows in the way of this number (0: bolts, 1: linings)
+  // frames: the word in the names of their files, whether the model has any, their drawing, and the force along a line,
+  // which the viewer draws in the style of this number (0: bolts, 1: linings)
   const char* frames = nullptr;
   bool (*has)(const Model<Dim>&) = nullptr;
   PolyData (*lines)(const Model<Dim>&, const State<Dim>&, double time) = nullptr;
   LinePull (*pull)(const PolyData& lines, std::size_t line) = nullptr;
   float viewer_kind = 0;
-  // what monitors of them follow
+  // quantities of their monitors
   std::optional<Quantity> quantity = {};
   void (*add_columns)(const Monitor&, const AddColumn&) = nullptr;
   void (*add_values)(const Monitor&, const Model<Dim>&, const State<Dim>&, std::vector<double>&) = nullptr;
@@ -71,7 +71,7 @@ static_assert(has_each_kind(output_supports<2>) && has_each_kind(output_supports
 // names of all tables of supports
 std::vector<std::string> support_table_files();
 
-// those that have rows; throws OutputError
+// tables that have rows; throws OutputError
 void write_support_tables(const std::filesystem::path& folder, const Results& results);
 
 }  // namespace voussoir

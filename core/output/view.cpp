@@ -21,17 +21,18 @@
 namespace voussoir {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "records are little-endian, and written as they lie");
+static_assert(std::endian::native == std::endian::little,
+              "records are little-endian, and written as they are in memory");
 
 constexpr std::string_view magic = "VOUSVIEW";
 constexpr std::uint32_t head_tag = 1, shape_tag = 2, frame_tag = 3, again_tag = 4;
 
-// to single precision; what it cannot hold is 0
+// to single precision; values that it cannot represent are 0
 float single(double value) {
   return std::isfinite(value) && std::abs(value) < std::numeric_limits<float>::max() ? static_cast<float>(value) : 0.0F;
 }
 
-// To 12 bits, 1 in 4000: bytes that are always 0 cost nothing once they are compressed.
+// To 12 bits, 1 in 4000: bytes that are always 0 cost nothing after compression.
 float short_single(double value) {
   constexpr std::uint32_t dropped = 12;
   const std::uint32_t bits = std::bit_cast<std::uint32_t>(single(value)) + (1U << (dropped - 1));
@@ -60,7 +61,7 @@ class Record {
     bytes_ += list;
     pad();
   }
-  // the first bytes of all, then the second ones …: the like lie together, which compresses
+  // the first bytes of all, then the second ones …: similar bytes are adjacent and compress better
   template <class Number>
   void list(const std::vector<Number>& numbers) {
     static_assert(sizeof(Number) == 4);
@@ -104,8 +105,8 @@ std::string head_of(const Prepared<Dim>& scene) {
   return head.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-// Of each joint its set, -1 for none, its properties, and whether it holds its sides together; its upward normal, and
-// how far along it the plane lies from the model's origin, m.
+// Of each joint its set, -1 for none, its properties, and whether it joins its two sides; its upward normal, and the
+// plane's distance from the model's origin along it, m.
 template <int Dim>
 void put_joints(Record& record, const Prepared<Dim>& scene) {
   std::array<std::vector<std::int32_t>, 3> kinds;
@@ -142,8 +143,8 @@ void put_loop(Record& record, int joint, const std::vector<int>& loop) {
     record.put(corner);
 }
 
-// Corners, whether they belong to a rounded surface, and faces: the joint that made each, and its corners. In the plane
-// faces are edges, and behind them comes the outline.
+// Corners, whether they belong to a rounded surface, and faces: the joint that made each, and its corners. In 2-D faces
+// are edges, followed by the outline.
 template <int Dim>
 void put_part(Record& record, const Polytope<Dim>& part) {
   if (is_particle(part)) {
@@ -178,7 +179,7 @@ std::string shape_of(const Body<Dim>& body, std::size_t id) {
   return record.finished();
 }
 
-// what tells a body that an excavation has changed
+// the mark of a body that an excavation has changed
 template <int Dim>
 ShownBody look_of(const Body<Dim>& body) {
   ShownBody look{0, body.mass, body.present && !body.parts.empty()};
@@ -201,15 +202,15 @@ std::string new_shapes(const Model<Dim>& model, std::vector<ShownBody>& shown) {
 
 // ---- contacts ------------------------------------------------------------------------------------------------------
 
-// what a contact carries as a whole
+// the resultant of a contact
 template <int Dim>
 struct ContactResultant {
   Vector<Dim> point, force;  // m from the centroid of the first body; N on the second
   double normal = 0, overlap = 0;
-  double friction = 0;  // fraction of what friction could carry; 0 where nothing presses
+  double friction = 0;  // fraction of the frictional strength; 0 without compression
 };
 
-// tan φ of now
+// present tan φ
 template <int Dim>
 double coefficient(const Model<Dim>& model, const State<Dim>& state, const Contact<Dim>& c, double normal) {
   const JointProperties& p = model.properties[c.properties];
@@ -225,7 +226,7 @@ ContactResultant<Dim> carried_by(const Model<Dim>& model, const State<Dim>& stat
   const Contact<Dim>& c = state.contacts.list[place];
   ContactResultant<Dim> all{c.geometry.point, c.force, c.force.dot(c.geometry.normal), c.geometry.overlap, 0};
 
-  // where the resultant of sub-contacts acts
+  // point at which the resultant of sub-contacts acts
   Vector<Dim> moment = Vector<Dim>::Zero();
   double pressed = 0;
   for (const SubContact<Dim>& s : subs_of(state.contacts, place)) {
@@ -247,10 +248,10 @@ ViewPair pair_of(const Model<Dim>& model, const Contact<Dim>& c) {
   return {a.body, a.part, c.geometry.face_a, b.body, b.part, c.geometry.face_b, c.joint, c.properties};
 }
 
-// Which pairs touch, a bit for each that was ever seen, and what they carry, in the order of their numbers.
+// The touching pairs, a bit for each pair so far, and their forces, in the order of their numbers.
 template <int Dim>
 void put_contacts(Record& record, ViewSeries& series, const Model<Dim>& model, const State<Dim>& state) {
-  std::vector<std::pair<int, std::size_t>> touching;  // number and place
+  std::vector<std::pair<int, std::size_t>> touching;  // number and index
   std::vector<ViewPair> fresh;
   for (std::size_t i = 0; i < state.contacts.list.size(); ++i) {
     if (!state.contacts.list[i].touching()) continue;
@@ -291,7 +292,7 @@ void put_contacts(Record& record, ViewSeries& series, const Model<Dim>& model, c
 
 // ---- supports ------------------------------------------------------------------------------------------------------
 
-// Straight pieces: ends from the model's origin, m; the force along them, N, tension positive; use of strength; 0 for a
+// Straight pieces: ends from the model's origin, m; the force along them, N, tension positive; utilisation; 0 for a
 // bolt, 1 for a lining.
 template <int Dim>
 void put_support(Record& record, const Model<Dim>& model, const State<Dim>& state) {
@@ -365,7 +366,7 @@ ViewSeries continue_view(const std::filesystem::path& file, const Prepared<Dim>&
   const ViewExtent kept = view_extent(bytes, frames);
   if (kept.frames < frames) return begun(file, scene);
 
-  // a reader forgets the shapes and pairs so far: those that follow are numbered from the begin
+  // a reader discards the shapes and pairs so far: the following ones are numbered from the start
   bytes.resize(kept.bytes);
   Record again(again_tag);
   write_file(file, bytes + again.finished());

@@ -1,6 +1,6 @@
-// What the viewer shows (viewer/README.md), straight from model and state: a file of records that grows with a run, so
-// that one that is killed can be seen up to there. Geometry is in it once, in the bodies' frames; a frame is 24
-// bytes a body (in the plane 12) for where it is, 4 for its speed, and what its contacts carry.
+// Data of the viewer (viewer/README.md), from model and state: a file of records that grows with a run, so that a
+// killed run can be shown up to that point. Geometry is in it once, in the bodies' frames; a frame has 24 bytes per
+// body (12 in 2-D) for its pose, 4 for its speed, and the forces of its contacts.
 #pragma once
 
 #include <array>
@@ -16,16 +16,16 @@
 
 namespace voussoir {
 
-// what a frame is of
+// the kind of a frame
 struct ViewMoment {
-  enum class Kind { start, frame, trial };  // trial: of a search, and taken back
+  enum class Kind { start, frame, trial };  // trial: of a search, and undone
   Kind kind = Kind::frame;
   double time = 0;  // s
   int stage = 0;    // from 0
   int trial = 0;    // from 1; 0: none
 };
 
-// what the file has of a body: it gets a new shape when an excavation parts it
+// the data of a body in the file: it gets a new shape when an excavation divides it
 struct ShownBody {
   std::size_t corners = 0;
   double mass = 0;
@@ -34,36 +34,36 @@ struct ShownBody {
   bool operator==(const ShownBody&) const = default;
 };
 
-// Two faces that touch have their names and numbers in the file once: bodies, parts and faces of both, then joint and
+// Two touching faces have their names and numbers in the file once: bodies, parts and faces of both, then joint and
 // properties.
 using ViewPair = std::array<int, 8>;
 
-// the file as it stands
+// the present content of the file
 struct ViewSeries {
   std::filesystem::path file;
-  int frames = 0;                      // written, that of the start among them
+  int frames = 0;                      // written, including that of the start
   std::vector<ShownBody> shown = {};   // by body
   std::map<ViewPair, int> pairs = {};  // by their number
 };
 
 inline constexpr const char* view_file = "view.bin";
 
-// A new file with what does not change and the blocks as they lie before the first stage. Throws OutputError.
+// A new file with the constant data and the blocks before the first stage. Throws OutputError.
 template <int Dim>
 ViewSeries begin_view(const std::filesystem::path& file, const Prepared<Dim>& scene);
 
-// The file of a run that continues, cut back to its first `frames` frames, that of the start among them; one that is
-// not there, damaged or shorter begins again, and has fewer. Throws OutputError.
+// The file of a run that continues, truncated to its first `frames` frames, including that of the start; a missing,
+// damaged or shorter file is started again, with fewer frames. Throws OutputError.
 template <int Dim>
 ViewSeries continue_view(const std::filesystem::path& file, const Prepared<Dim>& scene, int frames);
 
-// Adds a frame. Positions are to single precision, speeds and what contacts carry to four digits. A number that is not
+// Adds a frame. Positions are to single precision, speeds and contact forces to four digits. A number that is not
 // finite is written as 0. Throws OutputError.
 template <int Dim>
 void add_view_frame(ViewSeries& series, const Model<Dim>& model, const State<Dim>& state, const ViewMoment& moment);
 
-// How many bytes of these are whole records, at most up to the end of `frames` frames, and how many frames they hold;
-// nothing where they are no such file. Bytes that follow were being written when a program was killed.
+// Number of these bytes that are complete records, at most up to the end of `frames` frames, and the number of frames
+// in them; nothing if they are not such a file. Further bytes were being written when a program was killed.
 struct ViewExtent {
   std::size_t bytes = 0;
   int frames = 0;

@@ -1,5 +1,5 @@
-// What a run keeps for the viewer: its records, and that a file which was cut short or begun again stays one. That the
-// numbers are the state's is tested where a page reads them back (viewer/test/view_test.mjs).
+// Data of a run for the viewer: its records, and files that were truncated or started again. The numbers are compared
+// with the state by the test that reads them back from a page (viewer/test/view_test.mjs).
 #include "core/output/view.hpp"
 
 #include <gtest/gtest.h>
@@ -70,11 +70,11 @@ std::vector<std::uint32_t> tags(const std::string& bytes) {
 
 constexpr std::uint32_t head = 1, shape = 2, frame = 3, again = 4;
 
-TEST_F(ViewTest, ShapesStandOnceAndABodyThatAnExcavationPartsGetsANewOne) {
+TEST_F(ViewTest, ShapesAreWrittenOnceAndABodyDividedByAnExcavationGetsANewOne) {
   Prepared<3> scene = cubes();
   ViewSeries series = begin_view(file, scene);
   add_view_frame(series, scene.model, scene.state, {});
-  scene.model.bodies[2].present = false;  // taken out
+  scene.model.bodies[2].present = false;  // excavated
   scene.model.bodies[1].mass *= 0.5;      // lost a part
   add_view_frame(series, scene.model, scene.state, {});
   add_view_frame(series, scene.model, scene.state, {});
@@ -83,7 +83,7 @@ TEST_F(ViewTest, ShapesStandOnceAndABodyThatAnExcavationPartsGetsANewOne) {
   EXPECT_EQ(series.pairs.size(), 1u) << "the same two faces";
 }
 
-TEST_F(ViewTest, BytesThatWereBeingWrittenWhenAProgramWasKilledAreNoRecord) {
+TEST_F(ViewTest, AnIncompleteRecordOfAKilledProgramIsIgnored) {
   const Prepared<3> scene = cubes();
   ViewSeries series = begin_view(file, scene);
   const std::size_t first = bytes().size();
@@ -103,7 +103,7 @@ TEST_F(ViewTest, BytesThatWereBeingWrittenWhenAProgramWasKilledAreNoRecord) {
   EXPECT_EQ(view_extent(damaged, all).bytes, first);
 }
 
-TEST_F(ViewTest, ARunThatContinuesKeepsTheFramesOfItsCheckpointAndSaysAllShapesAgain) {
+TEST_F(ViewTest, AContinuedRunKeepsTheFramesOfItsCheckpointAndWritesAllShapesAgain) {
   const Prepared<3> scene = cubes();
   ViewSeries series = begin_view(file, scene);
   for (int k = 0; k < 3; ++k)
@@ -115,7 +115,7 @@ TEST_F(ViewTest, ARunThatContinuesKeepsTheFramesOfItsCheckpointAndSaysAllShapesA
             (std::vector<std::uint32_t>{head, shape, shape, shape, frame, frame, again, shape, shape, shape, frame}));
   EXPECT_EQ(view_extent(bytes(), all).frames, 3);
 
-  // with fewer frames than the checkpoint counts, or none: from here on
+  // with fewer frames than in the checkpoint, or none: starts here
   EXPECT_EQ(continue_view(file, scene, 9).frames, 0);
   EXPECT_EQ(tags(bytes()), (std::vector<std::uint32_t>{head}));
   fs::remove(file);
@@ -123,7 +123,7 @@ TEST_F(ViewTest, ARunThatContinuesKeepsTheFramesOfItsCheckpointAndSaysAllShapesA
   EXPECT_TRUE(fs::exists(file));
 }
 
-TEST_F(ViewTest, AFailedRunsNumbersAreWrittenAsZero) {
+TEST_F(ViewTest, NumbersThatAreNotFiniteAreWrittenAsZero) {
   Prepared<3> scene = cubes();
   ViewSeries series = begin_view(file, scene);
   add_view_frame(series, scene.model, scene.state, {});

@@ -22,7 +22,7 @@ void append_number(Text out, double number, bool integer) {
     fmt::format_to(out, "{} ", number);
 }
 
-// by its size before it is made single: an overflow there is a trap
+// by its size before the conversion to single precision: an overflow would trap
 void append_single(Text out, double number) {
   using Single = std::numeric_limits<float>;
   const double size = std::isfinite(number) ? std::abs(number) : 0;
@@ -72,7 +72,7 @@ void append_cells(Text out, const char* section, const std::vector<std::vector<i
   append_arrays(out, section, {connectivity, offsets});
 }
 
-// VTK's ASCII form of a string is its bytes as numbers, ended by 0
+// VTK's ASCII form of a string is its bytes as numbers, terminated by 0
 void append_names(Text out, const std::string& name, const std::vector<std::string>& texts) {
   fmt::format_to(out, "      <Array type=\"String\" Name=\"{}\" NumberOfTuples=\"{}\" format=\"ascii\">\n",
                  xml_escaped(name), texts.size());

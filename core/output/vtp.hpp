@@ -8,7 +8,7 @@
 
 namespace voussoir {
 
-// text between tags or in quotes; what is no plain text is replaced
+// text between tags or in quotes; characters that are not plain text are replaced
 std::string xml_escaped(const std::string& text);
 
 struct DataArray {
@@ -16,14 +16,14 @@ struct DataArray {
   int components = 1;  // 3: a vector
   bool integer = false;
   std::vector<double> values;  // components × cells (or points)
-  bool single = false;         // written to single precision; what it cannot hold is 0
+  bool single = false;         // written to single precision; values that it cannot represent are 0
 };
 
 struct PolyData {
   enum class Cells { polygons, vertices, lines };
   Cells kind = Cells::polygons;
   std::vector<std::array<double, 3>> points;  // m
-  std::vector<std::vector<int>> cells;        // places in `points`
+  std::vector<std::vector<int>> cells;        // indices in `points`
   std::vector<DataArray> cell_data;
   std::vector<DataArray> point_data;
   double time = 0;  // s, shown by ParaView
@@ -31,12 +31,12 @@ struct PolyData {
   std::vector<std::pair<std::string, std::vector<std::string>>> names;
 };
 
-// of a support that is drawn as a line: the force along it, N, tension positive, and that over its strength
+// of a support that is drawn as a line: the force along it, N, tension positive, and its utilisation
 struct LinePull {
   double force = 0, use = 0;
 };
 
-// A number that is not finite is written as 0: a failed run's last frame is worth seeing, and no reader takes "nan".
+// A number that is not finite is written as 0: a failed run's last frame is useful, and no reader accepts "nan".
 std::string vtp(const PolyData& data);
 
 struct TimedFile {

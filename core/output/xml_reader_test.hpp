@@ -1,4 +1,4 @@
-// Test help: a small XML reader, enough to judge the files we write by a program that shares no code with the writer.
+// Test help: a small XML reader that shares no code with the writer, sufficient to check its files.
 #pragma once
 
 #include <cctype>

@@ -1,4 +1,4 @@
-// Random pairs: two solvers that share nothing but the function, and a proof in 113 bits over both.
+// Random pairs: two solvers that share only the function, and a proof in 113 bits of both.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -55,10 +55,10 @@ void expect_proven(const referee::Verdict<Dim>& truth, const PotentialContact<Di
 }
 
 #ifdef VOUSSOIR_HAS_IPOPT
-// An answer whose error Ipopt reports above this, which it would not call acceptable either, judges nothing.
+// A result whose error Ipopt reports above this, which it would not call acceptable either, is no reference.
 constexpr double outside_error = 1e-12;
 
-// Where the two disagree both are held against the proven point, so that it is seen which of them is off.
+// If the two disagree both are compared with the proven point, to show which of them is wrong.
 template <int Dim>
 void ask_outside(const shapes::PotentialCase<Dim>& c, const referee::Verdict<Dim>& truth,
                  const PotentialContact<Dim>& found, int index, Tally& tally) {
@@ -135,9 +135,9 @@ TEST_P(PotentialCertaintyLong, RandomPairsInSpace) {
 }
 INSTANTIATE_TEST_SUITE_P(Parts, PotentialCertaintyLong, testing::Range(0, 10));
 
-// k down to 0, where the least point need not be unique: the value alone, and both decisions. The referee needs some
-// curvature: what k = 1e-16 changes in the value is below 1e-14. Where the inner bodies overlap and k is below 1e-6,
-// nothing but the spheres' last digits says where the least point lies; there the solver may say that it has no answer.
+// k down to 0, at which the least point need not be unique: the value alone, and both decisions. The referee needs some
+// curvature: k = 1e-16 changes the value by less than 1e-14. If the inner bodies overlap and k is below 1e-6, only the
+// spheres' last digits determine the least point; the solver may then report that it has no result.
 template <int Dim>
 void expect_values_without_spheres(int pairs) {
   shapes::Random random(291);

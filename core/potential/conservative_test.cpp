@@ -51,7 +51,7 @@ void expect_spheres() {
     const PotentialPair<Dim> pair{&a, &b, Matrix<Dim>::Identity(), (size - depth) * normal};
     const PotentialContact<Dim> found = resolve<Dim>(pair, PotentialQuery::overlap, workspace);
     ASSERT_EQ(found.status, PotentialStatus::touching);
-    // a value is off by what moves the point over the smaller radius, and the overlap by the size times that
+    // the error of a value is the point's displacement over the smaller radius, that of the overlap the size times this
     const double spread = size / std::min(a.sphere_radius, b.sphere_radius);
     ASSERT_NEAR(found.energy_overlap, depth, 8 * epsilon * size * spread);
     ASSERT_NEAR(found.energy_rate, 1, 16 * epsilon * spread);
@@ -80,8 +80,8 @@ TEST(PotentialConservative, BetweenRightAngledFeaturesItIsTheOverlap) {
     }
 }
 
-// Faces at any k: the scale is exact halfway out, |x - c|² = R²/2. Elsewhere the face lies at s = r sqrt((1 - k ρ²/R²)
-// / (1 - k)), and what sqrt(f + 1) falls by along the normal is the rate's inverse.
+// Faces at any k: the scale is exact halfway out, |x - c|² = R²/2. Elsewhere the face is at s = r sqrt((1 - k ρ²/R²)
+// / (1 - k)), and the decrease of sqrt(f + 1) along the normal is the inverse of the rate.
 TEST(PotentialConservative, BetweenFacesTheRateIsThatOfTheSlopes) {
   PotentialWorkspace<3> workspace;
   for (const double r : {1e-3, 0.2})
@@ -102,7 +102,7 @@ TEST(PotentialConservative, BetweenFacesTheRateIsThatOfTheSlopes) {
     }
 }
 
-// which planes the point lies outside of
+// the planes outside which the point lies
 template <int Dim>
 std::vector<bool> counting(const PotentialWorkspace<Dim>& workspace, const Vector<Dim>& point) {
   std::vector<bool> planes;
@@ -112,7 +112,7 @@ std::vector<bool> counting(const PotentialWorkspace<Dim>& workspace, const Vecto
   return planes;
 }
 
-// Central differences of δ over all motions of the second body. Where the same planes count at both ends δ is smooth
+// Central differences of δ over all motions of the second body. If the same planes count at both ends δ is smooth
 // over lengths of r: the difference is off by some (h / r)², and rounding of coordinates adds ε / h.
 template <int Dim>
 void expect_differences() {
@@ -157,11 +157,11 @@ TEST(PotentialConservative, TheForceIsTheSlopeOfTheOverlap) {
 }
 
 struct Work {
-  double bracketed = 0, conservative = 0, gross = 0;  // around the path, and what the conservative force does in all
+  double bracketed = 0, conservative = 0, gross = 0;  // work around the path; the conservative one's |work|
 };
 
 // Once around an ellipse in the space of motions, stiffness 1: Gauss's rule of three points on each of many pieces. The
-// same planes count all the way, so that the integrand is smooth.
+// same planes count along the entire path, so that the integrand is smooth.
 template <int Dim>
 Work around(const PotentialPair<Dim>& pair, const Vector<Dim>& to, const Vector<Dim>& across, const Turn<Dim>& turn,
             int pieces) {
@@ -211,7 +211,7 @@ TEST(PotentialConservative, AroundClosedPathsItDoesNoWorkAndTheBracketedOverlapD
     }
     pair.offset[2] = low - 0.1 * r;
     const Work work = around<3>(pair, {0.02 * r, 0, 0.03 * r}, {0.03 * r, 0.01 * r, 0}, {0.02, 0.05, 0.01}, 400);
-    // the integrand is periodic and smooth, so that only rounding is left: of coordinates of 1 m, over an overlap of
+    // the integrand is periodic and smooth, so that only rounding remains: of coordinates of 1 m, over an overlap of
     // 0.01 m, some 1e-14 of each term
     EXPECT_LE(std::abs(work.conservative), 1e-12 * work.gross) << k;
     EXPECT_GE(std::abs(work.bracketed), 0.01 * work.gross) << k;

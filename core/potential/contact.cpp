@@ -12,36 +12,37 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// far beyond what any pair of the tests needs; who reaches it has no answer
+// far more than any pair of the tests needs; a pair that reaches it has no result
 constexpr int iteration_limit = 400;
 
-// The descent for one λ ends where what is left of it is this fraction of what the next λ will gain; with every change
-// of λ half as much, so that the last ones are exact; not less than what rounding lets a descent reach.
+// The descent for one λ ends when its remaining gain is this fraction of the gain of the next λ; with every change of λ
+// half as much, so that the last ones are exact, down to the limit that rounding sets.
 constexpr double inner_fraction = 0.1, least_inner_fraction = 1e-8;
 
-// and the sign of f_A - f_B counts as that at the sum's least point only where far less is left
+// and the sign of f_A - f_B counts as that at the sum's least point only if far less remains
 constexpr double sure_fraction = 1e-4;
 
-// what is left to gain, as a fraction of the functions' terms, when the last Newton steps begin
+// the remaining gain, as a fraction of the functions' terms, when the last Newton steps begin
 constexpr double last_gap = 1e-12;
-constexpr int last_steps = 8;  // each squares what is left, or rounding ends them
+constexpr int last_steps = 8;  // each squares the error, until rounding ends them
 
-// a bracket narrower than this fraction of the ratio has lost what it held
+// a bracket narrower than this fraction of the ratio has lost its root
 constexpr double shut = 1e-6;
 
-// log λ/(1-λ) changes by no more at once: the model behind the step is a line in logarithms
+// log λ/(1-λ) changes by no more in one step: the model behind the step is a line in logarithms
 constexpr double longest_change = 8;
 
-// from a good point both conditions are met after a few steps; who needs more is better served by the careful search
+// from a good point both conditions are met after a few steps; pairs that need more are better left to the careful
+// search
 constexpr int refine_limit = 12;
 
-// as is who does not come nearer: planes that count in turns
+// as are pairs that do not come nearer: planes that count alternately
 constexpr int most_longer_steps = 2;
 
 // a step of this fraction of the bodies' reach is rounding
 constexpr double settled = 2 * std::numeric_limits<double>::epsilon();
 
-// Planes are looked at up to this many radii r from where the contact is thought to be: the fewer the cheaper, as long
+// Planes are considered up to this many radii r from the expected contact: the fewer the cheaper, as long
 // as the point rarely leaves that distance.
 constexpr double near_radii = 0.5;
 
@@ -66,7 +67,7 @@ double between(double low, double high) {
   return std::isfinite(high) ? std::sqrt(low) * std::sqrt(high) : 4 * low;
 }
 
-// Both functions at the point, the weighted sum and what Newton's steps need of it.
+// Both functions at the point, and the weighted sum with the terms for Newton's steps.
 template <int Dim>
 struct Place {
   Place(const PlacedPotential<Dim>& of_a, const PlacedPotential<Dim>& of_b, const Vector<Dim>& point)
@@ -77,12 +78,12 @@ struct Place {
   Vector<Dim> gradient, newton, across;  // of the sum; -H⁻¹ gradient; -H⁻¹ (∇f_A - ∇f_B): dx / dλ
   Matrix<Dim> hessian;
   double decrement;
-  double spheres;   // the sum's curvature by the spheres, below which it has none anywhere
+  double spheres;   // the sum's curvature by the spheres, its minimum anywhere
   double q_a, q_b;  // f + 1 where Newton's step leads, by the gradients
 };
 
 // No point farther from the centre has f <= value: f is convex, so that along a ray it grows at least as fast beyond
-// the surface, which lies within R, as on the way there.
+// the surface, which lies within R, as before it.
 template <int Dim>
 class Reach {
  public:
@@ -104,7 +105,7 @@ struct Slopes {
   Vector<Dim> a = Vector<Dim>::Zero(), b = Vector<Dim>::Zero();
 };
 
-// The planes that can count within a distance of a point. Those that lie farther inside do not, as no normal is longer
+// The planes that can count within a distance of a point. Those farther inside do not, as no normal is longer
 // than 1.
 template <int Dim>
 class NearPlanes {
@@ -114,7 +115,7 @@ class NearPlanes {
     take(workspace_.a, workspace_.near_a);
     take(workspace_.b, workspace_.near_b);
   }
-  // whether what lies within the length of the point sees all planes that count
+  // whether the planes taken include all that count within this length of the point
   bool cover(const Vector<Dim>& point, double length) const {
     return held_ && (point - middle_).norm() + length < distance_;
   }
@@ -151,11 +152,11 @@ class Search {
  public:
   // with all planes
   explicit Search(PotentialWorkspace<Dim>& workspace) : Search(workspace, workspace.a, workspace.b) {}
-  // with the planes alone that count around the contact
+  // with only the planes that count around the contact
   Search(PotentialWorkspace<Dim>& workspace, const PlacedPotential<Dim>& a, const PlacedPotential<Dim>& b)
       : a_(a), b_(b), reach_a_(workspace.a), reach_b_(workspace.b), ray_(workspace.ray) {}
 
-  // stops as soon as what is asked is proven
+  // stops as soon as the query is proven
   void solve(const PotentialStart<Dim>& start, PotentialQuery query, PotentialContact<Dim>& contact,
              Slopes<Dim>& slopes) {
     contact.point = start.point;
@@ -168,8 +169,8 @@ class Search {
       if (is_decided(query, contact)) return judge(contact);
       const double terms = 3 + at.a.value + at.b.value;
       const double mismatch = mismatch_of(at);
-      // Where no sphere curves the sum the bound is blunt, and what Newton's step foresees counts instead; twice,
-      // because a point that has only just passed a plane sees none of what lies behind it.
+      // If no sphere curves the sum the bound is loose, and the gain predicted by Newton's step counts instead; twice,
+      // because a point that has only just passed a plane has no information from behind it.
       foreseen = at.decrement + mismatch <= last_gap * terms ? foreseen + 1 : 0;
       if (contact.value - contact.bound <= last_gap * terms || foreseen > 1) return finish(at, contact, slopes);
       if (at.decrement <= sure_fraction * mismatch) (at.q_a > at.q_b ? low : high) = contact.ratio;
@@ -179,7 +180,7 @@ class Search {
       if (foreseen == 0 && descended && change_ratio(at, low, high, contact)) {
         fraction = std::max(fraction / 2, least_inner_fraction);
       } else if (!descend(at, contact)) {
-        // Held by planes, the point shows only rounding in the bounds; Q itself says how much is left.
+        // If planes hold the point, the bounds contain only rounding; Q itself shows the remaining gain.
         const double left = at.decrement + mismatch_of(at), q = 2 + at.a.value + at.b.value;
         if (descended || left <= last_gap * q || !change_ratio(at, low, high, contact))
           return finish(at, contact, slopes);
@@ -188,7 +189,7 @@ class Search {
     contact.status = PotentialStatus::no_answer;
   }
 
-  // whether the bounds prove all that is asked
+  // whether the bounds prove the query
   static bool is_decided(PotentialQuery query, const PotentialContact<Dim>& contact) {
     if (query == PotentialQuery::least) return false;
     return contact.bound > contact.rounding ||
@@ -201,7 +202,7 @@ class Search {
                                                             : PotentialStatus::undecided;
   }
 
-  // Newton's method on both conditions at once from where the answer is thought to be near. False: it was not.
+  // Newton's method on both conditions together from a start that should be near the result. False: it was not.
   bool refine(const PotentialStart<Dim>& start, PotentialQuery query, NearPlanes<Dim>& near,
               PotentialContact<Dim>& contact, Slopes<Dim>& slopes) {
     contact.point = start.point;
@@ -251,7 +252,7 @@ class Search {
     return at;
   }
 
-  // what another ratio will gain where Newton's step leads
+  // the gain of another ratio at the end of Newton's step
   static double mismatch_of(const Place<Dim>& at) {
     return std::abs(at.q_a - at.q_b) * std::min(at.lambda, 1 - at.lambda);
   }
@@ -275,7 +276,7 @@ class Search {
     return at;
   }
 
-  // Newton's step by the Hessian, and where it leads
+  // Newton's step by the Hessian, and its end
   static void foresee(Place<Dim>& at) {
     FixedMatrix<Dim, 2> right;
     right << at.gradient, at.a.gradient - at.b.gradient;
@@ -287,9 +288,9 @@ class Search {
     at.q_b = 1 + at.b.value + at.b.gradient.dot(at.newton);
   }
 
-  // No point has a lower max(f_A, f_B) than this. Three ways to bound what the sum's slope may still gain: by the
-  // curvature of the spheres, below which none falls, and by how far the points reach whose f_A (f_B) is no larger than
-  // the value already found.
+  // No point has a lower max(f_A, f_B) than this. Three bounds of the gain that the sum's slope still permits: by the
+  // curvature of the spheres, its minimum, and by the extent of the points whose f_A (f_B) is no larger than the value
+  // already found.
   double bound_below(const Place<Dim>& at, const Vector<Dim>& point, double value) {
     const double slope = at.gradient.norm();
     double gain = std::min(at.gradient.dot(point - a_.centre) + slope * reach_a_.of_value(value),
@@ -298,7 +299,8 @@ class Search {
     return std::max(at.sum - gain, -1.0);  // no f is lower
   }
 
-  // False: rounding leaves no step. Planes that hold the point then count where the ratio changes: it would pass them.
+  // False: rounding leaves no step. Planes that hold the point then count when the ratio changes: otherwise its step
+  // would pass them.
   bool descend(Place<Dim>& at, PotentialContact<Dim>& contact) {
     const WeightedPotentials<Dim> sum{{&a_, &b_}, {at.lambda, 1 / (1 + contact.ratio)}};
     const Vector<Dim> step = descent_step<Dim>(sum, contact.point, at.gradient, at.hessian, at.spheres, ray_);
@@ -309,7 +311,7 @@ class Search {
   }
 
   // Newton's step to f_A = f_B, on log Q_A - log Q_B over log λ/(1-λ), Q = f + 1: a straight line for two spheres and
-  // for two flat faces, and nearly one for all else. False: it has no such step here.
+  // for two flat faces, and nearly one for all else. False: there is no such step here.
   bool change_ratio(const Place<Dim>& at, double low, double high, PotentialContact<Dim>& contact) const {
     if (!(at.q_a > 0 && at.q_b > 0)) return false;
     const double weights = at.lambda * (1 - at.lambda);
@@ -323,7 +325,7 @@ class Search {
     return true;
   }
 
-  // Newton's method on both conditions at once, as long as its steps grow shorter and the bounds do not part
+  // Newton's method on both conditions together, as long as its steps become shorter and the bounds do not diverge
   void finish(Place<Dim> at, PotentialContact<Dim>& contact, Slopes<Dim>& slopes) {
     slopes = {at.a.gradient, at.b.gradient};
     double previous = infinity;
@@ -352,7 +354,7 @@ class Search {
   RayScratch& ray_;
 };
 
-// whether a gradient is more than the rounding of coordinates leaves
+// whether a gradient exceeds the rounding of coordinates
 template <int Dim>
 bool has_direction(const PlacedPotential<Dim>& potential, const Vector<Dim>& point, const Vector<Dim>& gradient) {
   const double size = potential.reach + point.norm() + potential.centre.norm();
@@ -390,8 +392,8 @@ void find_overlap(const Slopes<Dim>& slopes, const NearPlanes<Dim>& near, double
   contact.energy_rate = scale * slope / (2 * root);
 }
 
-// from nothing: where planes alone would have the contact, else where the enclosing spheres have equal values, with the
-// weights that balance there
+// without a start: the contact of the planes alone, else the point at which the enclosing spheres have equal values,
+// with the weights that balance there
 template <int Dim>
 PotentialStart<Dim> begin(const PotentialPair<Dim>& pair, PotentialWorkspace<Dim>& workspace, bool& near) {
   const PlacedPotential<Dim>&a = workspace.a, &b = workspace.b;

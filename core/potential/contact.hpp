@@ -2,14 +2,14 @@
 //   v = min over x of max(f_A, f_B) = max over λ of min over x of λ f_A + (1 - λ) f_B,   0 <= λ <= 1.
 // v < 0: they overlap, and the least point is the contact point, where λ ∇f_A = -(1 - λ) ∇f_B.
 // Every λ and x give two bounds: max(f_A, f_B) at x from above, the weighted sum's least value from below. They prove
-// the decision and show how near the answer is.
+// the decision and show how near the result is.
 #pragma once
 
 #include "core/potential/descent.hpp"
 
 namespace voussoir {
 
-// Two particles as the first one sees them.
+// Two particles in the frame of the first.
 template <int Dim>
 struct PotentialPair {
   const PotentialShape<Dim>* a = nullptr;
@@ -20,14 +20,14 @@ struct PotentialPair {
 
 enum class PotentialQuery {
   decision,  // touching or not, as soon as it is proven
-  least,     // and the least point of both, also where they do not touch
-  overlap    // as `decision`, and where they touch point, normal and overlap
+  least,     // and the least point of both, also if they do not touch
+  overlap    // as `decision`, and if they touch point, normal and overlap
 };
 
 enum class PotentialStatus {
   separated,  // proven: the bound from below is above zero by more than rounding
   touching,   // proven: the point lies inside both by more than rounding
-  undecided,  // nearer to touching than rounding can tell: no contact
+  undecided,  // nearer to touching than rounding resolves: no contact
   no_normal,  // touching, but the gradients vanish at the point (one centre on the other)
   no_answer   // the iteration did not end; it must not be taken for separated
 };
@@ -48,9 +48,9 @@ struct PotentialContact {
   int iterations = 0;                        // Newton's, of which each takes one factorisation
 };
 
-// The conservative overlap. The bracketed overlap's force has no potential: the overlap changes with the point, which
-// the force does not feel. The pair's value has one: by the envelope theorem it changes as if the least point and λ
-// stood still, so that U = k δ(v)² / 2 acts at the contact point, along the same normal, by k δ (-dδ/dn). With
+// The conservative overlap. The bracketed overlap's force has no potential: the overlap depends on the point, and the
+// force has no term for this. The pair's value has one: by the envelope theorem it changes as if the least point and λ
+// were fixed, so that U = k δ(v)² / 2 acts at the contact point, along the same normal, by k δ (-dδ/dn). With
 //   δ(v) = S (1 - sqrt(1 + v)),   -dδ/dn = S |λ ∇f_A| / (2 sqrt(1 + v)),   S = length of A + length of B
 // it is the true overlap between spheres, and at k = 0 between faces and right-angled features (energy_scale).
 // The force on the second body, N, along the normal, for a stiffness in N/m; and the energy, J.
@@ -63,23 +63,23 @@ double conservative_energy(const PotentialContact<Dim>& contact, double stiffnes
   return stiffness * contact.energy_overlap * contact.energy_overlap / 2;
 }
 
-// A shape's part of S, m: how far the surface beyond one face lies from where sqrt(f + 1) would vanish, on a straight
-// line; halfway out to the sphere, |x - c|² = R² / 2. r at k = 0, R at k = 1.
+// A shape's part of S, m: the distance of the surface beyond one face from the point at which sqrt(f + 1) would vanish,
+// on a straight line; halfway out to the sphere, |x - c|² = R² / 2. r at k = 0, R at k = 1.
 template <int Dim>
 double energy_scale(const PotentialShape<Dim>& shape);
 
-// where to begin: the point in the first body's frame and the ratio of the step before
+// the start: the point in the first body's frame and the ratio of the step before
 template <int Dim>
 struct PotentialStart {
   Vector<Dim> point = Vector<Dim>::Zero();
-  double ratio = 0;  // 0: from nothing
+  double ratio = 0;  // 0: no start
 };
 
 // memory that is kept from one pair to the next
 template <int Dim>
 struct PotentialWorkspace {
-  PlacedPotential<Dim> a, b;            // the pair's, as the first one sees them: they stay until the next pair
-  PlacedPotential<Dim> near_a, near_b;  // with the planes alone that count around the contact
+  PlacedPotential<Dim> a, b;            // the pair's, in the frame of the first: valid until the next pair
+  PlacedPotential<Dim> near_a, near_b;  // with only the planes that count around the contact
   RayScratch ray;
   std::vector<double> columns;
 };

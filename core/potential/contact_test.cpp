@@ -1,4 +1,4 @@
-// Point, value, normal and overlap against closed forms; what a query stops at; warm starts.
+// Point, value, normal and overlap against closed forms; the end of each query; warm starts.
 #include "core/potential/contact.hpp"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ PotentialShape<Dim> sphere(double radius) {
   return shape;
 }
 
-// k = 1: on the line of centres where both are as deep for their size; value (D / (R_A + R_B))² - 1
+// k = 1: on the line of centres, equally deep in both relative to their sizes; value (D / (R_A + R_B))² - 1
 template <int Dim>
 void expect_spheres() {
   shapes::Random random(286);
@@ -37,7 +37,7 @@ void expect_spheres() {
     ASSERT_EQ(c.status, PotentialStatus::touching);
     const double ulps = 8 * epsilon * size;
     ASSERT_LE((c.point - a / size * pair.offset).norm(), ulps);
-    // gradients turn, and values change, by what moves the point over the radius
+    // gradients turn, and values change, by the point's displacement over the radius
     ASSERT_LE((c.normal - normal).norm() * std::min(a, b), ulps);
     ASSERT_NEAR(c.overlap, depth, ulps);
     ASSERT_NEAR(c.value, (distance / size) * (distance / size) - 1, 2 * ulps / std::min(a, b));
@@ -57,7 +57,7 @@ void expect_faces() {
     for (const double k : {1e-4, 0.01, 0.3, 0.9}) {
       PotentialShape<Dim> cube{shapes::cube<Dim>(0.5), r, k};
       cube.sphere_radius = enclosing_radius<Dim>(cube.planes, r, Vector<Dim>::Zero());
-      // the face's middle lies at (1 - k) s² / r² + k (1/2 + s)² / R² = 1
+      // the face's middle is at (1 - k) s² / r² + k (1/2 + s)² / R² = 1
       const double p = (1 - k) / (r * r), q = k / (cube.sphere_radius * cube.sphere_radius);
       const double s = (1 - q / 4) / (q / 2 + std::sqrt(q * q / 4 + (p + q) * (1 - q / 4)));
       const double depth = 0.1 * r;
@@ -77,8 +77,8 @@ TEST(PotentialContact, OfTwoCubesFaceToFaceIsHalfWay) {
   expect_faces<3>();
 }
 
-// k = 0, radii r_A and r_B: corner down on a face. Across both, Q = t²/r²: t_A : t_B = r_A : r_B, and what the corner
-// and the face of the inner bodies are apart is G = t_A + t_B.
+// k = 0, radii r_A and r_B: corner down on a face. Across both, Q = t²/r²: t_A : t_B = r_A : r_B, and the distance
+// between the inner bodies' corner and face is G = t_A + t_B.
 TEST(PotentialContact, OfACornerOnAFaceWithoutSpheres) {
   PotentialWorkspace<3> workspace;
   const Matrix<3> corner_down =
@@ -131,10 +131,9 @@ TEST(PotentialContact, APlaneThatHoldsThePointIsNotPassedWhenTheRatioChanges) {
   }
 }
 
-// Inner bodies that overlap, so that λ is found in many changes: what is asked of the descent between them halves each
-// time, and is at last more than rounding allows. Pair 23842 of those in the long test, without the planes that do not
-// matter.
-TEST(PotentialContact, ADescentIsNotAskedForMoreThanRoundingAllows) {
+// Inner bodies that overlap, so that λ is found in many changes: the tolerance of the descent between them halves each
+// time, and finally falls below rounding. Pair 23842 of the long test, without the planes that have no effect.
+TEST(PotentialContact, ADescentEndsAtRounding) {
   const PotentialShape<3> a{
       {{{1, 0, 0}, 1},
        {{-1, 0, 0}, 1},
@@ -193,7 +192,7 @@ struct TurnedOnItsSide {
     pair.offset[0] = find_support<Dim>(placed<Dim>(cube), ahead, workspace.ray).point[0] -
                      find_support<Dim>(turned, -ahead, workspace.ray).point[0] - depth;
   }
-  // how far the contact lies beyond the second one's plane towards -y
+  // the distance of the contact beyond the second one's plane towards -y
   double beyond_side(double angle) {
     turn(angle);
     const PotentialContact<Dim> c = resolve<Dim>(pair, PotentialQuery::least, workspace);
@@ -233,7 +232,7 @@ void expect_answers_where_a_plane_begins() {
   }
   EXPECT_GT(found, 30);
 }
-TEST(PotentialContact, HasAnAnswerWhereAPlaneBegins) {
+TEST(PotentialContact, HasAResultOnAPlane) {
   expect_answers_where_a_plane_begins<2>();
   expect_answers_where_a_plane_begins<3>();
 }
@@ -283,7 +282,7 @@ TEST(PotentialContact, OverlapEndsOnBothSurfacesAlongTheCommonGradient) {
   expect_overlap_on_the_surfaces<3>();
 }
 
-// whichever is the first: the same contact, with the normal turned round
+// in either order: the same contact, with the normal turned round
 template <int Dim>
 void expect_exchange() {
   shapes::Random random(288);
@@ -321,9 +320,9 @@ void expect_warm_starts() {
     cold_total += cold.iterations;
     warm_total += warm.iterations;
   }
-  EXPECT_LT(2 * warm_total, cold_total + 600);  // half of the work, beside the two steps that confirm an answer
+  EXPECT_LT(2 * warm_total, cold_total + 600);  // half of the work, apart from the two steps that confirm a result
 }
-TEST(PotentialContact, AWarmStartGivesTheSameForLess) {
+TEST(PotentialContact, AWarmStartGivesTheSameInFewerSteps) {
   expect_warm_starts<2>();
   expect_warm_starts<3>();
 }

@@ -11,27 +11,27 @@
 namespace voussoir {
 namespace {
 
-// A Hessian carries its rounding of the stiffest direction into all others; a flat one gets as much.
+// The rounding of a Hessian's stiffest direction affects all others; a flat one gets as much curvature.
 constexpr double floor_of_curvature = 4 * machine_epsilon;
 
-// below this many such roundings the spheres' curvature is not to be read off the Hessian
+// below this many such roundings the spheres' curvature cannot be read from the Hessian
 constexpr double drowned_curvature = 1000;
 
-// a slope that falls to this fraction of what it was ends a search along a line: the next direction is better
+// a slope that falls to this fraction of its first value ends a search along a line: the next direction is better
 constexpr double good_slope = 0.25;
 
 // each iteration of a descent ends in a better set of planes or at the least point: far more than there are sets
 constexpr int descent_limit = 200;
 constexpr int line_limit = 200;
 
-// decrement, as a fraction of the function's terms, at which only steps of rounding are left
+// decrement, as a fraction of the function's terms, at which only steps of rounding remain
 constexpr double last_decrement = machine_epsilon * machine_epsilon;
 
 struct Slope {
   double value, rate;
 };
 
-// h'(t) and h''(t) along the ray; `smooth` is what the spheres and the pull give
+// h'(t) and h''(t) along the ray; `smooth` is the part of the spheres and the pull
 Slope slope_at(const RayScratch& planes, const Slope& smooth, double t) {
   Slope slope{smooth.value + t * smooth.rate, smooth.rate};
   for (const RayPlane& plane : planes) {
@@ -139,7 +139,7 @@ FixedMatrix<Dim, Columns> solve(const Matrix<Dim>& hessian, double spheres, cons
   if (!(spheres > 0))
     for (int k = 0; k < Dim; ++k)
       h(k, k) += rounding;
-  // without any curvature (inside all planes, k = 0) the search along the line says how far
+  // without any curvature (inside all planes, k = 0) the search along the line determines the length
   if (!solve_by_factors<Dim, Columns>(h, solution)) solution = -right;
   return solution;
 }
@@ -186,7 +186,8 @@ LeastPoint<Dim> find_least_point(const WeightedPotentials<Dim>& sum, const Vecto
     const Vector<Dim> direction = newton_solution<Dim>(hessian, spheres, gradient);
     const double decrement = -gradient.dot(direction);
     if (!(decrement > 0)) break;  // the gradient vanishes
-    // rounding is left when the decrement is tiny and no longer falls; once may be a plane that was only just passed
+    // only rounding remains when the decrement is tiny and no longer falls; a single rise may be due to a plane that
+    // was only just passed
     if (decrement <= machine_epsilon * terms && decrement >= previous) break;
     if (std::max(decrement, previous) <= last_decrement * terms) break;
     previous = decrement;

@@ -18,10 +18,11 @@ constexpr int most_divisions = 16;
 // half way round a corner, as a fraction of `near`
 constexpr double half_way = 0.4;
 
-// further divisions end where they take off less than this fraction
+// further divisions end when they reduce the error by less than this fraction
 constexpr double least_gain = 0.2;
 
-// Where an edge is divided, from 0 to 1: evenly, and from its ends to `near`, where the body is rounded off.
+// The points at which an edge is divided, from 0 to 1: evenly, and from its ends to `near`, where the body is rounded
+// off.
 std::vector<double> divided(int divisions, double near) {
   std::vector<double> places;
   for (int k = 0; k <= divisions; ++k)
@@ -48,7 +49,7 @@ class Drawer {
   }
 
  private:
-  // how far apart, over a length, points that see a rounded edge stand from it
+  // the distance, over a length, from a rounded edge of the points next to it
   double near(double length) const { return radius_ / length; }
 
   // the point of the surface on the ray to a point of a face
@@ -157,7 +158,7 @@ class Drawer {
       }
     }
     const double over = Size == 2 ? 4 : 3;
-    // where the centre's ray to one point runs along another's tangent this tells nothing
+    // if the centre's ray to one point runs along another's tangent this gives no bound
     const double error = least > 0 ? farthest / least * turned / over : potential_.reach;
     drawing_.error = std::max(drawing_.error, error);
   }

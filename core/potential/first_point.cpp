@@ -21,24 +21,24 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// The simplex that holds the program before any plane does: how far its planes lie from the point p that divides the
-// line of centres as the spheres' radii, over the sum of the radii, or over the distance of the centres where that is
+// The simplex that bounds the program before any plane does: the distance of its planes from the point p that divides
+// the line of centres as the spheres' radii, over the sum of the radii, or over the distance of the centres if that is
 // larger. A point x of both spheres has (Stewart's theorem)
 //   |x - p|² <= (R_B |x - c_A|² + R_A |x - c_B|²) / (R_A + R_B) <= R_A R_B <= ((R_A + R_B) / 2)²,
-// so that half holds all contacts; the program's optimum may lie a little farther out, as corners recede. The nearer
+// so that half contains all contacts; the program's optimum may be a little farther out, as corners recede. The nearer
 // the planes, the fewer exchanges.
 constexpr double far_in_reaches = 0.6;
 
-// A pivot below this would spoil the inverse. The program only says where to begin, so that a plane may be left out.
+// A pivot below this would spoil the inverse. The program only gives a start, so that a plane may be left out.
 constexpr double least_pivot = 1e-9;
 
 // violated by less than this fraction of t's unit, a plane may wait for Newton's method
 constexpr double enough = 1e-3;
 
-// several times what any pair needs; more is a cycle of degenerate planes
+// several times the need of any pair; more is a cycle of degenerate planes
 constexpr int exchange_limit = 100;
 
-// what a far plane may hold of the optimum
+// the multiplier that a far plane may have at the optimum
 constexpr double far_multiplier = 1e-6;
 
 // the planes' columns are filled up to a multiple of the widest register
@@ -47,7 +47,7 @@ constexpr int most_lanes = 8;
 // of the tight planes, of which there are three or four
 constexpr int tight_lanes = 4;
 
-// The search for the most violated plane carries a plane's number in the last bits of its violation, which is so
+// The search for the most violated plane stores a plane's number in the last bits of its violation, which is so
 // compared to 4e-12 of itself.
 constexpr std::uint64_t number_bits = (std::uint64_t{1} << 14) - 1;
 constexpr std::size_t most_planes = number_bits - most_lanes;
@@ -125,7 +125,7 @@ template <int Dim>
 struct TightFaces {
   static constexpr int size = Dim + 1;
   int planes[size];                        // far ones below zero
-  double inverse[size][tight_lanes] = {};  // column k: of the plane k, what y takes of its offset, and last its μ
+  double inverse[size][tight_lanes] = {};  // column k: of the plane k, its offset's coefficients in y, and last its μ
   double offsets[size];
 
   HWY_INLINE TightFaces(const Vector<Dim>& around, double far) {

@@ -19,7 +19,7 @@ namespace {
 using Ipopt::Index;
 using Ipopt::Number;
 
-// Its error as it measures it; values are about 1. What rounding leaves above the first ends at the second.
+// Its error by its own measure; values are about 1. A solution that rounding keeps above the first ends at the second.
 constexpr double ipopt_tolerance = 1e-15, acceptable_tolerance = 1e-12;
 constexpr int ipopt_limit = 500;
 constexpr Number unbounded = 2e19;  // Ipopt's infinity

@@ -1,4 +1,4 @@
-// The contact of two potential particles by Ipopt: the outside reference for our own solver. Part of the library that
+// The contact of two potential particles by Ipopt: the external reference for our own solver. Part of the library that
 // is built with VOUSSOIR_WITH_IPOPT. One call at a time.
 #pragma once
 
@@ -24,7 +24,7 @@ struct ConeAnswer {
   int iterations = 0;
 };
 
-// from nothing, like resolve
+// without a start, like resolve
 template <int Dim>
 ConeAnswer<Dim> solve_cone_program(const PotentialPair<Dim>& pair, ConeReading reading);
 

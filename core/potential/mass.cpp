@@ -15,7 +15,7 @@ namespace {
 const std::array<double, 3> gauss_points{-std::sqrt(0.6), 0, std::sqrt(0.6)};
 constexpr std::array<double, 3> gauss_weights{5.0 / 9, 8.0 / 9, 5.0 / 9};
 
-constexpr int first_cells = 4;  // each way
+constexpr int first_cells = 4;  // in each direction
 
 // Integrals in units of the half extents, from the centre: volume, first moments, second moments' lower triangle.
 template <int Dim>
@@ -27,7 +27,7 @@ struct MeasuredShape {
   Vector<Dim> half;  // extents
 };
 
-// a piece of the face where coordinate `axis` is `side`: middle and half width in the others
+// a piece of the face at which coordinate `axis` is `side`: middle and half width in the others
 template <int Dim>
 struct Cell {
   int axis, side;
@@ -90,7 +90,7 @@ template <int Dim>
 struct Enclosure {
   bool tight = false;   // the plane meets the rays of all corners
   bool smooth = false;  // every plane counts on all of the piece or on none of it: the distance is analytic
-  double width = 0;     // between the two, as a volume, times the farthest corner's distance² where that is more
+  double width = 0;     // between the two, as a volume, times the farthest corner's distance² if that is more
 };
 
 // volume between the centre and a plane through these distances along the rays of the corners
@@ -149,7 +149,7 @@ void measure(const MeasuredShape<Dim>& body, Cell<Dim>& cell) {
     cell.kept += by_gauss<Dim>(body, part);
   const Enclosure<Dim> enclosure = enclose<Dim>(body, cell);
   if (!enclosure.tight)
-    cell.error = 1 << Dim;  // all that the body may hold: to be divided
+    cell.error = 1 << Dim;  // all that the body may contain: to be divided
   else
     cell.error =
         (cell.kept - by_gauss<Dim>(body, cell)).cwiseAbs().maxCoeff() + (enclosure.smooth ? 0 : enclosure.width);
@@ -205,7 +205,7 @@ PotentialMass<Dim> integrate(const PotentialShape<Dim>& shape, double tolerance,
     volume += cell.kept[0];
   }
 
-  // the worst cell first; of equal ones, whichever the heap holds first, which is the same in every run
+  // the worst cell first; of equal ones, the first in the heap, which is the same in every run
   const auto better = [](const Cell<Dim>& a, const Cell<Dim>& b) { return a.error < b.error; };
   std::make_heap(cells.begin(), cells.end(), better);
   while (error > tolerance * volume && static_cast<long long>(cells.size()) < cell_limit) {

@@ -1,4 +1,4 @@
-// Volume, centroid and second moment against closed forms, and the bound against what it bounds.
+// Volume, centroid and second moment against closed forms, and the bound against the true error.
 #include "core/potential/mass.hpp"
 
 #include <gtest/gtest.h>
@@ -92,7 +92,7 @@ TEST(PotentialMass, ACornerThatNoFirstRayMeetsIsFound) {
   EXPECT_LE(std::abs(coarse.mass.volume / of_cut.mass.volume - 1), coarse.error + of_cut.error);
 }
 
-TEST(PotentialMass, TheBoundHoldsWhereACoarserAndAFinerAnswerDiffer) {
+TEST(PotentialMass, TheBoundHoldsIfACoarserAndAFinerResultDiffer) {
   shapes::Random random(285);
   for (int i = 0; i < 20; ++i) {
     const PotentialShape<2> shape = shapes::random_potential<2>(random, 0);

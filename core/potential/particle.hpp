@@ -1,4 +1,4 @@
-// A part of a body that is a potential particle, and what a part of half-spaces is where it meets one.
+// A part of a body that is a potential particle, and the form of a part of half-spaces that meets one.
 #pragma once
 
 #include <memory>
@@ -8,12 +8,12 @@
 
 namespace voussoir {
 
-// Points are seen from the part's `centre` (Polytope), along the body's axes: what moves the part moves them.
+// Points are seen from the part's `centre` (Polytope), along the body's axes: a motion of the part moves them.
 template <int Dim>
 struct Particle {
   PotentialShape<Dim> shape;
-  bool inner = false;             // stands for a part of half-spaces, which it lies in
-  double steepness = 0;           // 1/m: sqrt(f + 1) changes by no more than this times the way, anywhere
+  bool inner = false;             // represents a part of half-spaces, and lies within it
+  double steepness = 0;           // 1/m: sqrt(f + 1) changes by no more than this times the distance, anywhere
   PotentialMass<Dim> mass;        // per unit density; none of an inner one
   PotentialDrawing<Dim> drawing;  // nor of an inner one
 };
@@ -22,7 +22,7 @@ template <int Dim>
 Particle<Dim> make_particle(const PotentialShape<Dim>& shape);
 
 // Volume, centroid and second moment: closed forms of a sphere, else `integrate`. A scene has many particles of few
-// shapes: the last ones are remembered.
+// shapes: the last ones are kept.
 template <int Dim>
 PotentialMass<Dim> mass_of(const PotentialShape<Dim>& shape, double tolerance);
 
@@ -38,7 +38,7 @@ bool is_particle(const Polytope<Dim>& part) {
   return part.particle && !part.particle->inner;
 }
 
-// m: how far a point of the body's frame lies outside of a particle, at least; at most 0 in it
+// m: lower bound of the distance of a point of the body's frame from a particle; at most 0 inside
 template <int Dim>
 double outside_by(const Polytope<Dim>& part, const Vector<Dim>& point);
 

@@ -1,4 +1,4 @@
-// What potential particles count as rounding.
+// The bounds of rounding for potential particles.
 #pragma once
 
 #include <limits>

@@ -22,7 +22,7 @@ void weigh(const PotentialShape<Dim>& shape, PlacedPotential<Dim>& placed) {
 
 }  // namespace
 
-// of each of a pair, Eq. A.4, as seen from one frame, Eq. A.5
+// of each particle of a pair, Eq. A.4, in one frame, Eq. A.5
 template <int Dim>
 void place(const PotentialShape<Dim>& shape, const Matrix<Dim>& rotation, const Vector<Dim>& origin,
            PlacedPotential<Dim>& placed) {

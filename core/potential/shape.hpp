@@ -1,7 +1,7 @@
 // A potential particle (Houlsby 2009; Boon 2013, appendix A): a convex body as one function of planes, rounded where
 // they meet. Eq. A.2 (Eq. A.1 over squares of lengths), its constants added up to one:
 //   f(x) = (1 - k) Σ <a_i·x - d_i>² / r² + k |x - c|² / R² - 1,   <s> = max(s, 0);
-// inside f < 0, on the surface f = 0. f is convex and once differentiable; its second derivative jumps where the point
+// inside f < 0, on the surface f = 0. f is convex and once differentiable; its second derivative jumps when the point
 // passes a plane.
 #pragma once
 
@@ -9,8 +9,8 @@
 
 namespace voussoir {
 
-// In the body's frame. At k = 0 each face lies r outside its plane; at k = 1 the planes do not count and the body is
-// the sphere. The thesis' c is the frame's origin; a body's frame starts at its centroid, which may lie elsewhere.
+// In the body's frame. At k = 0 each face is r outside its plane; at k = 1 the planes do not count and the body is
+// the sphere. The thesis' c is the frame's origin; a body's frame starts at its centroid, which may be elsewhere.
 template <int Dim>
 struct PotentialShape {
   HalfSpaces<Dim> planes;                    // a_i (unit, outward) and d_i
@@ -20,18 +20,18 @@ struct PotentialShape {
   Vector<Dim> centre = Vector<Dim>::Zero();  // c, m: lies inside the body
 };
 
-// A particle as a frame of choice sees it, with what a sum needs: f = plane_weight Σ <a_i·x - d_i>² + sphere_weight
+// A particle in a chosen frame, with the weights of a sum: f = plane_weight Σ <a_i·x - d_i>² + sphere_weight
 // |x - centre|² - 1. Its memory is kept from one placing to the next.
 template <int Dim>
 struct PlacedPotential {
-  HalfSpaces<Dim> planes;                    // none where k = 1
+  HalfSpaces<Dim> planes;                    // none if k = 1
   double plane_weight = 0;                   // (1 - k) / r², 1/m²
   double sphere_weight = 0;                  // k / R², 1/m²
   Vector<Dim> centre = Vector<Dim>::Zero();  // of the sphere, m
   double reach = 0;                          // R, m
 };
 
-// `rotation` takes the body's frame to the one asked for, `origin` is where the body's origin lies there
+// `rotation` takes the body's frame to the chosen one, `origin` is the body's origin in it
 template <int Dim>
 void place(const PotentialShape<Dim>& shape, const Matrix<Dim>& rotation, const Vector<Dim>& origin,
            PlacedPotential<Dim>& placed);
@@ -56,7 +56,7 @@ struct PotentialDerivatives {
 template <int Dim>
 PotentialDerivatives<Dim> derivatives(const PlacedPotential<Dim>& potential, const Vector<Dim>& point);
 
-// how far rounding may have moved the value computed at the point, that of placing the planes included
+// bound of the rounding of the value computed at the point, that of placing the planes included
 template <int Dim>
 double value_rounding(const PlacedPotential<Dim>& potential, const Vector<Dim>& point,
                       const PotentialDerivatives<Dim>& at);

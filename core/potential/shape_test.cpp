@@ -18,7 +18,7 @@ PotentialShape<Dim> rounded_cube(double half, double r, double k) {
   return shape;
 }
 
-// Eq. A.2 as it stands, with its constants inside the brackets
+// Eq. A.2 as printed, with its constants inside the brackets
 template <int Dim>
 double as_printed(const PotentialShape<Dim>& shape, const Vector<Dim>& x) {
   const double k = shape.sphericity, r = shape.corner_radius, big_r = shape.sphere_radius;
@@ -41,7 +41,7 @@ void expect_function_and_derivatives() {
     ASSERT_NEAR(value<Dim>(own, x), f, 1e-12 * (1 + std::abs(f)));
     ASSERT_EQ(at.value, value<Dim>(own, x));
 
-    // two steps apart, which tells where a plane begins to count in between
+    // at two step sizes, which shows if a plane begins to count in between
     const double h = 1e-6;
     const double stiffest = own.plane_weight * static_cast<double>(own.planes.size()) + own.sphere_weight;
     for (int k = 0; k < Dim; ++k) {
@@ -129,7 +129,7 @@ TEST(PotentialSupport, OfARoundedCubeIsThatOfCubeAndBall) {
       const Support<3> support = find_support<3>(cube, u, scratch);
       const double reach = 0.5 * u.cwiseAbs().sum() + r;
       EXPECT_NEAR(u.dot(support.point), reach, 1e-14);
-      // what the bound adds: the rounding of slacks of up to r in coordinates of 1, over r
+      // the excess of the bound: the rounding of slacks of up to r in coordinates of 1, over r
       EXPECT_GE(support.bound, reach - 4 * epsilon);
       EXPECT_LE(support.bound, reach + 16 * epsilon / r);
     }
@@ -145,7 +145,7 @@ TEST(PotentialShape, EnclosingRadiusOfARoundedBox) {
   EXPECT_EQ(enclosing_radius<2>(shapes::box<2>({1, 1}, {-1, -1}), 0.1, Vector<2>::Zero()), 0);
 }
 
-// ---- what is refused ------------------------------------------------------------------------------------------------
+// ---- refusals -------------------------------------------------------------------------------------------------------
 
 struct BadShape {
   const char* name;

@@ -15,7 +15,7 @@ template <int Dim>
 double distance_to_surface(const PlacedPotential<Dim>& potential, const Vector<Dim>& point,
                            const Vector<Dim>& direction) {
   const double length = direction.norm(), from_centre = (point - potential.centre).norm();
-  // the body lies in the sphere of radius R around its centre; twice that is outside whatever rounding does
+  // the body lies in the sphere of radius R around its centre; twice that is outside at any rounding
   double inside = 0, outside = 2 * (from_centre + potential.reach) / length, t = 0;
   const double blur = rounding * (point.norm() + potential.centre.norm()) / length;
   while (true) {

@@ -55,7 +55,7 @@ bool leaves_open(const HalfSpaces<Dim>& planes, const Vector<Dim>& direction) {
                      [&](const HalfSpace<Dim>& plane) { return plane.normal.dot(direction) <= flat_corner; });
 }
 
-// An open set of planes has a ray along an edge, or, where their normals do not span the space, a whole line.
+// An open set of planes has a ray along an edge, or, if their normals do not span the space, an entire line.
 template <int Dim>
 bool is_open(const HalfSpaces<Dim>& planes) {
   Matrix<Dim> spread = Matrix<Dim>::Zero();
@@ -97,7 +97,7 @@ std::vector<Vector<Dim>> outer_corners(const HalfSpaces<Dim>& planes, double cor
   return corners;
 }
 
-// what the planes and r make by themselves, seen from its least point
+// the body of the planes and r alone, seen from its least point
 template <int Dim>
 PlacedPotential<Dim> planes_alone(const HalfSpaces<Dim>& planes, double corner_radius, const Vector<Dim>& inside,
                                   double reach) {
@@ -183,15 +183,15 @@ std::string describe(const ShapeVerdict& verdict, const PotentialShape<Dim>& sha
     case ShapeProblem::not_finite:
       return "a potential particle has a number that is not finite; state planes, r, k and R as finite numbers";
     case ShapeProblem::corner_radius:
-      return fmt::format("r = {} m is not allowed: the radius of the corners is above 0", shape.corner_radius);
+      return fmt::format("r = {} m is not allowed: the radius of the corners must be above 0", shape.corner_radius);
     case ShapeProblem::sphericity:
-      return fmt::format("k = {} is not allowed: the fraction of the sphere is 0 to 1", shape.sphericity);
+      return fmt::format("k = {} is not allowed: the fraction of the sphere must be 0 to 1", shape.sphericity);
     case ShapeProblem::sphere_radius:
-      return fmt::format("R = {} m is not allowed: the radius of the sphere is above 0", shape.sphere_radius);
+      return fmt::format("R = {} m is not allowed: the radius of the sphere must be above 0", shape.sphere_radius);
     case ShapeProblem::no_planes:
       return fmt::format("k = {} needs planes: state them, or k = 1 for a sphere", shape.sphericity);
     case ShapeProblem::normal_not_unit:
-      return fmt::format("plane {} has a normal of length {}: it is 1", verdict.plane + 1,
+      return fmt::format("plane {} has a normal of length {}: it must be 1", verdict.plane + 1,
                          shape.planes[verdict.plane].normal.norm());
     case ShapeProblem::open:
       return "the planes do not close a region: add the planes that are missing";

@@ -15,15 +15,15 @@ enum class ShapeProblem {
   sphere_radius,           // R is not positive
   no_planes,               // k < 1 needs planes
   normal_not_unit,         // a plane's normal
-  open,                    // the planes leave a direction open, so that no R encloses what they make
+  open,                    // the planes leave a direction open, so that no R encloses the body
   no_inside,               // no point has f < 0
   centre_outside,          // f has an inside, but the sphere's centre lies outside it
-  sphere_does_not_enclose  // R is smaller than what planes and r make
+  sphere_does_not_enclose  // R is smaller than the body of planes and r
 };
 
 struct ShapeVerdict {
   ShapeProblem problem = ShapeProblem::none;
-  int plane = -1;    // the first plane concerned, where one is
+  int plane = -1;    // the first plane concerned, if any
   double least = 0;  // m: for sphere_does_not_enclose an R that does
   bool ok() const { return problem == ShapeProblem::none; }
 };
@@ -31,14 +31,14 @@ struct ShapeVerdict {
 template <int Dim>
 ShapeVerdict check_shape(const PotentialShape<Dim>& shape);
 
-// a sentence that says what is wrong, what is allowed and what to do
+// a sentence with the error, the permitted values and the repair
 template <int Dim>
 std::string describe(const ShapeVerdict& verdict, const PotentialShape<Dim>& shape);
 
-// The radius of the smallest sphere around `centre` that encloses Σ <a_i·x - d_i>² <= r²; infinite where the planes are
-// open, 0 where that set is empty. The farthest point lies near a corner of the planes moved out by r: from each of
-// them |x - centre| is climbed by supports. Right to rounding where each corner's climb ends at its own farthest point,
-// else too small, so that a refusal for its sake is always justified.
+// The radius of the smallest sphere around `centre` that encloses Σ <a_i·x - d_i>² <= r²; infinite if the planes are
+// open, 0 if that set is empty. The farthest point lies near a corner of the planes moved out by r: from each of them
+// |x - centre| is increased by supports. Exact to rounding if the ascent from each corner ends at its own farthest
+// point, else too small, so that a refusal based on it is always justified.
 template <int Dim>
 double enclosing_radius(const HalfSpaces<Dim>& planes, double corner_radius, const Vector<Dim>& centre);
 

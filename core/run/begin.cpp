@@ -40,7 +40,7 @@ Replayed<Dim> replay(const Prepared<Dim>& scene, int stages) {
   return replayed;
 }
 
-// joint properties that nothing has used are this scene's
+// unused joint properties are this scene's
 template <int Dim>
 void take_own_strength(const Replayed<Dim>& replayed, const std::vector<std::string>& own, Schedule& schedule) {
   const std::vector<JointProperties>& properties = replayed.model.properties;
@@ -52,10 +52,10 @@ void take_own_strength(const Replayed<Dim>& replayed, const std::vector<std::str
   if (!schedule.strength_factor.empty()) schedule.strength_factor.resize(properties.size(), 1);
 }
 
-// where a column of this scene stands in the other's rows, or what it holds there instead
+// the index of this scene's column in the other's rows, or the value that replaces it
 struct ColumnSource {
   std::optional<std::size_t> place;
-  std::optional<std::size_t> own;  // the joint properties whose friction it holds
+  std::optional<std::size_t> own;  // the joint properties whose friction it contains
   double value = std::numeric_limits<double>::quiet_NaN();
 };
 
@@ -64,7 +64,7 @@ std::vector<ColumnSource> sources_of(const Prepared<Dim>& scene, const std::vect
                                      const SharedStages& shared) {
   const std::vector<std::string> ours = history_columns(scene);
   const std::vector<double> before = history_row(scene, scene.model, scene.state, 1, 0);
-  std::set<std::string> followed;  // columns of monitors that are the same
+  std::set<std::string> followed;  // columns of identical monitors
   for (const Monitor& m : scene.monitors)
     if (holds(shared.monitors, m.name))
       for (const Column& c : monitor_columns<Dim>({m}))
@@ -75,7 +75,7 @@ std::vector<ColumnSource> sources_of(const Prepared<Dim>& scene, const std::vect
     const auto found = std::ranges::find(theirs, ours[k]);
     if (found != theirs.end() && (k < first || followed.contains(ours[k])))
       sources[k].place = static_cast<std::size_t>(found - theirs.begin());
-    if (k < first) sources[k].value = before[k];  // what no stage of the other changes
+    if (k < first) sources[k].value = before[k];  // not changed by any stage of the other
   }
   for (std::size_t p = 0; p < scene.model.properties.size(); ++p) {
     const std::string& name = scene.model.properties[p].name;
@@ -99,7 +99,7 @@ void rewrite_history(const Prepared<Dim>& scene, const Replayed<Dim>& replayed, 
   history.columns = history_columns(scene);
 }
 
-// what this scene's monitors count from
+// the reference of this scene's monitors
 template <int Dim>
 std::vector<StageEnd<Dim>> ends_wanted(const Prepared<Dim>& scene, const Progress<Dim>& other) {
   std::set<int> wanted;
@@ -110,8 +110,9 @@ std::vector<StageEnd<Dim>> ends_wanted(const Prepared<Dim>& scene, const Progres
     const auto found = std::ranges::find(other.ends, stage, &StageEnd<Dim>::stage);
     if (found == other.ends.end() && stage != other.stage - 1)
       throw BeginError(
-          fmt::format("does not tell where the blocks stood at the end of stage '{}', from which a "
-                      "monitor counts; state that monitor in its scene too, or count from '{}'",
+          fmt::format("does not contain the positions of the blocks at the end of stage '{}', from which a monitor "
+                      "measures; state that "
+                      "monitor in its scene too, or measure from '{}'",
                       scene.stages[stage].name, scene.stages[other.stage - 1].name));
     ends.push_back(found != other.ends.end() ? *found : stage_end(stage, other.state));
   }
@@ -131,7 +132,7 @@ bool fits(const Model<Dim>& model, const State<Dim>& state) {
 template <int Dim>
 Progress<Dim> begin_at_end(const Prepared<Dim>& scene, Progress<Dim> other, const SharedStages& shared) {
   const Replayed<Dim> replayed = replay(scene, other.stage);
-  if (!fits(replayed.model, other.state)) throw BeginError("holds other blocks than this scene makes");
+  if (!fits(replayed.model, other.state)) throw BeginError("has other blocks than this scene");
   other.ends = ends_wanted(scene, other);
   for (const OutputSupport<Dim>& row : output_supports<Dim>)
     if (const std::string wrong =

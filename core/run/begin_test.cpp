@@ -1,4 +1,4 @@
-// A simulation that begins at the end of another: all of it, bit for bit, is that of the whole simulation.
+// A simulation that starts from the end of another equals the complete simulation, bit for bit.
 #include "core/run/begin.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 namespace voussoir {
 namespace {
 
-// A block on a fixed floor; half of it is dug away, then the rest slips.
+// A block on a fixed floor; half of it is excavated, then the rest slips.
 const std::string in_space = R"(
 dimension = 3
 gravity = [2, 0, -10]
@@ -41,12 +41,12 @@ install = ["pin"]
 name = "dig"
 kind = "settle"
 excavate = ["gate"]
-let_off = { share = 0.3, duration_s = 0.1 }
+excavation_forces = { remaining = 0.3, duration_s = 0.1 }
 [[stage]]
 name = "fall"
 kind = "run"
 duration_s = 0.02
-let_off = { share = 0, duration_s = 0.02 }
+excavation_forces = { remaining = 0, duration_s = 0.02 }
 [[monitors]]
 name = "upper"
 quantities = ["displacement", "rotation"]
@@ -61,7 +61,7 @@ Prepared<Dim> scene_of(const std::string& text, int threads = 1) {
   return scene;
 }
 
-// of clocks and frames nothing is asked
+// clocks and frames are not compared
 template <int Dim>
 std::string bits(Progress<Dim> progress) {
   progress.results.seconds = 0;
@@ -82,7 +82,7 @@ Progress<Dim> left_off(Prepared<Dim> scene, int stage) {
   return end.value();
 }
 
-TEST(Begin, InSpaceEveryBitIsThatOfTheWholeSimulation) {
+TEST(Begin, InThreeDimensionsEveryBitIsThatOfTheCompleteSimulation) {
   const Prepared<3> scene = scene_of<3>(in_space);
   Progress<3> whole = initial_progress(scene);
   ASSERT_TRUE(simulate<3>(scene, whole, {}));
@@ -95,8 +95,8 @@ TEST(Begin, InSpaceEveryBitIsThatOfTheWholeSimulation) {
     }
 }
 
-// what no joint uses may differ, and more of it may follow
-TEST(Begin, JointPropertiesThatNothingUsedAreThoseOfTheSceneThatBegins) {
+// unused joint properties may differ, and more may follow
+TEST(Begin, UnusedJointPropertiesAreThoseOfTheNewScene) {
   const auto with = [](const std::string& more) {
     std::string text = in_space;
     return text.insert(text.find(" }]\njoints") + 2, more);

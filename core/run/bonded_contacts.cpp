@@ -7,7 +7,7 @@
 namespace voussoir {
 namespace {
 
-// of the bonds of a contact that are whole
+// of the intact bonds of a contact
 template <int Dim>
 double bonded_area(const Model<Dim>& model, const State<Dim>& state, std::size_t place) {
   const Contact<Dim>& c = state.contacts.list[place];

@@ -1,4 +1,4 @@
-// The most bonds that each contact has had: beside them shows what of the bonded area is left.
+// The largest number of bonds that each contact has had, from which the remaining fraction of the bonded area follows.
 #pragma once
 
 #include <vector>
@@ -13,21 +13,21 @@ struct BondedContact {
   int part_a = 0, part_b = 0;
   int joint = 0;  // of Model::joints, or no_joint
   long long bonds = 0;
-  double area = 0;  // m², of these bonds when all were last seen whole; of a constant stiffness, whose area is never
-                    // computed, 1
+  double area =
+      0;  // m², of these bonds when all were last intact; for a constant stiffness, whose area is never computed, 1
 };
 
 // by (part a, part b)
 struct BondedContacts {
   std::vector<BondedContact> contacts;
-  long long made = 0;  // BondTally::made when they were last looked at
+  long long made = 0;  // BondTally::made at the last update
 };
 
-// Looks at all contacts: bonds that are new are remembered, areas renewed.
+// Updates all contacts: new bonds are recorded, areas renewed.
 template <int Dim>
 void remember_bonds(const Model<Dim>& model, const State<Dim>& state, BondedContacts& bonded);
 
-// the contacts' new parts after an excavation; those that it took out are forgotten
+// the contacts' new parts after an excavation; excavated ones are removed
 template <int Dim>
 void carry(const Excavated<Dim>& moved, BondedContacts& bonded);
 
@@ -37,7 +37,7 @@ struct JointBonds {
   double whole_area = 0, made_area = 0;  // as in BondedContact
 };
 
-// by joint, ascending, of bodies that are there; `bonded` remembers the bonds of this state
+// by joint, ascending, of present bodies; `bonded` has the bonds of this state
 template <int Dim>
 std::vector<JointBonds> bonds_by_joint(const Model<Dim>& model, const State<Dim>& state, const BondedContacts& bonded);
 

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::string_view magic = "VOUSSOIR checkpoint\n";
 constexpr std::uint32_t order_mark = 0x01020304;
-constexpr std::size_t seal_size = 24;  // the text of a fingerprint: "fnv1a64:" and 16 digits
+constexpr std::size_t seal_size = 24;  // the text of a checksum: "fnv1a64:" and 16 digits
 
 // after magic and order mark
 struct Header {
@@ -49,7 +49,7 @@ void require_format(std::uint32_t format) {
                     format, checkpoint_format));
 }
 
-// the bytes between magic and seal, once the seal has proved them whole
+// the bytes between magic and seal, after the seal has been verified
 std::string_view unseal(std::string_view bytes) {
   if (!bytes.starts_with(magic)) throw CheckpointError("is not a checkpoint of this program");
   constexpr std::size_t least = magic.size() + sizeof order_mark + seal_size;
@@ -63,7 +63,7 @@ std::string_view unseal(std::string_view bytes) {
   return content.substr(magic.size() + sizeof mark);
 }
 
-// the header, and what follows it
+// the header, and the bytes after it
 Header read_header(std::string_view& content) {
   Bytes source(content);
   std::istream stream(&source);
@@ -102,7 +102,7 @@ CheckpointRecord checkpoint_record(std::string_view bytes) {
 }
 
 std::uintmax_t checkpoint_size(std::string_view head) {
-  // by hand: nothing has proved these bytes yet, and a library would take memory for any length that they state
+  // by hand: these bytes are not verified yet, and a library would allocate memory for any length that they state
   constexpr std::uint64_t longest_text = 2000;
   std::string_view rest = head;
   const auto take = [&rest]<class T>(T number) {
@@ -113,7 +113,7 @@ std::uintmax_t checkpoint_size(std::string_view head) {
   };
   if (!head.starts_with(magic)) throw CheckpointError("is not a checkpoint of this program");
   rest.remove_prefix(magic.size());
-  if (take(std::uint32_t{}) != order_mark) return head.size();  // the reader says why
+  if (take(std::uint32_t{}) != order_mark) return head.size();  // the reader reports the reason
   require_format(take(std::uint32_t{}));
   take(std::uint32_t{});  // dimension
   take(std::int64_t{});   // step

@@ -1,9 +1,9 @@
-// A checkpoint: the progress of a simulation as one block of bytes that is taken whole or refused.
+// A checkpoint: the progress of a simulation as one block of bytes that is read completely or refused.
 //
 //   "VOUSSOIR checkpoint\n", order mark 0x01020304, format version
 //   dimension, step, scene hash, build, size of the payload
 //   payload: every member of Progress
-//   fingerprint (FNV-1a, 64 bits) of all bytes before it: no change of one byte leaves it as it was
+//   checksum (FNV-1a, 64 bits) of all bytes before it: a change of any byte changes it
 #pragma once
 
 #include <cstdint>
@@ -15,10 +15,10 @@
 
 namespace voussoir {
 
-// grows with every change of what Progress holds
+// incremented with every change of Progress
 inline constexpr int checkpoint_format = 16;
 
-// says what is wrong with the bytes, e.g. "is damaged: …"; the caller adds the file's name
+// the error of the bytes, e.g. "is damaged: …"; the caller adds the file's name
 struct CheckpointError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -33,19 +33,19 @@ struct CheckpointRecord {
 template <int Dim>
 std::string checkpoint_bytes(const Progress<Dim>& progress, const std::string& scene_hash);
 
-// The record alone. Throws CheckpointError for bytes that are no checkpoint, of another format or byte order, cut short
-// or damaged.
+// Only the record. Throws CheckpointError for bytes that are not a checkpoint, of another format or byte order,
+// truncated or damaged.
 CheckpointRecord checkpoint_record(std::string_view bytes);
 
-// The size that a checkpoint must have of which these are the first bytes, at least 4096 of a longer one: what is
-// larger or smaller need not be read. Throws CheckpointError as checkpoint_record does.
+// The size of the checkpoint with these first bytes, at least 4096 of a longer one: a file of another size need not be
+// read. Throws CheckpointError as checkpoint_record does.
 std::uintmax_t checkpoint_size(std::string_view head);
 
 // as checkpoint_record, and refuses another scene's or dimension's progress
 template <int Dim>
 Progress<Dim> read_checkpoint(std::string_view bytes, const std::string& scene_hash);
 
-// what this program writes as its build: version, commit, compiler
+// this program's build: version, commit, compiler
 std::string build_name();
 
 }  // namespace voussoir

@@ -1,5 +1,5 @@
-// Checkpoints: a run that is stopped anywhere and continues from its bytes ends in the same bits; bytes that are not
-// whole are refused.
+// Checkpoints: a run that is stopped anywhere and continues from its bytes ends in the same bits; incomplete bytes are
+// refused.
 #include "core/run/checkpoint.hpp"
 
 #include <gtest/gtest.h>
@@ -36,13 +36,13 @@ StagePlan stage(const std::string& name, std::variant<SettlePlan, RunPlan, Reduc
   return s;
 }
 
-// all that is left at the end but for the clock
+// the complete final state, except the clock
 template <int Dim>
 Progress<Dim> through_bytes(const Progress<Dim>& progress) {
   return read_checkpoint<Dim>(checkpoint_bytes(progress, scene_hash), scene_hash);
 }
 
-// continues until `count` steps were done in all; true: the scene ended before
+// continues until `count` steps were done in total; true: the scene ended before
 template <int Dim>
 bool run_until(const Prepared<Dim>& scene, long long count, Progress<Dim>& progress) {
   Watcher<Dim> watcher;
@@ -50,7 +50,7 @@ bool run_until(const Prepared<Dim>& scene, long long count, Progress<Dim>& progr
   return simulate(scene, progress, watcher);
 }
 
-TEST(Checkpoint, EveryStepMayBeTheLastBeforeAnInterruption) {
+TEST(Checkpoint, MayBeTakenAfterEveryStep) {
   // two stages, so that one of the interruptions falls between them
   StagePlan slide = stage("slide", RunPlan{.duration = 2e-3});
   slide.change.friction = 5 * degree;
@@ -77,7 +77,7 @@ void expect_search_survives(const ReducePlan& plan) {
   const Progress<Dim> whole = simulated(scene);
   EXPECT_TRUE(whole.results.find(plan.searched == Searched::factor ? "factor_of_safety" : "critical_friction"));
 
-  // again and again, at intervals that fit nothing
+  // repeatedly, at arbitrary intervals
   Progress<Dim> progress = initial_progress(scene);
   int interruptions = 0;
   for (long long k = 97; !run_until(scene, k, progress); k += 97) {
@@ -88,7 +88,7 @@ void expect_search_survives(const ReducePlan& plan) {
   EXPECT_TRUE(end_of(progress) == end_of(whole));
 }
 
-TEST(Checkpoint, ASearchForTheCriticalFrictionGoesOn) {
+TEST(Checkpoint, ASearchForTheCriticalFrictionContinues) {
   ReducePlan plan;
   plan.from = 35 * degree;
   plan.to = 27 * degree;
@@ -145,7 +145,7 @@ std::string refusal(const std::string& bytes, const std::string& hash) {
   return "taken";
 }
 
-TEST(Checkpoint, SaysWhatIsWrong) {
+TEST(Checkpoint, ReportsItsError) {
   const std::string bytes = checkpoint_bytes(small_progress(small_scene()), scene_hash);
   EXPECT_EQ(refusal(bytes, scene_hash), "taken");
   EXPECT_NE(refusal(bytes, "fnv1a64:0000000000000000").find("another scene"), std::string::npos);
@@ -158,7 +158,7 @@ TEST(Checkpoint, SaysWhatIsWrong) {
   EXPECT_NE(refusal(turned, scene_hash).find("byte order"), std::string::npos);
 }
 
-TEST(Checkpoint, ItsFirstBytesTellItsSize) {
+TEST(Checkpoint, ItsFirstBytesContainItsSize) {
   const std::string bytes = checkpoint_bytes(small_progress(small_scene()), scene_hash);
   ASSERT_GT(bytes.size(), 4096u);
   EXPECT_EQ(checkpoint_size(bytes.substr(0, 4096)), bytes.size());
@@ -166,7 +166,7 @@ TEST(Checkpoint, ItsFirstBytesTellItsSize) {
   EXPECT_THROW(checkpoint_size(""), CheckpointError);
   for (std::size_t i = 0; i < 120; ++i)
     EXPECT_THROW(checkpoint_size(bytes.substr(0, i)), CheckpointError) << i;
-  // whatever a damaged one states, nothing is allocated for it
+  // for a damaged one nothing is allocated, whatever it states
   for (std::size_t i = 0; i < 200; ++i) {
     std::string damaged = bytes.substr(0, 4096);
     damaged[i] = static_cast<char>(damaged[i] ^ 0xff);
@@ -177,7 +177,7 @@ TEST(Checkpoint, ItsFirstBytesTellItsSize) {
   }
 }
 
-TEST(Checkpoint, TellsWhatItHoldsBeforeItIsRead) {
+TEST(Checkpoint, HasARecordThatIsReadFirst) {
   const CheckpointRecord record = checkpoint_record(checkpoint_bytes(small_progress(small_scene()), scene_hash));
   EXPECT_EQ(record.scene_hash, scene_hash);
   EXPECT_EQ(record.dimension, 2);

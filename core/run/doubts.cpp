@@ -9,13 +9,13 @@
 namespace voussoir {
 namespace {
 
-// what the ledger may leave unexplained, as a fraction of the largest energy, before a run is doubted
+// the unexplained energy, as a fraction of the largest energy, from which a run is doubted
 constexpr double energy_left_open = 0.05;
 
-// the fraction of that energy from which local damping shapes a motion
+// the fraction of that energy from which local damping dominates a motion
 constexpr double much_damped = 0.1;
 
-// the first stage of true motion whose step is longer than impacts allow
+// the first stage of true motion with a step that is too long for impacts
 const StagePlan* long_step(std::span<const StagePlan> stages, const Settings& scene) {
   for (const StagePlan& stage : stages) {
     const Settings in_force = settings_of(stage, scene);
@@ -26,17 +26,18 @@ const StagePlan* long_step(std::span<const StagePlan> stages, const Settings& sc
   return nullptr;
 }
 
-std::string open_balance(const EnergyLedger& e, std::span<const StagePlan> stages, const Settings& scene) {
+std::string open_balance(const EnergyBalance& e, std::span<const StagePlan> stages, const Settings& scene) {
   if (std::abs(e.motion_error) > std::abs(e.contact_error))
-    return "the motion, which only rounding opens: is the time step unstable (time.step_s)?";
+    return "the motion, which should close to rounding: is the time step unstable (time.step_s)?";
   std::string causes;
   if (const StagePlan* stage = long_step(stages, scene))
     causes += fmt::format("; steps are long for impacts (time.fraction = {:g} in stage {})",
                           settings_of(*stage, scene).time.fraction, stage->name);
   if (e.flows[Source::local_damping] > much_damped * e.largest_energy)
     causes += fmt::format(
-        "; local damping took {:.2g} of that energy and holds the motion up, so that little energy is "
-        "left to compare with (damping.local = 0 shows the true motion)",
+        "; local damping removed {:.2g} of that energy and slows the motion, so that little energy remains to compare "
+        "with (damping.local "
+        "= 0 gives the true motion)",
         e.flows[Source::local_damping] / e.largest_energy);
   if (causes.empty())
     causes =
@@ -47,10 +48,10 @@ std::string open_balance(const EnergyLedger& e, std::span<const StagePlan> stage
 
 }  // namespace
 
-std::string doubts_of(const EnergyLedger& energy, std::span<const StagePlan> stages, const Settings& scene) {
+std::string doubts_of(const EnergyBalance& energy, std::span<const StagePlan> stages, const Settings& scene) {
   if (!(energy.relative_error() > energy_left_open)) return {};
   return fmt::format(
-      "the energy ledger does not close: {:.2g} J, {:.2g} of the largest energy of the run, is unexplained, in the "
+      "the energy balance does not close: {:.2g} J, {:.2g} of the largest energy of the run, is unexplained, in the "
       "balance of {}",
       energy.worst_error, energy.relative_error(), open_balance(energy, stages, scene));
 }
@@ -61,9 +62,9 @@ std::vector<std::string> doubts_of_level(std::string_view level, const Results& 
   for (const auto& [name, value] : results.values)
     if (name.ends_with("critical_friction") && value.value < least_promised_angle)
       doubts.push_back(
-          fmt::format("accuracy.level = \"{}\" promises its accuracy of critical angles from {:g} deg on; {} is {:.3g} "
+          fmt::format("accuracy.level = \"{}\" has its accuracy for critical angles above {:g} deg; {} is {:.3g} "
                       "± {:.2g} deg: "
-                      "lower tolerance_deg or step_deg of its stage, or take a finer level",
+                      "lower tolerance_deg or step_deg of its stage, or choose a finer level",
                       level, least_promised_angle, name, value.value, value.error_bar.value_or(0)));
   return doubts;
 }

@@ -1,4 +1,4 @@
-// What of a run is to be doubted: an energy ledger that does not close, an angle below what its level promises.
+// Doubtful results of a run: an energy balance that does not close, an angle below the range of its accuracy level.
 #pragma once
 
 #include <span>
@@ -12,11 +12,11 @@
 
 namespace voussoir {
 
-// A warning with which of the two balances is open and what of the run opens it; empty when the ledger closes.
-// `stages`: those that were begun, under the scene's settings.
-std::string doubts_of(const EnergyLedger& energy, std::span<const StagePlan> stages, const Settings& scene);
+// A warning that names the open one of the two balances and its causes; empty if both close.
+// `stages`: those that were begun, with the scene's settings.
+std::string doubts_of(const EnergyBalance& energy, std::span<const StagePlan> stages, const Settings& scene);
 
-// A warning for each critical angle below those for which an accuracy level, empty for none, keeps its promise.
+// A warning for each critical angle below the range of the accuracy level (empty: none).
 std::vector<std::string> doubts_of_level(std::string_view level, const Results& results);
 
 }  // namespace voussoir

@@ -53,7 +53,7 @@ void turn_round(const Model<Dim>& model, Contact<Dim>& c, std::span<SubContact<D
   }
 }
 
-// the contacts that are left, by their new keys
+// the remaining contacts, by their new keys
 template <int Dim>
 void carry_contacts(const Model<Dim>& before, const Model<Dim>& model, const Excavated<Dim>& moved,
                     const std::vector<Motion<Dim>>& then, const std::vector<Motion<Dim>>& now,

@@ -1,4 +1,4 @@
-// An excavation within a simulation: the model's (excavation.hpp), and what the state makes of it.
+// An excavation within a simulation: the change of the model (excavation.hpp) and of the state.
 #pragma once
 
 #include <string>
@@ -11,9 +11,9 @@
 
 namespace voussoir {
 
-// Takes named regions out of model and state. Bodies that lose parts go on as they moved, and the joints that are left
-// keep forces and histories. With `hold` the forces by which the rock that is gone held the others go on acting as
-// loads, State::loads.relief: every body that is left has the acceleration that it had. Returns what has become of the
+// Removes named regions from model and state. Bodies that lose parts keep their motion, and the remaining joints keep
+// forces and histories. With `hold` the forces by which the excavated rock supported the rest continue to act as loads,
+// State::loads.relief: every remaining body has the same acceleration as before. Returns the mapping of old to new
 // bodies.
 template <int Dim>
 Excavated<Dim> excavate(const std::vector<std::string>& names, const Settings& settings, bool hold, Model<Dim>& model,

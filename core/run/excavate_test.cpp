@@ -1,4 +1,4 @@
-// Regions that a stage takes out, at once or bit by bit.
+// Regions that a stage excavates, suddenly or gradually.
 #include "core/run/excavate.hpp"
 
 #include <gtest/gtest.h>
@@ -66,14 +66,14 @@ double overlap_under(double height) {
   return weight * height / stiffness;
 }
 
-TEST(TakeOut, UntilThenTheRockIsWhole) {
+TEST(Excavation, UntilThenTheRockIsIntact) {
   const Prepared<2> whole = scene_of(wall + gate + top + settle + dig("top\", \"gate", "settle", ""));
   ASSERT_EQ(whole.model.bodies.size(), 3u);
   EXPECT_NEAR(whole.model.bodies[2].mass, 2000 * 6, 1e-9);
-  // the gate goes at the start, and parts the lower block
+  // the gate is excavated at the start, and divides the lower block
   const Prepared<2> parted = scene_of(wall + gate + top + settle + dig("top", "settle", ""));
   EXPECT_EQ(parted.model.bodies.size(), 4u);
-  // without an outline a block goes as a whole
+  // without an outline a block is excavated completely
   const Prepared<2> simple =
       scene_of(wall + gate + settle + dig("gate", "settle", ""), {"excavations.gate.outline=false"});
   const Model<2> dug = apply(simple.model, simple.stages.back().change);
@@ -81,16 +81,16 @@ TEST(TakeOut, UntilThenTheRockIsWhole) {
   EXPECT_TRUE(dug.bodies[2].present);
 }
 
-// what an outline leaves in pieces that are too small goes, too
-TEST(TakeOut, SmallPiecesGo) {
+// remaining pieces that are too small are excavated, too
+TEST(Excavation, SmallPiecesAreExcavated) {
   const Prepared<2> scene =
       scene_of(wall + top + settle + dig("top", "settle", ""), {"slicing.smallest_inscribed_radius=0.3"});
-  ASSERT_EQ(scene.model.bodies.size(), 3u) << "whole until then";
+  ASSERT_EQ(scene.model.bodies.size(), 3u) << "intact until then";
   EXPECT_NEAR(scene.model.bodies[2].mass, 2000 * 6, 1e-9);
   const Model<2> dug = apply(scene.model, scene.stages.back().change);
   EXPECT_FALSE(dug.bodies[2].present) << "half a metre high";
   EXPECT_TRUE(dug.bodies[1].present);
-  // pieces have a limit of their own, for what a stage takes out and for what is gone at the start
+  // pieces have a bound of their own, for excavations by a stage and at the start
   const std::vector<std::string> smaller{"slicing.smallest_inscribed_radius=0.3", "excavations.top.smallest_piece=0.2"};
   const Prepared<2> staged = scene_of(wall + top + settle + dig("top", "settle", ""), smaller);
   EXPECT_TRUE(apply(staged.model, staged.stages.back().change).bodies[2].present);
@@ -98,24 +98,24 @@ TEST(TakeOut, SmallPiecesGo) {
   EXPECT_EQ(scene_of(wall + top + settle, {"slicing.smallest_inscribed_radius=0.3"}).model.bodies.size(), 2u);
 }
 
-// A splinter that an outline cuts off and a body holds is no measure of the steps of Newton's method.
-TEST(TakeOut, SplintersThatAreHeldDoNotHoldBackNewton) {
-  const std::vector<std::string> newton{"damping.statics=newton"};
+// A splinter that an outline cuts off and a body holds does not determine the steps of Newton's method.
+TEST(Excavation, SplintersThatAreHeldDoNotShortenNewtonSteps) {
+  const std::vector<std::string> newton{"statics=newton"};
   const Progress<2> plain = whole_run(scene_of(wall + settle, newton));
-  const Progress<2> outlined = whole_run(
-      scene_of(wall + top + settle + dig("top", "settle", ""),
-               {"damping.statics=newton", "excavations.top.box.min=[-1, 2.9999]", "stage.dig.excavate=[\"top\"]"}));
+  const Progress<2> outlined =
+      whole_run(scene_of(wall + top + settle + dig("top", "settle", ""),
+                         {"statics=newton", "excavations.top.box.min=[-1, 2.9999]", "stage.dig.excavate=[\"top\"]"}));
   EXPECT_GT(plain.state.counters.static_iterations, 0);
-  // as many once more after the splinter is gone
+  // the same number again after the splinter has been removed
   EXPECT_LE(outlined.state.counters.static_iterations, 2 * plain.state.counters.static_iterations + 2);
 }
 
-// Half of the upper block goes: what is left of it has its id, its mass and inertia, and all rise by the stress that is
-// gone over the joints' stiffness.
-TEST(TakeOut, WhatIsLeftIsRenewedAndUnloaded) {
+// Half of the upper block is excavated: the remaining half has its id and its own mass and inertia, and all blocks rise
+// by the removed stress over the joints' stiffness.
+TEST(Excavation, RemainingRockIsUpdatedAndUnloaded) {
   for (const char* statics : {"adaptive", "newton", "local"}) {
     const Prepared<2> scene =
-        scene_of(wall + top + settle + dig("top", "settle", ""), {std::string("damping.statics=") + statics});
+        scene_of(wall + top + settle + dig("top", "settle", ""), {std::string("statics=") + statics});
     const Progress<2> end = whole_run(scene);
     const Model<2> dug = apply(scene.model, scene.stages.back().change);
     ASSERT_EQ(dug.bodies.size(), 3u);
@@ -129,12 +129,13 @@ TEST(TakeOut, WhatIsLeftIsRenewedAndUnloaded) {
 
 // What is let off acts in proportion: elastic beds rise by as much of the whole rise.
 TEST(TakeOut, AShareOfTheForcesGoesOnActing) {
-  const std::string later = "[[stage]]\nname = \"later\"\nkind = \"settle\"\nlet_off = { share = 0, duration_s = 1 }\n";
+  const std::string later =
+      "[[stage]]\nname = \"later\"\nkind = \"settle\"\nexcavation_forces = { remaining = 0, duration_s = 1 }\n";
   for (const char* statics : {"adaptive", "newton", "local"})
     for (const double share : {1.0, 0.4, 0.0}) {
       const std::string first =
-          dig("top", "settle", "let_off = { share = " + std::to_string(share) + ", duration_s = 1 }\n");
-      const std::vector<std::string> how{std::string("damping.statics=") + statics};
+          dig("top", "settle", "excavation_forces = { remaining = " + std::to_string(share) + ", duration_s = 1 }\n");
+      const std::vector<std::string> how{std::string("statics=") + statics};
       const Progress<2> held = whole_run(scene_of(wall + top + settle + first, how));
       const double height = 0.5 + 0.5 * share;
       EXPECT_NEAR(sinks(held, 1), overlap_under(1 + height), 1e-6 * overlap_under(2)) << statics << share;
@@ -146,8 +147,8 @@ TEST(TakeOut, AShareOfTheForcesGoesOnActing) {
     }
 }
 
-// The lower block loses its middle and is two from then on; a push on the upper one has sheared the beds.
-TEST(TakeOut, PiecesAreBodiesAndKeepTheirJointsForces) {
+// The lower block loses its middle and becomes two; a force on the upper one has sheared the beds.
+TEST(Excavation, PiecesAreBodiesAndKeepTheirJointForces) {
   const std::string push = R"(
 [[stage]]
 name = "push"
@@ -162,7 +163,7 @@ force = [{ name = "push", above = ["bed"], force = [3e4, 0] }]
     State<2> state = whole_run(pushed).state;
     Model<2> model = apply(apply(scene.model, scene.stages[0].change), scene.stages[1].change);
     find_forces(model, scene.settings, state);
-    std::vector<Vector<2>> before;  // on the upper block by its contacts, but for that with the middle
+    std::vector<Vector<2>> before;  // on the upper block by its contacts, except that with the middle
     for (const Contact<2>& c : state.contacts.list)
       if (c.touching() && model.parts[c.part_b].body == 2 && std::abs(model.polytope(c.part_a).mass.centroid[0]) > 0.1)
         before.push_back(c.force);
@@ -187,12 +188,12 @@ force = [{ name = "push", above = ["bed"], force = [3e4, 0] }]
       ++found;
     }
     EXPECT_EQ(found, 2);
-    whole_run(scene);  // and comes to rest
+    whole_run(scene);  // and reaches equilibrium
   }
 }
 
-// A block that flies and spins goes on as its matter did.
-TEST(TakeOut, APieceInFlightKeepsItsVelocity) {
+// A piece of a flying, rotating block keeps the motion of its material.
+TEST(Excavation, APieceInFlightKeepsItsVelocity) {
   const std::string text = R"(
 dimension = 2
 density = 2000
@@ -223,15 +224,15 @@ excavate = ["half"]
   const Vector<2> velocity(1 - 3 * arm[1], 2 + 3 * arm[0]);
   const Vector<2> at_dig = Vector<2>(2, 1) + 0.1 * Vector<2>(1, 2) + arm;
   const Vector<2> expected = at_dig + 0.2 * velocity - Vector<2>(1, 1);
-  EXPECT_LT((end.state.bodies.motions[0].displacement - expected).norm(), 1e-2);  // velocities stand half a step behind
+  EXPECT_LT((end.state.bodies.motions[0].displacement - expected).norm(), 1e-2);  // velocities are half a step behind
   EXPECT_LT((end.state.bodies.motions[0].velocity - velocity).norm(), 1e-2);
   EXPECT_NEAR(end.state.bodies.motions[0].angular_momentum[0], 3 * 2000 * 4 * (4 + 4) / 12., 1e-6);
 }
 
-// Neither an interruption nor threads show, in any stage.
-TEST(TakeOut, SurvivesAnInterruption) {
+// Neither an interruption nor threads have an effect, in any stage.
+TEST(Excavation, SurvivesAnInterruption) {
   const std::string text = wall + gate + top + settle +
-                           dig("gate", "run", "duration_s = 0.02\nlet_off = { share = 0.3 }\n") +
+                           dig("gate", "run", "duration_s = 0.02\nexcavation_forces = { remaining = 0.3 }\n") +
                            "[[stage]]\nname = \"rest\"\nkind = \"settle\"\nexcavate = [\"top\"]\n";
   Prepared<2> scene = scene_of(text);
   const Progress<2> whole = whole_run(scene);
@@ -245,8 +246,8 @@ TEST(TakeOut, SurvivesAnInterruption) {
   EXPECT_EQ(whole_run(scene).results.state_hash, whole.results.state_hash);
 }
 
-// Two blocks on a smooth floor pressed together from both sides: what the floor carries is their weight, and what the
-// joint between them does is the stress of the depth, but for a share of the joints' closure over the blocks' size.
+// Two blocks on a smooth floor pressed together from both sides: the floor supports their weight, and the joint between
+// them has the stress of the depth, up to the joints' closure over the blocks' size.
 TEST(InSitu, StressBetweenTwoSidesIsThatOfTheDepth) {
   const std::string text = R"(
 dimension = 2

@@ -19,7 +19,7 @@ bool anything_moves(const Model<Dim>& model) {
                      [](const Body<Dim>& body) { return body.present && !body.immobile(); });
 }
 
-// what a search yields, and the number that people read for a level
+// the result of a search, and the displayed number of a level
 struct SearchedQuantity {
   const char *name, *unit, *found;
   double (*number)(double level);
@@ -37,21 +37,22 @@ void judge(const StageInForce<Dim>& stage, const RunReport& report, bool goal_re
     fail(stage.plan(), Outcome::failed, describe(report.reason) + "; " + report.detail, results);
   else if (!goal_reached)
     fail(stage.plan(), Outcome::incomplete,
-         fmt::format("no equilibrium: {} (unbalanced {:.2g}, wanted {:.2g}){}{}", describe(report.reason),
+         fmt::format("no equilibrium: {} (unbalanced {:.2g}, required {:.2g}){}{}", describe(report.reason),
                      report.unbalanced, stage.settings.equilibrium.unbalanced, report.unreached,
                      and_more(report.detail)),
          results);
 }
 
-// nothing that ties it, and nothing below: before the first step of a stage that would wait for rest
+// a body without connection and without support below, before the first step of a stage that needs equilibrium
 template <int Dim>
 std::optional<StageOutcome> falls_from_begin(const StageInForce<Dim>& stage, const State<Dim>& state,
                                              Results& results) {
   const int body = tied_to_nothing(stage.model, state);
   if (body < 0) return {};
   fail(stage.plan(), Outcome::incomplete,
-       fmt::format("no equilibrium: {} falls free: no chain of near blocks, bolts or linings ties it to a block that "
-                   "is held, and nothing lies below it; fix what should hold it",
+       fmt::format("no equilibrium: {} falls freely: no chain of near blocks, bolts or linings connects it to a fixed "
+                   "block, and there is "
+                   "nothing below it; fix the blocks that should support it",
                    label_of(stage.model, body)),
        results);
   return StageOutcome{describe(StopReason::falls_free), std::numeric_limits<double>::infinity()};
@@ -61,7 +62,8 @@ template <int Dim>
 std::optional<StageOutcome> run_to(const StageInForce<Dim>& stage, const RunGoal& goal, const GravityPlan& gravity,
                                    StopReason wanted, const Watcher<Dim>& watcher, Progress<Dim>& progress) {
   const StagePlan& plan = stage.plan();
-  const RunSchedule schedule{.gravity = gravity, .properties = {}, .water = plan.water, .let_off = plan.let_off};
+  const RunSchedule schedule{
+      .gravity = gravity, .properties = {}, .water = plan.water, .excavation_forces = plan.excavation_forces};
   const RunReport report = run(stage.model, stage.settings, goal, schedule, progress.state, progress.run,
                                record_run(stage, goal.end_time, watcher, progress));
   if (report.reason == StopReason::interrupted) return {};
@@ -113,12 +115,12 @@ StageOutcome judge_search(const ReducePlan& reduction, const ReductionReport& re
   const bool found = report.message.empty();
   if (!found && results.outcome != Outcome::failed)
     fail(stage.plan(), Outcome::incomplete,
-         (report.bracketed ? "the bracket is wider than asked: " : "no bracket: ") + report.message, results);
+         (report.bracketed ? "the bracket is wider than required: " : "no bracket: ") + report.message, results);
   return StageOutcome{found ? sought.found : describe(report.last.reason), report.unbalanced};
 }
 
-// A search has the ends of its trials recorded, the detours with their number; at constant rate, where the trial is
-// the whole stage, all that happens.
+// Of a search the ends of its trials are recorded, detours with their number; at constant rate, with one trial for the
+// stage, all rows and frames.
 template <int Dim>
 std::optional<StageOutcome> execute(const ReducePlan& reduction, const StageInForce<Dim>& stage,
                                     const Watcher<Dim>& watcher, Progress<Dim>& progress) {
@@ -156,14 +158,16 @@ std::optional<StageOutcome> execute_stage(const StageInForce<Dim>& stage, const 
   if (results.outcome != Outcome::done) return StageOutcome{"bolts that cannot be installed"};
   if (!anything_moves(stage.model)) {
     fail(stage.plan(), Outcome::incomplete,
-         "no block is free to move: this stage, or one before it, fixed or removed the last; leave one free, or "
-         "end with the stage before",
+         "no block is free to move: this stage, or one before it, fixed or removed the last one; leave one free, or "
+         "end with the stage "
+         "before",
          results);
     return StageOutcome{"no block is free to move"};
   }
   try {
     return std::visit([&](const auto& plan) { return execute(plan, stage, watcher, progress); }, stage.plan().plan);
-  } catch (const std::logic_error& error) {  // thrown by kernels for input that makes no sense; files fail otherwise
+  } catch (
+      const std::logic_error& error) {  // thrown by kernels for inconsistent input; errors of files have other types
     fail(stage.plan(), Outcome::failed, error.what(), results);
     return StageOutcome{error.what()};
   }

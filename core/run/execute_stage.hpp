@@ -1,4 +1,4 @@
-// Carries out the stage under way: it settles, runs for a time, or searches.
+// Executes the stage under way: it settles, runs for a time, or searches.
 #pragma once
 
 #include <optional>
@@ -15,8 +15,8 @@ struct StageOutcome {
   double unbalanced = -1;  // StageResult::unbalanced
 };
 
-// Continues with the stage under way: its state, its rows and frames, the values that it finds. Nothing: interrupted. A
-// stage that cannot be done ends with the outcome in the results; what was done before it is kept.
+// Continues with the stage under way: its state, its rows and frames, its results. Nothing: interrupted. A stage that
+// cannot be executed ends with the outcome in the results; results of stages before it are kept.
 template <int Dim>
 std::optional<StageOutcome> execute_stage(const StageInForce<Dim>& stage, const Watcher<Dim>& watcher,
                                           Progress<Dim>& progress);

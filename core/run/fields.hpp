@@ -1,5 +1,4 @@
-// The members of everything that Progress holds besides the state (core/model/fields.hpp), and the archive that saves
-// both.
+// The members of all parts of Progress except the state (core/model/fields.hpp), and the archive that saves both.
 #pragma once
 
 #include <cereal/archives/binary.hpp>
@@ -39,7 +38,7 @@ void serialize(Archive& archive, Rotation<3>& r) {
   archive(r.quaternion.coeffs());
 }
 
-// saves and reads what is hashed or saved, in the order of its list
+// saves and reads hashed and saved members, in the order of their list
 template <class Archive>
 struct ArchivedFields {
   Archive& archive;
@@ -170,9 +169,9 @@ void visit_fields(Just<MovedBody> auto& m, auto&& visit) {
 
 void visit_fields(Just<Results> auto& r, auto&& visit) {
   auto& [outcome, message, values, stages, at_last_stable_state, history, bolts_carried, linings_carried, counters,
-         bonds, moved, relief_left, energy, state_hash, warnings, seconds, budget_evaluations] = r;
+         bonds, moved, forces_remaining, energy, state_hash, warnings, seconds, budget_evaluations] = r;
   visit(Saved{}, outcome, message, values, stages, at_last_stable_state, history, bolts_carried, linings_carried,
-        counters, bonds, moved, relief_left, energy, state_hash, warnings, seconds);
+        counters, bonds, moved, forces_remaining, energy, state_hash, warnings, seconds);
   visit(Found{}, budget_evaluations);
 }
 
@@ -198,7 +197,7 @@ void visit_fields(Either<Progress> auto& p, auto&& visit) {
         frames, trial_frames, ends, bonded, results);
 }
 
-// every bit of it: two objects are the same when these are equal
+// all bits of it: two objects are the same if these are equal
 template <class T>
 std::string bytes_of(const T& object) {
   std::ostringstream stream(std::ios::binary);

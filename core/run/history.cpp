@@ -42,7 +42,7 @@ std::vector<Monitor> waters_followed(const Prepared<Dim>& scene) {
   return followed;
 }
 
-// whether some stage searches a factor of safety: then the history has a column for it
+// whether some stage searches for a factor of safety: then the history has a column for it
 template <int Dim>
 bool has_factor(const Prepared<Dim>& scene) {
   return std::ranges::any_of(scene.stages, [](const StagePlan& stage) {
@@ -51,7 +51,7 @@ bool has_factor(const Prepared<Dim>& scene) {
   });
 }
 
-// whether some stage searches by trials that are taken back: then the history has a column for them
+// whether some stage searches by trials that are undone: then the history has a column for them
 template <int Dim>
 bool has_trials(const Prepared<Dim>& scene) {
   return std::any_of(scene.stages.begin(), scene.stages.end(), [](const StagePlan& stage) {
@@ -60,7 +60,7 @@ bool has_trials(const Prepared<Dim>& scene) {
   });
 }
 
-// what divides the strength of the joint properties that are searched; the others' factor is 1
+// the factor of the searched joint properties; the others' factor is 1
 double strength_factor(const Schedule& schedule) {
   const auto searched = std::ranges::find_if(schedule.strength_factor, [](double factor) { return factor != 1; });
   return searched == schedule.strength_factor.end() ? 1 : *searched;

@@ -1,4 +1,4 @@
-// Everything a simulation has done and where it stands: exactly what a checkpoint saves.
+// The complete progress of a simulation: exactly the content of a checkpoint.
 #pragma once
 
 #include <vector>
@@ -24,8 +24,8 @@ struct Progress {
   StageRecord record;                // rows of the stage under way
   double next_frame = 0;             // s
   std::vector<double> frames;        // s: of the frames written
-  std::vector<double> trial_frames;  // of those of trials that were taken back: the trials, counted from 1
-  std::vector<StageEnd<Dim>> ends;   // of those that have ended and from which monitors count
+  std::vector<double> trial_frames;  // of those of undone trials: the trials, counted from 1
+  std::vector<StageEnd<Dim>> ends;   // of stages that have ended and from which monitors measure
   BondedContacts bonded;             // up to here
   Results results;                   // of what has ended
 };

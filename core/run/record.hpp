@@ -1,5 +1,5 @@
-// What of a stage is recorded: rows of the history, frames, reports of progress, stable states, bonds. Each function
-// adds to Progress, and none changes the state.
+// The records of a stage: rows of the history, frames, reports of progress, stable states, bonds. Each function adds to
+// Progress, and none changes the state.
 #pragma once
 
 #include <optional>
@@ -21,7 +21,7 @@ template <int Dim>
 void add_frame(const StageInForce<Dim>& stage, const State<Dim>& state, const Watcher<Dim>& watcher,
                Progress<Dim>& progress);
 
-// of a trial that is taken back
+// of a trial that is undone
 template <int Dim>
 void add_trial_frame(const StageInForce<Dim>& stage, const State<Dim>& state, int trial, const Watcher<Dim>& watcher,
                      Progress<Dim>& progress);
@@ -48,7 +48,7 @@ template <int Dim>
 void note_stable(const StageInForce<Dim>& stage, const State<Dim>& state, Progress<Dim>& progress,
                  std::optional<double> level = {}, const char* unit = "");
 
-// a detail behind others: "; …", or empty
+// a detail after others: "; …", or empty
 std::string and_more(const std::string& detail);
 
 }  // namespace voussoir

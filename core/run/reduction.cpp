@@ -17,24 +17,24 @@ namespace {
 // without a stated displacement, a body that moved by this fraction of its inscribed radius has failed
 constexpr double default_failure_fraction = 0.1;
 
-// the bias of a constant rate goes with this power of it (cases/incline/README.md)
+// the bias of a constant rate is proportional to this power of it (cases/incline/README.md)
 constexpr double bias_power = 2.0 / 3;
 
-// two rates: the slower fall starts this many of the faster's lags above where that failed; one would do on a plane
+// two rates: the slower reduction starts this many lags of the faster above its failure; one would be enough on a plane
 constexpr double nearer_by_lags = 1.5;
 
-// two rates: the trials after the one at rest
+// two rates: the trials after the one to equilibrium
 constexpr int faster_fall = 1, coming_nearer = 2, slower_fall = 3;
 
-// A trial's steps are shared out in rounds, the step limit over these: relaxation has 20,000 steps by default, which is
-// what a column of 1,000 blocks takes to come to rest, then true motion 100,000, then relaxation again. Relaxation is
-// slow where a slope slides far before it rests, for the damping of what flutters as it slides holds up the slide; true
-// motion is slow at the end, for local damping takes nothing from a slide whose forces are nearly in balance. Either
-// begins at rest.
+// A trial's steps are divided into rounds, as fractions of the step limit: relaxation has 20,000 steps by default,
+// enough for the equilibrium of a column of 1,000 blocks, then true motion 100,000, then relaxation again. Relaxation
+// is slow if a slope slides far before equilibrium, because the damping of vibrations slows the slide; true motion is
+// slow at the end, because local damping does not act on a slide with nearly balanced forces. Each round begins with
+// zero velocity.
 constexpr long long relaxation_round = 50, motion_round = 10;
 
-// 1.25 times Richardson's estimate covers what the slower rate leaves open (Roache's grid convergence index, order
-// known), so a quarter of it covers what the extrapolation leaves
+// 1.25 times Richardson's estimate bounds the error of the slower rate (Roache's grid convergence index, order known),
+// so a quarter of the estimate bounds the error of the extrapolation
 constexpr double extrapolation_margin = 0.25;
 
 // An estimate counts if its trial was at a strength within this fraction of it: where the normal force depends on the
@@ -56,18 +56,18 @@ double inscribed_radius(const Body<Dim>& body) {
   return radius;
 }
 
-// What a trial does: it seeks rest at a level, or the friction falls at constant rate from the last stable angle to
+// A trial: equilibrium is sought at a level, or the friction is reduced at constant rate from the last stable angle to
 // this one.
 struct Attempt {
   int number = 0;          // of the trial, from 0
   double target = 0;       // level, rad or 1
-  bool from_base = false;  // it begins at the last stable state, not where the trial before ended
+  bool from_base = false;  // it begins at the last stable state, not at the end of the previous trial
   bool falls = false;
-  double rate = 0;  // rad/s, of a fall
+  double rate = 0;  // rad/s, of a reduction
 };
 
-// The ways of searching stand at the end, each in one place. A way goes through its trials by their numbers, so that an
-// interrupted search, called again with its progress, continues in the trial that was under way.
+// The search methods are at the end, each in one place. A method runs its trials by number, so that an interrupted
+// search, called again with its progress, continues in the trial that was under way.
 template <int Dim>
 struct Search {
   const Model<Dim>& model;
@@ -84,7 +84,7 @@ struct Search {
 
   // ---- one trial ----------------------------------------------------------------------------------------------------
 
-  // the work done since is not forgotten
+  // the counters of work since then are kept
   void go_back_to_base() {
     const Counters spent = state.counters;
     state = progress.base;
@@ -106,8 +106,8 @@ struct Search {
       progress.time_limit = state.schedule.time + (progress.stable - attempt.target) / attempt.rate;
       return;
     }
-    // strength falls gently to the trial's level: dropped at once, it would set the model in motion, and slip that
-    // inertia causes wipes out the shear that settlement has locked in
+    // strength is reduced gradually to the trial's level: a sudden change would set the model in motion, and slip due
+    // to inertia would destroy the shear locked in during settlement
     progress.level_from = level_in_force();
     progress.level_rate = 0;
     const double ramp = static_cast<double>(plan.ramp_steps) * state.time_step.length;
@@ -211,8 +211,8 @@ struct Search {
     return schedule.strength_factor.empty() ? 1 : schedule.strength_factor[properties.front()];
   }
 
-  // relaxation and true motion take turns
-  bool relaxes_first(const Attempt& attempt) const { return relaxes(!attempt.falls, settings.damping); }
+  // relaxation and true motion alternate
+  bool relaxes_first(const Attempt& attempt) const { return relaxes(!attempt.falls, settings.statics); }
   long long round() const {
     return std::max(1LL, plan.step_limit / (progress.true_motion ? motion_round : relaxation_round));
   }
@@ -244,13 +244,13 @@ struct Search {
                                .strength_to = progress.target,
                                .properties = properties};
     Settings own = settings;
-    if (progress.true_motion) own.damping.statics = Statics::local;
+    if (progress.true_motion) own.statics.method = Statics::local;
     report.last = run(model, own, goal, schedule, state, progress.run, hooks, watches() ? &progress.watch : nullptr);
     report.unbalanced = report.last.unbalanced;
     return trial_of(report.last.reason);
   }
 
-  // the level that the trial has come to
+  // the level that the trial has reached
   double level_of(const Attempt& attempt) const { return attempt.falls ? level_in_force() : attempt.target; }
 
   // nothing: interrupted, or a numerical failure
@@ -266,7 +266,7 @@ struct Search {
     return {};
   }
 
-  // Stable or failed, and the bracket drawn up to it; nothing: the search is over.
+  // Stable or failed, and the bracket is updated; nothing: the search is over.
   std::optional<SearchTrial> decide(const Attempt& attempt) {
     const std::optional<SearchTrial> outcome = carry_out(attempt);
     if (!outcome) return {};
@@ -325,8 +325,8 @@ struct Search {
     close(0.5 * (progress.stable + progress.failed), 0.5 * bracket());
   }
 
-  // The body that is farthest from where the search began, as a clause: what an undecided trial shows. The trial ended
-  // in true motion, so the velocity is one.
+  // The body that has moved farthest since the search began, as a clause, for an undecided trial. The trial ended in
+  // true motion, so the velocity is meaningful.
   std::string farthest_mover() const {
     int body = -1;
     double most = 0;
@@ -341,25 +341,25 @@ struct Search {
     const double away = velocity.dot(state.bodies.motions[body].displacement - progress.begin[body]) / most;
     return fmt::format("{} has moved by {:.3g} m of the {:.3g} m that are failure and {} at {:.2g} m/s",
                        label_of(model, body), most, failure_displacement,
-                       away > 0.5 * velocity.norm() ? "creeps on" : "swings", velocity.norm());
+                       away > 0.5 * velocity.norm() ? "creeps" : "oscillates", velocity.norm());
   }
 
-  // what a trial that neither came to rest nor failed leaves of the search
+  // the result of a search after an undecided trial
   void give_up_undecided(const Attempt& attempt, double level) {
     if (attempt.falls) {
       report.message = fmt::format("no failure {} to {} ({}), stable at {}", levels.towards, levels.text(level),
                                    describe(report.last.reason), levels.text(progress.stable));
       return;
     }
-    report.message =
-        fmt::format("neither rest nor failure at {} within {} steps (unbalanced {:.2g}){}: {}", levels.text(level),
-                    progress.trial_steps, report.last.unbalanced, report.last.unreached, farthest_mover());
+    report.message = fmt::format("neither equilibrium nor failure at {} within {} steps (unbalanced {:.2g}){}: {}",
+                                 levels.text(level), progress.trial_steps, report.last.unbalanced,
+                                 report.last.unreached, farthest_mover());
     if (attempt.number == 0) {
       report.message += fmt::format("; neither a stable nor a failed {} is known", levels.one);
       return;
     }
     report.message += fmt::format("; stable at {}, ", levels.text(progress.stable));
-    // of the ways that continue to seek rest only a bisection knows a failed level, from its second trial on
+    // of the methods that seek equilibrium only bisection knows a failed level, from its second trial on
     if (plan.method != ReductionMethod::bisection || attempt.number == 1) {
       report.message += fmt::format("no failed {} is known", levels.one);
       return;
@@ -377,13 +377,13 @@ struct Search {
     return fmt::format("failed: bodies of {:g} of the free mass moved more than {:.3g} m", plan.failure_fraction,
                        failure_displacement);
   }
-  // what the error bar, a bracket, leaves out
+  // errors outside the error bar, which is a bracket
   std::string newton_rule() const {
-    if (settings.damping.statics != Statics::newton) return "";
+    if (settings.statics.method != Statics::newton) return "";
     return fmt::format(
-        "; by Newton's method in {} increment{} a trial: what slip along the chords of increments "
-        "changes is not in the error bar",
-        settings.damping.increments, settings.damping.increments == 1 ? "" : "s");
+        "; by Newton's method in {} increment{} per trial: the error due to slip integrated in large increments is not "
+        "in the error bar",
+        settings.statics.increments, settings.statics.increments == 1 ? "" : "s");
   }
 
   std::string stable_and_failed_rule() const {
@@ -423,7 +423,7 @@ struct Search {
       close(critical, fit->of_three ? from_bracket : std::min(2 * change, from_bracket));
     }
   }
-  // half way, or where no trial decides the level there, half way from it to the farther end
+  // half way, or if no trial decides the level there, half way from it to the farther end
   double next_level() {
     if (const std::optional<double> level = level_by_estimate(); level && !progress.avoids) return *level;
     const double below = progress.undecided - progress.stable, above = progress.failed - progress.undecided;
@@ -439,7 +439,8 @@ struct Search {
     return rule;
   }
 
-  // ---- steps: from rest to rest until one fails ---------------------------------------------------------------------
+  // ---- steps: from equilibrium to equilibrium until one fails
+  // ---------------------------------------------------------------------
 
   void go_by_steps() {
     for (int n = progress.trial;; ++n) {
@@ -453,9 +454,10 @@ struct Search {
     return fmt::format("steps of {:.4g}{}; ", levels.step / levels.unit, levels.symbol) + stable_and_failed_rule();
   }
 
-  // ---- rate: one fall from rest -------------------------------------------------------------------------------------
+  // ---- rate: one reduction from equilibrium
+  // -------------------------------------------------------------------------------------
 
-  // how far too low an angle a rate can find on a plane, rad; 0 where nothing pulls
+  // bias of the angle found at a rate on a plane, rad; 0 if there is no gravity
   double largest_lag(double rate) const {
     const double g = model.gravity.norm() * (1 - settings.damping.local);
     return g > 0 ? std::cbrt(6 * failure_displacement * rate * rate / g) : 0;
@@ -471,7 +473,7 @@ struct Search {
            failed_rule();
   }
 
-  // ---- two rates: fall, come to rest nearer to where the first fall began to move, fall from there
+  // ---- two rates: reduction, equilibrium closer to failure, second reduction from there
   // -------------------
 
   void fall_at_two_rates() {
@@ -484,7 +486,7 @@ struct Search {
     if (fall(slower_fall, plan.slower_rate)) extrapolate();
   }
 
-  // where there is no rest, the slower fall begins where the faster did; false: the search is over
+  // without equilibrium the slower reduction starts where the faster did; false: the search is over
   bool come_nearer() {
     const double friction = std::min(plan.from, progress.failed_faster + nearer_by_lags * largest_lag(plan.rate));
     const std::optional<SearchTrial> outcome =
@@ -495,7 +497,7 @@ struct Search {
     return true;
   }
 
-  // to the angle at no rate at all
+  // to the angle at zero rate
   void extrapolate() {
     const double growth = std::pow(plan.rate / plan.slower_rate, bias_power) - 1;
     const double bias = (progress.failed - progress.failed_faster) / growth;
@@ -590,7 +592,8 @@ ReductionReport reduce(const Model<Dim>& model, const Settings& settings, const 
   search.failure_displacement = failure_displacement_of(model, plan);
   ReductionReport& report = search.report;
   if (plan.searched == Searched::factor && of_rates(plan.method)) {
-    report.message = "a factor of safety is searched by bisection or in steps: how late a rate finds it is not known";
+    report.message =
+        "a factor of safety is searched by bisection or in steps: the delay of failure at a finite rate is not known";
     return report;
   }
   search.search();

@@ -1,5 +1,5 @@
-// Strength reduction: the friction angle at which a model loses its equilibrium, or its factor of
-// safety: what tan φ and cohesion of its joints must be divided by until it does. Either is called a level here.
+// Strength reduction: the friction angle at which a model loses its equilibrium, or its factor of safety, the divisor
+// of tan φ and cohesion of its joints at which it does. Both are called a level here.
 #pragma once
 
 #include <functional>
@@ -18,28 +18,28 @@ struct ReductionReport {
   bool bracketed = false;         // both a stable and a failed level are known; `critical` lies between
   double stable = 0, failed = 0;  // rad or 1: the stable one nearest to failure, the failed one nearest to stability
   double critical = 0;            // same unit
-  double error_bar = 0;           // same unit: what the search leaves open
+  double error_bar = 0;           // same unit: of the search
   double bracket = 0;             // same unit: half of it; 0 of searches at a rate
   CriticalBy by = CriticalBy::bracket;
-  std::string rule;        // the sign of failure
-  std::string message;     // why there is no answer, or none within the tolerance; empty: the search is complete
+  std::string rule;        // the criterion of failure
+  std::string message;     // why there is no result, or none within the tolerance; empty: the search is complete
   RunReport last;          // the last run
-  double unbalanced = -1;  // the equilibrium measure of the state that is left; negative where no rest was sought
+  double unbalanced = -1;  // the equilibrium measure of the final state; negative if no equilibrium was sought
 };
 
-// Where a search stands: with it an interrupted one continues as if nothing had happened.
+// The progress of a search: with it an interrupted one continues as if nothing had happened.
 template <int Dim>
 struct ReductionProgress {
   int trial = 0;                          // from 0, which is the start at `from`
   double target = 0;                      // level of the trial under way, rad or 1
-  double level_from = 0, level_rate = 0;  // how it gets there; the rate, 1/s, is positive
+  double level_from = 0, level_rate = 0;  // start and rate of its change; the rate, 1/s, is positive
   double time_limit = 0;                  // s, constant rate: when the angle reaches `to`
   double stable = 0, failed = 0;          // the bracket so far
   double failed_faster = 0;               // rad, two rates: found at the faster
   double unbalanced = -1;                 // the equilibrium measure of the last stable state
-  bool true_motion = false;               // whose turn it is in the trial: true motion's or relaxation's
-  long long trial_steps = 0;              // of the trial up to this turn
-  bool avoids = false;                    // a bisection has met a level that no trial decides,
+  bool true_motion = false;               // the method of the present round: true motion, or relaxation
+  long long trial_steps = 0;              // of the trial up to this round
+  bool avoids = false;                    // a bisection has found a level that no trial decides,
   double undecided = 0;                   // this one
   RunProgress<Dim> run;                   // of the trial under way
   std::vector<Vector<Dim>> begin;         // m: displacements when the search began
@@ -51,43 +51,43 @@ struct ReductionProgress {
   bool turned = false;  // bodies of the last failed trial turned
 };
 
-// Whether a trial, counted from 0, is a detour: what it did is taken back, or was only to show that it fails. The
-// others are the path to the answer, whose time never goes back.
+// Whether a trial, counted from 0, is a detour: its effects are undone, or it only shows failure. The others are the
+// path to the result, whose time never goes back.
 bool is_detour(ReductionMethod method, int trial, SearchTrial outcome);
 
-// what happened at a level; called at the end of each trial, with the state it left
+// the outcome at a level; called at the end of each trial, with its final state
 template <int Dim>
 using TrialHook = std::function<void(const State<Dim>&, double level, SearchTrial outcome)>;
 
-// the joint properties whose strength a plan lowers: places in Model::properties, ascending
+// the joint properties whose strength a plan reduces: indices in Model::properties, ascending
 template <int Dim>
 std::vector<int> chosen_properties(const Model<Dim>& model, const ReducePlan& plan);
 
-// m: how far a block must have moved to have failed: as the plan states, or a tenth of the smallest inscribed radius
+// m: the displacement at which a block has failed: as the plan states, or a tenth of the smallest inscribed radius
 template <int Dim>
 double failure_displacement_of(const Model<Dim>& model, const ReducePlan& plan);
 
-// Lowers the friction of the plan's joint properties from `from` towards `to`, or raises the factor that divides their
-// tan φ and cohesion; a bonded joint then carries cA/F + tan φ/F · Fn, its tensile strength stays. A factor is searched
-// by bisection or in steps only: with another method the report's message says so.
+// Reduces the friction of the plan's joint properties from `from` towards `to`, or increases the factor that divides
+// their tan φ and cohesion; a bonded joint then supports cA/F + tan φ/F · Fn, its tensile strength is unchanged. A
+// factor is searched by bisection or in steps only: with another method the report's message states this.
 //   bisection  every trial starts from the last stable state; ends with a bracket within the tolerance
 //   steps      each step runs to equilibrium (thesis, Method B); ends at the first that does not
 //   rate       constant rate (Method A); ends when a body has moved by the failure displacement. The angle found is
 //              too low by (6 X cos θ r² / ((1-α) g))^(1/3) on a plane of dip θ: the error bar takes cos θ = 1
-//   two_rates  the same at two rates from one path of equilibria, the slower beginning nearer to where the faster
-//              failed. Since the bias goes with r^(2/3), the two tell how large it is at the slower and what is left
-//              without it. The error bar is a quarter of that correction: the margin of a grid convergence index whose
-//              order is known. It is not, where the joints soften
-// Trials to rest have failed where a body has moved by the failure displacement since the search began, however many
-// trials it took: counted from each trial's own beginning, a slope that yields a little in each would seem the stronger
-// the smaller the steps. A fall at constant rate counts from its beginning. In a trial that relaxation cannot decide,
-// true motion under local damping and relaxation take turns: near the critical angle what slides flutters, and critical
-// damping of the flutter holds up the slide, while local damping does not end a slide whose forces are nearly in
-// balance. Afterwards the state is the last stable one (rates: the failed one). Where a fraction of the free mass must
-// have moved, bodies that have moved so far without being it are left behind: rest is that of the others. Where a trial
-// of a bisection stays undecided, the bracket is closed around its level from both sides; at a second such level it
-// ends, with the bracket that it has and a message. A search that the hooks interrupted (`last.reason`) continues when
-// it is called again with its progress.
+//   two_rates  the same at two rates from one path of equilibria, the slower starting closer to the failure of the
+//   faster. Since the bias
+// is proportional to r^(2/3), the two give its size at the slower and the result without it. The error bar is a quarter
+// of that correction: the margin of a grid convergence index of known order. The order is not known if the joints
+// soften Trials to equilibrium have failed if a body has moved by the failure displacement since the search began, in
+// any number of trials: measured from each trial's own start, a slope that yields a little in each would seem the
+// stronger the smaller the steps. A reduction at constant rate measures from its start. In a trial that relaxation
+// cannot decide, true motion under local damping and relaxation alternate: near the critical angle sliding blocks
+// vibrate, and critical damping of the vibration slows the slide, while local damping does not end a slide with nearly
+// balanced forces. Afterwards the state is the last stable one (rates: the failed one). If a fraction of the free mass
+// must have moved, bodies that have moved that far without reaching it are left behind: equilibrium is that of the
+// others. If a trial of a bisection stays undecided, the bracket is closed around its level from both sides; at a
+// second such level the search ends, with its present bracket and a message. A search that the hooks interrupted
+// (`last.reason`) continues when it is called again with its progress.
 template <int Dim>
 ReductionReport reduce(const Model<Dim>& model, const Settings& settings, const ReducePlan& plan, State<Dim>& state,
                        ReductionProgress<Dim>& progress, const RunHooks<Dim>& hooks = {},

@@ -15,7 +15,7 @@ using shapes::block_on_plate;
 using shapes::gravity;
 using shapes::index_of;
 
-// the bias formula is the leading term in an angle of 0.05 rad
+// the bias formula is the leading term for an angle of 0.05 rad
 constexpr double bias_tolerance = 0.01;
 
 ReductionReport reduce_from_scratch(const Model<2>& model, const ReducePlan& plan, State<2>& state) {
@@ -45,8 +45,8 @@ TEST(Reduction, ABlockOnASlopeFailsAtTheSlopesAngle) {
   }
 }
 
-// What has moved since the search began counts in every trial, whichever trial it was that moved it.
-TEST(Reduction, CountsWhatHasMovedSinceTheSearchBegan) {
+// Displacement since the search began counts in every trial, in whichever trial it occurred.
+TEST(Reduction, CountsDisplacementSinceTheSearchBegan) {
   const double slope = 30 * degree;
   const Model<2> model = block_on_plate<2>(slope, 40 * degree);
   ReducePlan plan;
@@ -60,9 +60,9 @@ TEST(Reduction, CountsWhatHasMovedSinceTheSearchBegan) {
   ASSERT_TRUE(reduce<2>(model, {}, plan, state, progress).bracketed);
   ASSERT_EQ(progress.begin.size(), model.bodies.size());
   for (const Vector<2>& begin : progress.begin)
-    EXPECT_EQ(begin, Vector<2>::Zero()) << "no trial moves the beginning";
+    EXPECT_EQ(begin, Vector<2>::Zero()) << "no trial changes the reference";
 
-  // a search that has moved the block by 0.2 m when a trial begins: the trial fails at once
+  // a search that has moved the block by 0.2 m when a trial begins: the trial fails immediately
   state = initial_state(model);
   progress = {};
   progress.begin.assign(model.bodies.size(), Vector<2>(0.2, 0));
@@ -74,7 +74,7 @@ TEST(Reduction, CountsWhatHasMovedSinceTheSearchBegan) {
 TEST(Reduction, AtConstantRateTheBiasIsTheOnePredicted) {
   const double slope = 30 * degree;
   Model<2> model = block_on_plate<2>(slope, 40 * degree);
-  model.bodies[index_of(model, "block")].free_rotation.fill(false);  // rocking would mix in
+  model.bodies[index_of(model, "block")].free_rotation.fill(false);  // without rocking
   State<2> state = initial_state(model);
   ReducePlan plan;
   plan.method = ReductionMethod::rate;
@@ -88,8 +88,8 @@ TEST(Reduction, AtConstantRateTheBiasIsTheOnePredicted) {
   EXPECT_NEAR(slope - report.critical, bias, bias_tolerance * bias);
 }
 
-// the lag of each rate is some degrees, what the extrapolation leaves a hundredth of that
-TEST(Reduction, TwoRatesTellWhatNoRateWouldFind) {
+// the lag of each rate is a few degrees, the error of the extrapolation a hundredth of that
+TEST(Reduction, TwoRatesExtrapolateToZeroRate) {
   const double slope = 30 * degree;
   Model<2> model = block_on_plate<2>(slope, 40 * degree);
   model.bodies[index_of(model, "block")].free_rotation.fill(false);
@@ -110,8 +110,7 @@ TEST(Reduction, TwoRatesTellWhatNoRateWouldFind) {
   EXPECT_NEAR(report.error_bar, 0.25 * (report.critical - report.failed), 1e-12);
 }
 
-// Steps that suffice far from the critical angle, not near it: what is known then is the answer, with the bar that is
-// left.
+// Steps that suffice far from the critical angle, but not near it: the result is the bracket known so far.
 TEST(Reduction, ATrialThatStaysUndecidedLeavesTheBracketKnownSoFar) {
   const double slope = 30 * degree;
   const Model<2> model = block_on_plate<2>(slope, 40 * degree);
@@ -128,10 +127,10 @@ TEST(Reduction, ATrialThatStaysUndecidedLeavesTheBracketKnownSoFar) {
   EXPECT_EQ(report.error_bar, 0.5 * (report.stable - report.failed));
   EXPECT_GT(report.error_bar, plan.tolerance);
   EXPECT_NEAR(report.critical, slope, report.error_bar);
-  for (const char* part : {"neither rest nor failure at", "within 3000 steps", "unbalanced", "block) has moved by",
-                           "m/s", "stable at", "failed at"})
+  for (const char* part : {"neither equilibrium nor failure at", "within 3000 steps", "unbalanced",
+                           "block) has moved by", "m/s", "stable at", "failed at"})
     EXPECT_NE(report.message.find(part), std::string::npos) << part << ": " << report.message;
-  EXPECT_NE(report.rule.find("neither rest nor failure"), std::string::npos) << report.rule;
+  EXPECT_NE(report.rule.find("neither equilibrium nor failure"), std::string::npos) << report.rule;
 
   // the simulation has the value and is incomplete
   Prepared<2> scene;
@@ -143,14 +142,15 @@ TEST(Reduction, ATrialThatStaysUndecidedLeavesTheBracketKnownSoFar) {
   Progress<2> progress = initial_progress(scene);
   ASSERT_TRUE(simulate(scene, progress, {}));
   EXPECT_EQ(progress.results.outcome, Outcome::incomplete);
-  EXPECT_NE(progress.results.message.find("neither rest nor failure"), std::string::npos) << progress.results.message;
+  EXPECT_NE(progress.results.message.find("neither equilibrium nor failure"), std::string::npos)
+      << progress.results.message;
   const Value* found = progress.results.find("critical_friction");
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->value, report.critical / degree, 1e-12);
   EXPECT_NEAR(*found->error_bar, report.error_bar / degree, 1e-12);
 }
 
-// One level alone that is not decided: the bracket closes around it from both sides.
+// One undecided level only: the bracket closes around it from both sides.
 TEST(Reduction, ALevelThatNoTrialDecidesIsAvoided) {
   const double slope = 30 * degree;
   const Model<2> model = block_on_plate<2>(slope, 40 * degree);
@@ -183,8 +183,8 @@ TEST(Reduction, ALevelThatNoTrialDecidesIsAvoided) {
   }
 }
 
-// A trial that relaxation cannot decide: true motion and relaxation take turns until its steps are used up.
-TEST(Reduction, RelaxationAndTrueMotionTakeTurns) {
+// A trial that relaxation cannot decide: true motion and relaxation alternate until its steps are used up.
+TEST(Reduction, RelaxationAndTrueMotionAlternate) {
   const Model<2> model = block_on_plate<2>(30 * degree, 40 * degree);
   ReducePlan plan;
   plan.from = 35 * degree;
@@ -210,7 +210,7 @@ TEST(Reduction, RelaxationAndTrueMotionTakeTurns) {
   EXPECT_EQ(progress.trial_steps, plan.step_limit);
 }
 
-TEST(Reduction, WithOneSideKnownItSaysWhichOne) {
+TEST(Reduction, WithOneSideKnownItReportsThatOne) {
   const Model<2> model = block_on_plate<2>(30 * degree, 40 * degree);
   ReducePlan plan;
   plan.from = 35 * degree;
@@ -235,7 +235,7 @@ ReducePlan factor_plan(ReductionMethod method, double from, double to) {
   return plan;
 }
 
-// on a plane it is the ratio of the tangents, wherever the search begins
+// on a plane it is the ratio of the tangents, for any start of the search
 TEST(FactorOfSafety, OfABlockOnASlopeIsTheRatioOfTheTangents) {
   const Model<2> model = block_on_plate<2>(30 * degree, 40 * degree);
   const double exact = std::tan(40 * degree) / std::tan(30 * degree);
@@ -252,7 +252,7 @@ TEST(FactorOfSafety, OfABlockOnASlopeIsTheRatioOfTheTangents) {
     }
 }
 
-// A bonded joint carries (c A + tan φ N)/F. Too weak for its own slope, it is only stable where the search begins.
+// A bonded joint supports (c A + tan φ N)/F. Too weak for its own slope, it is only stable at the start of the search.
 TEST(FactorOfSafety, DividesTheCohesionOfABondToo) {
   const double slope = 30 * degree, weight = shapes::density * 0.5 * gravity;
   Model<2> model = block_on_plate<2>(slope, 15 * degree);
@@ -284,7 +284,7 @@ TEST(FactorOfSafety, DividesTheCohesionOfABondToo) {
   }
 }
 
-TEST(FactorOfSafety, SaysWhenTheSearchIsInTheWrongPlace) {
+TEST(FactorOfSafety, ReportsASearchInTheWrongRange) {
   const Model<2> model = block_on_plate<2>(30 * degree, 40 * degree);
   const auto message = [&](const ReducePlan& plan) {
     State<2> state = initial_state(model);
@@ -300,11 +300,11 @@ TEST(FactorOfSafety, SaysWhenTheSearchIsInTheWrongPlace) {
   EXPECT_NE(rate.find("by bisection or in steps"), std::string::npos) << rate;
 }
 
-// ---- a loose stone --------------------------------------------------------------------------------------------------
+// ---- a loose block --------------------------------------------------------------------------------------------------
 
-// A block on a slope of 20 degrees, and a stone of 4 % of the free mass on one of 40, which slides down and falls: with
-// a fraction of the mass it ends neither the search nor the rest of a trial.
-TEST(Reduction, ALooseStoneEndsNoSearchByFraction) {
+// A block on a slope of 20 degrees, and a loose one of 4 % of the free mass on a slope of 40, which slides down and
+// falls: with a fraction of the mass it prevents neither the search nor the equilibrium of a trial.
+TEST(Reduction, ALooseBlockDoesNotEndASearchByFraction) {
   const Matrix<2> steep = matrix(Rotation<2>{40 * degree}), gentle = matrix(Rotation<2>{20 * degree});
   const auto turned_box = [](const Vector<2>& low, const Vector<2>& high, const Matrix<2>& turn, double x) {
     return shapes::placed<2>(shapes::box<2>(low, high), turn, Vector<2>(x, 0));
@@ -322,7 +322,7 @@ TEST(Reduction, ALooseStoneEndsNoSearchByFraction) {
   plan.failure_displacement = 0.01;
   for (const Statics statics : {Statics::adaptive, Statics::local, Statics::newton}) {
     Settings settings;
-    settings.damping.statics = statics;
+    settings.statics.method = statics;
     for (const auto& [fraction, critical] : {std::pair(0.0, 40.0), {0.03, 40.0}, {0.1, 20.0}, {1.0, 20.0}}) {
       plan.failure_fraction = fraction;
       State<2> state = initial_state(model);
@@ -336,7 +336,7 @@ TEST(Reduction, ALooseStoneEndsNoSearchByFraction) {
   }
 }
 
-TEST(Reduction, SaysWhenTheSearchIsInTheWrongPlace) {
+TEST(Reduction, ReportsASearchInTheWrongRange) {
   Model<2> model = block_on_plate<2>(30 * degree, 40 * degree);
   ReducePlan plan;
   plan.from = 25 * degree;

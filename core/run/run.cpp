@@ -20,23 +20,24 @@
 namespace voussoir {
 namespace {
 
-// steps between two looks for bodies that fall free; a look costs less than a step
+// steps between two checks for freely falling bodies; a check costs less than a step
 constexpr long long steps_between_falls = 100;
 
-// Steps of a relaxation until Newton's method on the joints tries its increment, and again after each so many more.
-// What relaxation has not found by then is a motion too soft for it: its steps grow with the root of stiff over soft.
+// Steps of a relaxation before the implicit static solver tries its increment, and again after the same number of
+// further steps. An equilibrium not found by then involves a mode too soft for relaxation, whose steps grow with the
+// root of the stiffness ratio.
 constexpr long long steps_until_newton = 80'000;
 
 constexpr double never = std::numeric_limits<double>::infinity();  // s
 
-// sets the scheduled values to those of the time of the positions; true while they still change
+// sets the scheduled values to those at the time of the positions; true while they still change
 template <int Dim>
 bool follow(const Model<Dim>& model, const RunSchedule& plan, Schedule& schedule,
             std::vector<ReliefLoad<Dim>>& relief) {
   const double began = schedule.started, elapsed = schedule.time - began;
   bool changing = false;
   if (plan.gravity.ramp > 0) {
-    // the sum, not the difference, is what a stage that ends with its ramp reaches exactly
+    // the sum, not the difference, is reached exactly by a stage that ends with its ramp
     const double fraction = schedule.time >= began + plan.gravity.ramp ? 1 : elapsed / plan.gravity.ramp;
     const double from = plan.gravity.from;
     schedule.gravity_factor = from + (plan.gravity.to.value_or(1) - from) * fraction;
@@ -58,10 +59,11 @@ bool follow(const Model<Dim>& model, const RunSchedule& plan, Schedule& schedule
       numbers[k] = fraction < 1 ? water.from[k] + (water.to[k] - water.from[k]) * fraction : water.to[k];
     changing = changing || fraction < 1;
   }
-  if (plan.let_off && !relief.empty()) {
-    const double fraction = schedule.time >= began + plan.let_off->duration ? 1 : elapsed / plan.let_off->duration;
+  if (plan.excavation_forces && !relief.empty()) {
+    const double fraction =
+        schedule.time >= began + plan.excavation_forces->duration ? 1 : elapsed / plan.excavation_forces->duration;
     for (ReliefLoad<Dim>& held : relief)
-      held.share = held.begun + (std::min(held.begun, plan.let_off->share) - held.begun) * fraction;
+      held.share = held.begun + (std::min(held.begun, plan.excavation_forces->remaining) - held.begun) * fraction;
     changing = changing || fraction < 1;
   }
   return changing;
@@ -86,11 +88,11 @@ bool has_moved_by_own_measure(const Model<Dim>& model, const std::vector<double>
   return moving.farthest > moving.most_of;
 }
 
-// Whether enough has moved away. Where one body is not enough, those that have are left behind.
+// Whether enough bodies have moved away. If one body is not enough, those that have are left behind.
 template <int Dim>
 bool has_moved_away(const Model<Dim>& model, const RunGoal& goal, const std::vector<Vector<Dim>>& begin,
                     const StaticIncrement<Dim>& increment, BodiesState<Dim>& bodies) {
-  const bool trials = increment.under_way;  // one that is not yet judged is no motion
+  const bool trials = increment.under_way;  // a trial that is not yet judged is not a motion
   const std::vector<Placement<Dim>> accepted =
       trials ? accepted_placements(model, increment) : std::vector<Placement<Dim>>{};
   double moved = 0, free = 0;  // kg
@@ -113,11 +115,11 @@ double ramp_of(const RunSchedule& plan) {
   double ramp = std::max(plan.gravity.ramp, fall);
   for (const WaterPlan& water : plan.water)
     ramp = std::max(ramp, water.ramp);
-  if (plan.let_off) ramp = std::max(ramp, plan.let_off->duration);
+  if (plan.excavation_forces) ramp = std::max(ramp, plan.excavation_forces->duration);
   return ramp;
 }
 
-// Which ramps a run that ends now has not carried through, and how far each has come; else what of rest is missing.
+// The ramps that a run ending now has not completed, and their progress; else the missing steps of equilibrium.
 template <int Dim>
 std::string unreached(const Model<Dim>& model, const Settings& settings, const RunSchedule& plan,
                       const RunProgress<Dim>& progress, const State<Dim>& state, double unbalanced) {
@@ -128,13 +130,14 @@ std::string unreached(const Model<Dim>& model, const Settings& settings, const R
   };
   add("gravity", plan.gravity.ramp);
   if (plan.strength_rate > 0)
-    add("the fall of strength", std::abs(plan.strength_from - plan.strength_to) / plan.strength_rate);
+    add("the reduction of strength", std::abs(plan.strength_from - plan.strength_to) / plan.strength_rate);
   for (const WaterPlan& water : plan.water)
     add(fmt::format("the water '{}'", model.waters[water.water].name), water.ramp);
-  if (plan.let_off && !state.loads.relief.empty()) add("what excavated rock still holds", plan.let_off->duration);
+  if (plan.excavation_forces && !state.loads.relief.empty())
+    add("what excavated rock still holds", plan.excavation_forces->duration);
   if (ramps.empty() && state.increment.under_way) ramps.emplace_back("the increments of Newton's method");
   if (ramps.empty() && unbalanced <= settings.equilibrium.unbalanced)
-    ramps.push_back(fmt::format("rest in {} steps in a row (equilibrium.window), it lasted for {}",
+    ramps.push_back(fmt::format("equilibrium in {} consecutive steps (equilibrium.window), it lasted for {}",
                                 settings.equilibrium.window, progress.at_rest));
   return ramps.empty() ? "" : fmt::format("; not reached: {}", fmt::join(ramps, ", "));
 }
@@ -147,13 +150,13 @@ std::string loose_support(const Model<Dim>& model, const State<Dim>& state) {
   return {};
 }
 
-// what falls may yet be lifted by a water, or lose its weight
+// falling bodies may still be lifted by a water, or lose their weight
 bool may_return(const RunSchedule& plan, bool changing) {
   return changing && (!plan.water.empty() || plan.gravity.to == 0);
 }
 
-// the first body whose motion is not a number, or else whose load is, for a wrong motion spoils its neighbours' loads;
-// -1: none
+// the first body whose motion is not a number, or else whose load is, because a wrong motion spoils its neighbours'
+// loads; -1: none
 template <int Dim>
 int first_not_finite(const State<Dim>& state) {
   for (std::size_t b = 0; b < state.bodies.motions.size(); ++b) {
@@ -166,7 +169,7 @@ int first_not_finite(const State<Dim>& state) {
   return -1;
 }
 
-// rad; in space at most half a turn
+// rad; in 3-D at most half a turn
 double turn_of(const Rotation<2>& rotation) {
   return std::abs(rotation.angle);
 }
@@ -174,14 +177,14 @@ double turn_of(const Rotation<3>& rotation) {
   return 2 * std::atan2(rotation.quaternion.vec().norm(), std::abs(rotation.quaternion.w()));
 }
 
-// the body to blame that there is no rest, and what of it moves; to be asked while it does
+// the body that prevents equilibrium, and its motion; to be called while it moves
 template <int Dim>
 std::string restless(const Model<Dim>& model, const State<Dim>& state) {
   const int body = fastest(model, state);
   if (body < 0) return {};
   const Motion<Dim>& m = state.bodies.motions[body];
-  return fmt::format("{} moves most, {:.3g} m from where it began and turned by {:.3g} degrees", label_of(model, body),
-                     m.displacement.norm(), to_degrees(turn_of(m.rotation)));
+  return fmt::format("{} moves most, {:.3g} m from its initial position and rotated by {:.3g} degrees",
+                     label_of(model, body), m.displacement.norm(), to_degrees(turn_of(m.rotation)));
 }
 
 template <int Dim>
@@ -206,7 +209,7 @@ const char* name(ContactStatus status) {
     case ContactStatus::no_normal:
       return "no normal was found";
     case ContactStatus::no_face:
-      return "a search along the normal met no face";
+      return "a search along the normal found no face";
   }
   return "unknown";
 }
@@ -220,8 +223,8 @@ std::string first_unanswered(const Model<Dim>& model, const State<Dim>& state) {
   return "bar of a grouted bolt at " + moment_of(state) + ": no equilibrium";
 }
 
-// Stops what is not to move. The forces have been found: until then velocities are those that led here, by which the
-// joints slip.
+// Stops bodies that must not move. The forces have been found: until then velocities are those of the last step, by
+// which the joints slip.
 template <int Dim>
 void stop_bodies(const Model<Dim>& model, bool relaxing, State<Dim>& state) {
   stop_held(model, state.bodies.motions);
@@ -231,13 +234,13 @@ void stop_bodies(const Model<Dim>& model, bool relaxing, State<Dim>& state) {
     begin_motion(state.time_step, state.relaxation);
 }
 
-// Whether Newton's method begins with this step: the first, where it is asked for, or one of a relaxation that lingers.
+// Whether Newton's method begins with this step: the first, if the scene chooses it, or one of a slow relaxation.
 template <int Dim>
 bool begins_newton(const Model<Dim>& model, const Settings& settings, const RunProgress<Dim>& progress, bool changing,
                    const State<Dim>& state) {
   const bool lingers = progress.steps > 0 && progress.steps % steps_until_newton == 0 && progress.at_rest == 0 &&
                        !changing && !state.increment.under_way;
-  return (lingers || (progress.steps == 0 && settings.damping.statics == Statics::newton)) && newton_applies(model);
+  return (lingers || (progress.steps == 0 && settings.statics.method == Statics::newton)) && newton_applies(model);
 }
 
 template <int Dim>
@@ -265,17 +268,17 @@ std::string describe(StopReason reason) {
     case StopReason::lost_equilibrium:
       return "equilibrium lost";
     case StopReason::moved_away:
-      return "failure displacement passed";
+      return "failure displacement exceeded";
     case StopReason::step_limit:
       return "step limit";
     case StopReason::time_limit:
       return "time limit";
     case StopReason::no_contact_answer:
-      return "a contact found no answer";
+      return "a contact has no solution";
     case StopReason::not_finite:
       return "a number is not finite";
     case StopReason::falls_free:
-      return "a body falls free";
+      return "a body falls freely";
     case StopReason::lining_loose:
       return "a lining has left its rock";
     case StopReason::interrupted:
@@ -292,7 +295,7 @@ std::string label_of(const Model<Dim>& model, int body) {
 template <int Dim>
 RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& goal, const RunSchedule& schedule,
               State<Dim>& state, RunProgress<Dim>& progress, const RunHooks<Dim>& hooks, FailureWatch<Dim>* watch) {
-  const bool relaxing = relaxes(goal.rest, settings.damping);
+  const bool relaxing = relaxes(goal.rest, settings.statics);
   if (!progress.under_way) {
     std::vector<Vector<Dim>> stated = std::move(progress.begin);
     progress = begin_run(goal, state.counters, state.bodies, state.schedule);
@@ -311,9 +314,9 @@ RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& 
     return report;
   };
 
-  // the forces of a step, and what comes after the run, stand under the schedule at the time of the positions
+  // the forces of a step, and evaluations after the run, use the schedule at the time of the positions
   bool changing = follow(model, schedule, state.schedule, state.loads.relief);
-  // made once: no step asks for memory
+  // made once: no step allocates memory
   const std::function<void(State<Dim>&)> with_forces = [&](State<Dim>& now) {
     if (progress.steps == 0) stop_bodies(model, relaxing, now);
     if (relaxing && begins_newton(model, settings, progress, changing, now))
@@ -333,14 +336,14 @@ RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& 
     report.unbalanced = goal.rest ? unbalanced_ratio(model, settings.threads, state) : -1;
     if (hooks.after_step) hooks.after_step(state, report.unbalanced);
 
-    // a wrong force must not be stepped over
+    // no step with a wrong force
     if (state.counters.unconverged > progress.unconverged)
       return stop(StopReason::no_contact_answer, first_unanswered(model, state));
     if (const int body = first_not_finite(state); body >= 0)
       return stop(StopReason::not_finite, label_of(model, body) + " at " + moment_of(state));
 
-    // rest must last, and cannot come while gravity, friction or water still changes
-    const bool evaluated = tried || state.increment.under_way;  // a trial of Newton's method is not yet rest
+    // equilibrium must last, and is not possible while gravity, friction or water still changes
+    const bool evaluated = tried || state.increment.under_way;  // a trial of Newton's method is not yet an equilibrium
     const bool settled = goal.rest && !changed && !evaluated && report.unbalanced <= settings.equilibrium.unbalanced;
     progress.at_rest = settled ? progress.at_rest + 1 : 0;
     if (progress.at_rest >= settings.equilibrium.window) return stop(StopReason::equilibrium);
@@ -358,8 +361,8 @@ RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& 
         progress.steps % steps_between_falls == 0)
       if (const int body = falling_free(model, state); body >= 0)
         return stop(StopReason::falls_free,
-                    fmt::format("{} has left all others behind, {:.3g} m from where it began", label_of(model, body),
-                                state.bodies.motions[body].displacement.norm()));
+                    fmt::format("{} has left all others behind, {:.3g} m from its initial position",
+                                label_of(model, body), state.bodies.motions[body].displacement.norm()));
     if (goal.time_limit && state.schedule.time >= *goal.time_limit)
       return stop(StopReason::time_limit, goal.rest ? restless(model, state) : "");
     if (goal.step_limit && progress.steps >= *goal.step_limit)

@@ -1,5 +1,5 @@
-// What is searched, on the way from a stable to a failed level, and how messages name it: a friction angle falls, a
-// factor grows.
+// The searched quantity, from a stable to a failed level, and its names in messages: a friction angle decreases, a
+// factor increases.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ struct Levels {
   Searched searched;
   double from, to, tolerance, step;  // rad or 1
   double direction;                  // of failure
-  double unit;                       // of a level in words
+  double unit;                       // of a level in messages
   const char *symbol, *name;         // of that unit; of the keys
   const char *start, *end;           // repairs of a search in the wrong place
   const char *towards, *one;

@@ -1,4 +1,4 @@
-// How a trial of a search ends.
+// The outcome of a trial of a search.
 #pragma once
 
 #include "core/run/run.hpp"

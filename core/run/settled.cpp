@@ -15,7 +15,7 @@
 namespace voussoir {
 namespace {
 
-// Of the smaller inscribed radius: gaps below it are the last digits of coordinates, faces that were meant to touch.
+// Of the smaller inscribed radius: smaller gaps are rounding errors of coordinates, between faces that should touch.
 constexpr double closed_gap_fraction = 1e-6;
 
 template <int Dim>
@@ -26,7 +26,7 @@ bool touches(const Model<Dim>& model, const Contact<Dim>& c) {
          c.proof.margin <= closed_gap_fraction * size;
 }
 
-// how deep a pair of bodies is closed now, m, from the first to the second
+// present closure of a pair of bodies, m, from the first to the second
 template <int Dim>
 using Closures = std::map<std::pair<int, int>, Vector<Dim>>;
 
@@ -56,7 +56,7 @@ struct Settling {
   std::vector<std::vector<int>> near{};  // by body
   std::vector<char> stays{};             // by body
 
-  // m: how far a body's centroid has gone as another's frame sees it
+  // m: displacement of a body's centroid in another's frame
   double against(int body, int other) const {
     const Placement<Dim>&was = begin.placed[body], &seat = begin.placed[other];
     const Motion<Dim>&is = now.bodies.motions[body], &frame = now.bodies.motions[other];
@@ -73,7 +73,7 @@ struct Settling {
     return moved.norm();
   }
 
-  // m: of its thickest part; those that construction joints hold together may be slivers
+  // m: of its thickest part; parts that construction joints hold together may be slivers
   double inscribed_radius(int body) const {
     double radius = 0;
     for (const Polytope<Dim>& part : model.bodies[body].parts)
@@ -91,7 +91,7 @@ struct Settling {
     }
   }
 
-  // from what is held or driven, or else the heaviest, on
+  // starting from held or driven bodies, or else the heaviest
   void find_what_stays() {
     const int count = static_cast<int>(model.bodies.size());
     stays.assign(model.bodies.size(), false);
@@ -111,7 +111,7 @@ struct Settling {
       }
   }
 
-  // whether it has left all that it touched, if it touched anything, and no bolt holds it
+  // whether it has left all bodies that it touched, if any, and no bolt holds it
   bool has_left_all(int body) const {
     for (const StepSupport<Dim>& row : step_supports<Dim>)
       if (row.hangs && row.hangs(now.supports, body)) return false;
@@ -135,7 +135,7 @@ struct Settling {
         m.distance = against(body, other);
         m.against = other;
       }
-    // it lay on what has moved, or on nothing
+    // it was on a body that has moved, or on nothing
     if (m.against < 0) m.distance = (now.bodies.motions[body].displacement - begin.placed[body].displacement).norm();
     const Vector<Dim> place = model.origin + model.bodies[body].reference + now.bodies.motions[body].displacement;
     m.place.assign(place.data(), place.data() + Dim);
@@ -180,7 +180,8 @@ std::string moved_text(const Model<Dim>& model, const std::vector<MovedBody>& mo
   const auto left = std::ranges::find_if(moved, &MovedBody::left_all);
   const MovedBody& worst = left == moved.end() ? moved.front() : *left;
   std::string text = fmt::format(
-      "{} moved by {:.3g} m while settling, more than its inscribed radius of {:.3g} m{}, and came to rest at ({:.4g})",
+      "{} moved by {:.3g} m while settling, more than its inscribed radius of {:.3g} m{}, and reached equilibrium at "
+      "({:.4g})",
       label_of(model, worst.body), worst.distance, worst.inscribed_radius,
       worst.left_all ? ", lost every contact that it had" : "", fmt::join(worst.place, ", "));
   if (moved.size() > 1) text += fmt::format("; so did {} more (results.json, moved)", moved.size() - 1);

@@ -1,4 +1,4 @@
-// Which bodies a stage that settles has moved away from those that they lay against when it began.
+// Bodies that a settle stage has moved away from those that they were in contact with at its start.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace voussoir {
 // two bodies that were near each other when a stage began
 struct NearBodies {
   int a = 0, b = 0;      // a < b
-  bool touched = false;  // then
+  bool touched = false;  // at that time
 };
 
 template <int Dim>
@@ -21,19 +21,19 @@ struct SettleBegin {
   std::vector<NearBodies> near;        // by a, then b
 };
 
-// Of a state whose contacts have been found. After true motion (`moving`) what touches has met on its way and holds
-// nothing: a fall that is brought to rest leaves no contact.
+// Of a state whose contacts have been found. After true motion (`moving`) touching bodies have met during the motion
+// and support nothing: a fall that is stopped does not count as losing contact.
 template <int Dim>
 SettleBegin<Dim> settle_begin(const Model<Dim>& model, const State<Dim>& state, bool moving);
 
-// The free bodies that have moved by more than their own inscribed radius against all near bodies that have not, the
-// farthest first. A body that is held or driven stays, and so does one that has moved by less against one that stays:
-// blocks that settle on one another, or ride on what is driven, are none of these. Motion is that of the centroid as
-// the other body's frame sees it, without the closure of their joint. `now`: its contacts have been found.
+// The free bodies that have moved by more than their own inscribed radius relative to all near bodies that have not,
+// the farthest first. A held or driven body counts as staying, and so does one that has moved by less relative to one
+// that stays: blocks that settle on one another, or ride on a driven body, are not among them. Motion is that of the
+// centroid in the other body's frame, without the closure of their joint. `now`: its contacts have been found.
 template <int Dim>
 std::vector<MovedBody> moved_bodies(const Model<Dim>& model, const SettleBegin<Dim>& begin, const State<Dim>& now);
 
-// One line on these, one at least: a body that lost every contact before others, the farthest first.
+// One line on these, at least one: bodies that lost every contact first, then the farthest.
 template <int Dim>
 std::string moved_text(const Model<Dim>& model, const std::vector<MovedBody>& moved);
 

@@ -1,4 +1,4 @@
-// Bodies that a stage moves while it settles, and how a run that waits for rest says so.
+// Bodies displaced in a settle stage, and the messages of the run.
 #include "core/run/settled.hpp"
 
 #include <fmt/format.h>
@@ -24,7 +24,7 @@ double between(Engine& engine, double low, double high) {
 }
 
 std::string head(const std::string& gravity = "[0, -10]") {
-  return "dimension = 2\ndensity = 2000\ndamping = { statics = \"local\" }\ngravity = " + gravity +
+  return "dimension = 2\ndensity = 2000\nstatics = \"local\"\ngravity = " + gravity +
          "\njoint_properties = [{ name = \"rock\", normal_stiffness = 1e9, shear_stiffness = 1e8, friction_deg = 20 "
          "}]\n";
 }
@@ -44,8 +44,8 @@ Results results_of(const std::string& text, const std::vector<std::string>& over
   return simulated(scene_of(text, overrides)).results;
 }
 
-// A block of 1 m by 1 m that slides on a floor under a gravity that leans, until a wall stops it `gap` away; one on its
-// back rides with it.
+// A block of 1 m by 1 m that slides on a floor under inclined gravity, until a wall stops it after `gap`; one on top
+// rides with it.
 std::string slider(double gap, bool rider) {
   return head(leaning) + box("floor", -5, -1, 30, 1, true) + box("wall", 1 + gap, 0, 1, 3, true) +
          box("block", 0, 0, 1, 1) + (rider ? box("rider", 0.2, 1, 0.6, 0.4) : "");
@@ -71,14 +71,14 @@ TEST(Settled, ABodyThatSlidByMoreThanItsInscribedRadiusIsNamed) {
   }
 }
 
-TEST(Settled, WhatRidesOnAMovedBodyHasMovedToo) {
+TEST(Settled, ABodyOnAMovedBodyHasMovedToo) {
   const Results results = results_of(slider(1.2, true) + settle);
   ASSERT_EQ(results.moved.size(), 2u);
   for (const MovedBody& moved : results.moved)
-    EXPECT_NEAR(moved.distance, 1.2, 0.25) << moved.name << " may slip on its carrier";
+    EXPECT_NEAR(moved.distance, 1.2, 0.25) << moved.name << " may slip on the lower block";
 }
 
-// A search that follows would judge another slope.
+// A search afterwards would examine another slope.
 TEST(Settled, ASearchAfterASlideIsNotBegun) {
   for (const double gap : {0.3, 0.9}) {
     const Results results = results_of(slider(gap, false) + settle + search);
@@ -92,7 +92,7 @@ TEST(Settled, ASearchAfterASlideIsNotBegun) {
   }
 }
 
-// A fall onto a floor is no failure; a block that has slid off its shelf has lost what held it.
+// A fall onto a floor is not a failure; a block that has slid off its shelf has lost its support.
 TEST(Settled, OnlyABodyThatLeftEveryContactEndsTheRun) {
   const std::string floor = box("floor", -5, -1, 30, 1, true);
   const Results fallen = results_of(head() + floor + box("block", 0, 2, 1, 1) + settle);
@@ -109,8 +109,8 @@ TEST(Settled, OnlyABodyThatLeftEveryContactEndsTheRun) {
   EXPECT_NE(off.message.find("lost every contact that it had"), std::string::npos) << off.message;
 }
 
-// Soft joints close by far more than a plate is thick; none of the plates has moved.
-TEST(Settled, ClosureIsNoMotion) {
+// Soft joints close by far more than the thickness of a plate; none of the plates has moved.
+TEST(Settled, JointClosureIsNoMotion) {
   std::string text = head() + box("floor", -5, -1, 10, 1, true);
   for (int k = 0; k < 12; ++k)
     text += box(fmt::format("plate-{}", k), 0, 0.1 * k, 1, 0.1);
@@ -121,8 +121,8 @@ TEST(Settled, ClosureIsNoMotion) {
   EXPECT_TRUE(results.moved.empty());
 }
 
-// What rides on a driven base has not moved against it; random motions of a base against one that stands.
-TEST(Settled, MotionCountsAgainstWhatABodyLayOn) {
+// A body that rides on a driven base has not moved relative to it; random motions of a base, compared with a fixed one.
+TEST(Settled, MotionIsRelativeToTheSupportingBody) {
   Engine engine(62);
   for (int k = 0; k < 200; ++k) {
     Model<2> model =
@@ -135,7 +135,7 @@ TEST(Settled, MotionCountsAgainstWhatABodyLayOn) {
     SettleBegin<2> begin{.placed = {}, .near = {{0, 1, true}}};
     for (const Motion<2>& m : state.bodies.motions)
       begin.placed.push_back({m.displacement, m.rotation});
-    // the base goes anywhere and turns; the block goes with it and, along or off its face, by `slip` more
+    // the base moves and rotates at random; the block moves with it and, along or off its face, by `slip` more
     const double turn = between(engine, -1, 1), slip = between(engine, 0, 1);
     const Vector<2> way{between(engine, -20, 20), between(engine, -20, 20)};
     const double off = between(engine, 0, 3.1);
@@ -153,13 +153,13 @@ TEST(Settled, MotionCountsAgainstWhatABodyLayOn) {
   }
 }
 
-// What falls past others as true motion ends has left nothing that held it.
-TEST(Settled, AFallThatIsBroughtToRestIsNoFailure) {
+// A body that falls past others when true motion ends has not lost a support.
+TEST(Settled, AFallThatIsStoppedIsNoFailure) {
   const std::string fall = "[[stage]]\nname = \"fall\"\nkind = \"run\"\nduration_s = 0.05\n";
   const std::string shelf =
       head() + box("floor", -5, -1, 30, 1, true) + box("edge", -2, 2, 2, 1, true) + box("block", -0.1, 3, 1, 1);
   const Results at_once = results_of(shelf + settle), after = results_of(shelf + fall + settle);
-  EXPECT_EQ(at_once.outcome, Outcome::incomplete) << "it tips over the edge that held it";
+  EXPECT_EQ(at_once.outcome, Outcome::incomplete) << "it tips over the edge that supported it";
   EXPECT_EQ(after.outcome, Outcome::done) << after.message;
   ASSERT_EQ(after.moved.size(), 1u);
   EXPECT_FALSE(after.moved.front().left_all);

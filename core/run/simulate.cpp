@@ -32,7 +32,8 @@ void add_final_results(const StageInForce<Dim>& stage, Progress<Dim>& progress) 
   results.state_hash = state_hash(stage.model, state);
   results.energy = state.ledger.energy;
   for (const ReliefLoad<Dim>& load : state.loads.relief)
-    if (stage.model.bodies[load.body].present) results.relief_left = std::max(results.relief_left, load.share);
+    if (stage.model.bodies[load.body].present)
+      results.forces_remaining = std::max(results.forces_remaining, load.share);
   const auto begun = std::span(scene.stages).first(std::min<std::size_t>(stage.place + 1, scene.stages.size()));
   if (std::string doubts = doubts_of(state.ledger.energy, begun, scene.settings); !doubts.empty())
     results.warnings.push_back(std::move(doubts));
@@ -41,7 +42,7 @@ void add_final_results(const StageInForce<Dim>& stage, Progress<Dim>& progress) 
 // stage after stage; false: interrupted
 template <int Dim>
 bool execute_all(const Prepared<Dim>& scene, Progress<Dim>& progress, const Watcher<Dim>& watcher) {
-  Model<Dim> model = model_after(scene, progress.stage);  // of the stage, and so the settings
+  Model<Dim> model = model_after(scene, progress.stage);  // of the stage, like the settings
   Settings settings;
   const int last = scene.last_stage.value_or(static_cast<int>(scene.stages.size()) - 1);
   while (progress.stage <= last) {

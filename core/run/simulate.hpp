@@ -1,4 +1,4 @@
-// A whole scene: its stages one after the other, monitors recorded, results gathered.
+// A complete scene: its stages one after the other, monitors recorded, results collected.
 #pragma once
 
 #include "core/model/prepared.hpp"
@@ -14,7 +14,7 @@ Progress<Dim> initial_progress(const Prepared<Dim>& scene);
 template <int Dim>
 bool simulate(const Prepared<Dim>& scene, Progress<Dim>& progress, const Watcher<Dim>& watcher);
 
-// the rows so far, those of the stage under way included
+// the rows so far, including those of the stage under way
 template <int Dim>
 History history_so_far(const Progress<Dim>& progress);
 

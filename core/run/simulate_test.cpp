@@ -1,4 +1,4 @@
-// Whole scenes in memory: what their histories and results say.
+// Complete scenes in memory: their histories and results.
 #include "core/run/simulate.hpp"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ StagePlan stage_of(const std::string& name, std::variant<SettlePlan, RunPlan, Re
   return stage;
 }
 
-// a block on a plate that dips by 30 degrees, on a joint "joint"; a second property, "other", comes first
+// a block on a plate that dips by 30 degrees, on a joint "joint"; another property, "other", comes first
 Prepared<2> block_on_slope(const std::vector<StagePlan>& stages) {
   Prepared<2> scene;
   scene.model = block_on_plate<2>(30 * degree, 40 * degree);
@@ -101,7 +101,7 @@ TEST(Simulate, AStageGivesFrictionByNameOrToEveryJoint) {
   EXPECT_NEAR(column_of(both.history, "friction_other_deg").back(), 25, 1e-9);
   EXPECT_NEAR(column_of(both.history, "friction_joint_deg").back(), 35, 1e-9);
 
-  // what a stage states ends the factor that a search left, of that property alone
+  // a stage's statement ends the factor that a search left, only for that property
   StagePlan factor = stage_of("factor", ReducePlan{.searched = Searched::factor,
                                                    .factor = {.from = 0.8, .to = 2, .tolerance = 0.1},
                                                    .properties = {},
@@ -114,7 +114,7 @@ TEST(Simulate, AStageGivesFrictionByNameOrToEveryJoint) {
               *after.find("factor_of_safety")->error_bar + 1e-12);
 }
 
-// A joint that has softened by its slip has its first friction again once the slip is zero.
+// A joint that has softened by slip has its initial friction again after the slip is set to zero.
 TEST(Simulate, PlasticSlipIsSetToZeroOnRequest) {
   for (const int sub_contacts : {1, 2}) {
     StagePlan slide = stage_of("slide", RunPlan{.duration = 0.3}),
@@ -122,7 +122,7 @@ TEST(Simulate, PlasticSlipIsSetToZeroOnRequest) {
     slide.change.friction = 20 * degree;
     stand.change.friction = 35 * degree;
     const auto last_state = [&](bool zero) {
-      // settled and held upright, the block keeps its contact, and with it its slip, all the way
+      // settled and held upright, the block keeps its contact, and with it its slip, throughout
       Prepared<2> scene = block_on_slope({stage_of("settle", SettlePlan{}), slide, stand});
       scene.model.bodies[shapes::index_of(scene.model, "block")].free_rotation.fill(false);
       for (JointProperties& p : scene.model.properties) {
@@ -137,15 +137,15 @@ TEST(Simulate, PlasticSlipIsSetToZeroOnRequest) {
       return progress;
     };
     const Progress<2> kept = last_state(false), zeroed = last_state(true);
-    EXPECT_EQ(kept.results.outcome, Outcome::incomplete) << "tan 35 deg less 0.2 holds no slope of 30 deg";
+    EXPECT_EQ(kept.results.outcome, Outcome::incomplete) << "tan 35 deg less 0.2 does not hold a slope of 30 deg";
     EXPECT_EQ(zeroed.results.outcome, Outcome::done) << zeroed.results.message;
   }
 }
 
-TEST(Simulate, AStageIsMarkedRelaxedWhereItEndsByRelaxation) {
+TEST(Simulate, AStageIsMarkedRelaxedIfItEndsByRelaxation) {
   const auto relaxed = [](const std::variant<SettlePlan, RunPlan, ReducePlan>& plan, Statics statics) {
     Prepared<2> scene = block_on_slope({stage_of("only", plan)});
-    scene.settings.damping.statics = statics;
+    scene.settings.statics.method = statics;
     return results_of(scene).stages.at(0).relaxed;
   };
   EXPECT_TRUE(relaxed(SettlePlan{}, Statics::adaptive));
@@ -153,13 +153,13 @@ TEST(Simulate, AStageIsMarkedRelaxedWhereItEndsByRelaxation) {
   EXPECT_FALSE(relaxed(RunPlan{.duration = 0.01}, Statics::adaptive));
   EXPECT_TRUE(relaxed(reduction_to(27 * degree), Statics::adaptive));
   EXPECT_TRUE(relaxed(reduction_to(27 * degree, ReductionMethod::steps), Statics::adaptive));
-  // a fall at constant rate is true motion, though the search begins at rest
+  // a reduction at constant rate is true motion, though the search begins in equilibrium
   EXPECT_FALSE(relaxed(reduction_to(10 * degree, ReductionMethod::rate), Statics::adaptive));
   EXPECT_FALSE(relaxed(reduction_to(10 * degree, ReductionMethod::two_rates), Statics::adaptive));
 }
 
-// What was taken back stands beside the path: whatever is left when it is put aside ends on the answer.
-TEST(Simulate, TimeNeverGoesBackOnThePathToTheAnswer) {
+// Undone trials are separate from the path: the rows without them end at the result.
+TEST(Simulate, TimeNeverGoesBackOnThePathToTheResult) {
   for (const ReductionMethod method :
        {ReductionMethod::bisection, ReductionMethod::steps, ReductionMethod::two_rates}) {
     const double to = method == ReductionMethod::two_rates ? 10 : 27;
@@ -188,9 +188,9 @@ TEST(Simulate, TimeNeverGoesBackOnThePathToTheAnswer) {
   }
 }
 
-// The state that a search leaves is the last stable one, whichever trial came last: a wedge that fell out of its roof
-// has no contact left to measure by.
-TEST(Simulate, TheMeasureOfEquilibriumIsThatOfTheStateLeft) {
+// The final state of a search is the last stable one, whichever trial came last: a wedge that fell out of its roof has
+// no contact force left as a reference.
+TEST(Simulate, TheMeasureOfEquilibriumIsThatOfTheFinalState) {
   ReducePlan plan = reduction_to(10 * degree);
   plan.failure_displacement = 6;  // beyond the edge of the plate
   plan.tolerance = 40 * degree;   // so that the last trial is the one that fails
@@ -210,11 +210,11 @@ TEST(Simulate, TheMeasureOfEquilibriumIsThatOfTheStateLeft) {
 constexpr double weight = shapes::density * 0.5 * shapes::gravity;
 
 Prepared<2> bonded_block(double slope, double tension, double cohesion, const std::vector<StagePlan>& stages,
-                         Statics statics = Settings{}.damping.statics) {
+                         Statics statics = Settings{}.statics.method) {
   Prepared<2> scene;
-  scene.settings.damping.statics = statics;
+  scene.settings.statics.method = statics;
   scene.model = block_on_plate<2>(slope, 30 * degree);
-  // a block that leans on its lower edge is bonded there alone
+  // a block that leans on its lower edge is bonded only there
   scene.model.bodies[shapes::index_of(scene.model, "block")].free_rotation.fill(false);
   JointProperties& joint = scene.model.properties.front();
   joint.tension = tension;
@@ -226,9 +226,9 @@ Prepared<2> bonded_block(double slope, double tension, double cohesion, const st
   return scene;
 }
 
-// Under its weight, then lifted by a factor of it: a bond holds while the lift is below its strength. It has cohesion,
-// too: without any, what little shear there is breaks it as soon as it is pulled.
-TEST(Bonds, OfTheFirstStageHoldABlockThatIsPulled) {
+// Under its weight, then lifted by a multiple of it: a bond holds while the uplift is below its strength. It has
+// cohesion, too: without it, a small shear would break it as soon as it is in tension.
+TEST(Bonds, OfTheFirstStageHoldABlockInTension) {
   for (const Statics statics : {Statics::adaptive, Statics::newton})
     for (const double fraction : {0.995, 1.005}) {
       const GravityPlan lift{.ramp = 1, .from = 1, .to = -fraction};
@@ -238,14 +238,14 @@ TEST(Bonds, OfTheFirstStageHoldABlockThatIsPulled) {
           statics));
       ASSERT_EQ(results.stages.size(), 2u) << results.message;
       EXPECT_EQ(results.stages[0].ended, "equilibrium");
-      EXPECT_EQ(results.stages[1].ended, fraction < 1 ? "equilibrium" : "a body falls free") << results.message;
+      EXPECT_EQ(results.stages[1].ended, fraction < 1 ? "equilibrium" : "a body falls freely") << results.message;
       ASSERT_TRUE(results.bonds.has_value());
       EXPECT_EQ(results.bonds->made, 1);
       EXPECT_EQ(results.bonds->whole, fraction < 1 ? 1 : 0);
       EXPECT_EQ(results.bonds->broken, fraction < 1 ? 0 : 1);
       if (statics != Statics::newton) continue;
       EXPECT_GT(results.counters.static_iterations, 0);
-      EXPECT_EQ(results.counters.static_fallbacks, fraction < 1 ? 0 : 1) << "what breaks is left to relaxation";
+      EXPECT_EQ(results.counters.static_fallbacks, fraction < 1 ? 0 : 1) << "breaking bonds are left to relaxation";
     }
 }
 
@@ -258,21 +258,22 @@ TEST(Bonds, OfTheFirstStageHoldABlockBeyondItsFrictionAngle) {
       for (const double fraction : {0.98, 1.02}) {
         const Results results = results_of(bonded_block(
             slope, 0, fraction * needed, {stage_of("settle", SettlePlan{.gravity = {.ramp = 1}})}, statics));
-        EXPECT_EQ(results.stages.at(0).ended, fraction > 1 ? "equilibrium" : "a body falls free") << results.message;
+        EXPECT_EQ(results.stages.at(0).ended, fraction > 1 ? "equilibrium" : "a body falls freely") << results.message;
         EXPECT_EQ(results.bonds->made, 1);
         EXPECT_EQ(results.bonds->whole, fraction > 1 ? 1 : 0);
       }
     }
-  // the slope at which a cohesion of half the block's weight is just enough, by 0.5 = sin a - cos a tan f
+  // the slope at which a cohesion of half the block's weight is just sufficient, by 0.5 = sin a - cos a tan f
   const double critical = 30 * degree + std::asin(0.5 * std::cos(30 * degree));
   for (const double away : {-0.3 * degree, 0.3 * degree}) {
     const Results results = results_of(
         bonded_block(critical + away, 0, 0.5 * weight, {stage_of("settle", SettlePlan{.gravity = {.ramp = 1}})}));
-    EXPECT_EQ(results.stages.at(0).ended, away < 0 ? "equilibrium" : "a body falls free") << results.message;
+    EXPECT_EQ(results.stages.at(0).ended, away < 0 ? "equilibrium" : "a body falls freely") << results.message;
   }
 }
 
-// What is due when a run is interrupted is due when it continues; neither threads nor the candidates' skin show.
+// Bonds that are due when a run is interrupted are due when it continues; neither threads nor the candidates' skin have
+// an effect.
 TEST(Bonds, ThatAreDueSurviveAnInterruption) {
   for (const int along : {1, 2}) {
     Prepared<3> scene;
@@ -302,7 +303,7 @@ TEST(Bonds, ThatAreDueSurviveAnInterruption) {
   }
 }
 
-TEST(Bonds, AreNotSpokenOfWhereNoStageMakesAny) {
+TEST(Bonds, AreNotReportedIfNoStageMakesAny) {
   EXPECT_FALSE(results_of(block_on_slope({stage_of("settle", SettlePlan{})})).bonds.has_value());
   const Results none = results_of(bonded_block(0, 0, 0, {stage_of("settle", SettlePlan{})}));
   ASSERT_EQ(none.warnings.size(), 1u);
@@ -315,7 +316,7 @@ std::string drawn(const Model<2>& model, const State<2>& state) {
   return vtp(contact_points(model, state, state.schedule.time)) + vtp(force_lines(model, state, state.schedule.time));
 }
 
-TEST(Snapshot, IsWhatFramesShowWithinStagesAndAtTheirEnds) {
+TEST(Snapshot, EqualsTheFramesWithinStagesAndAtTheirEnds) {
   StagePlan slide = stage_of("slide", RunPlan{.duration = 0.05});
   slide.change.friction = 20 * degree;
   StagePlan lost = stage_of("lost", SettlePlan{});
@@ -349,9 +350,9 @@ TEST(Snapshot, IsWhatFramesShowWithinStagesAndAtTheirEnds) {
   }
 }
 
-// ---- what ends a run early, and what is kept then -------------------------------------------------------------------
+// ---- early ends of a run, and the results kept -------------------------------------------------------------------
 
-TEST(Simulate, AStageWithoutAFreeBlockEndsTheRunAndKeepsWhatWasDone) {
+TEST(Simulate, AStageWithoutAFreeBlockEndsTheRunAndKeepsEarlierResults) {
   StagePlan excavate = stage_of("excavate", SettlePlan{});
   excavate.change.remove.push_back({.names = {"block"}, .above = {}, .below = {}, .inside = {}});
   const Results results =
@@ -366,8 +367,8 @@ TEST(Simulate, AStageWithoutAFreeBlockEndsTheRunAndKeepsWhatWasDone) {
   EXPECT_NEAR(results.find("critical_friction")->value, 30, 0.5);
 }
 
-TEST(Simulate, AStageThatCannotBeDoneEndsTheRunInASentence) {
-  // a block alone, of no joint, and no time step stated
+TEST(Simulate, AStageThatCannotBeExecutedEndsTheRunWithAMessage) {
+  // a single block without joints, and no stated time step
   Prepared<2> scene;
   scene.model = shapes::model_of<2>({shapes::body_of<2>(shapes::box<2>({0, 0}, {1, 1}))});
   scene.model.properties.clear();
@@ -381,7 +382,7 @@ TEST(Simulate, AStageThatCannotBeDoneEndsTheRunInASentence) {
   EXPECT_FALSE(results.history.rows.empty());
 }
 
-TEST(Simulate, WithoutRestTheBlockThatMovesMostIsNamed) {
+TEST(Simulate, WithoutEquilibriumTheBlockThatMovesMostIsNamed) {
   Prepared<2> scene = block_on_slope({stage_of("settle", SettlePlan{.step_limit = 300})});
   for (double& friction : scene.state.schedule.friction)
     friction = 20 * degree;
@@ -390,16 +391,16 @@ TEST(Simulate, WithoutRestTheBlockThatMovesMostIsNamed) {
   EXPECT_NE(results.message.find("(block) moves most"), std::string::npos) << results.message;
 }
 
-// A block that slides off its plate ends a stage that waits for rest, and no stage that lasts for a time.
-TEST(Simulate, ABlockThatFallsFreeEndsTheWaitForRest) {
+// A block that slides off its plate ends a stage that seeks equilibrium, but not a stage of given duration.
+TEST(Simulate, AFreelyFallingBlockEndsTheSearchForEquilibrium) {
   for (const Statics statics : {Statics::adaptive, Statics::local}) {
     Prepared<2> scene = block_on_slope({stage_of("settle", SettlePlan{})});
-    scene.settings.damping.statics = statics;
+    scene.settings.statics.method = statics;
     for (double& friction : scene.state.schedule.friction)
       friction = 5 * degree;
     const Results results = results_of(scene);
     EXPECT_EQ(results.outcome, Outcome::incomplete);
-    EXPECT_EQ(results.stages.at(0).ended, "a body falls free");
+    EXPECT_EQ(results.stages.at(0).ended, "a body falls freely");
     EXPECT_NE(results.message.find("(block) has left all others behind"), std::string::npos) << results.message;
     EXPECT_LT(results.stages.at(0).steps, 200'000);
   }
@@ -410,10 +411,10 @@ TEST(Simulate, ABlockThatFallsFreeEndsTheWaitForRest) {
   const Results results = results_of(timed);
   EXPECT_EQ(results.outcome, Outcome::done);
   ASSERT_EQ(results.warnings.size(), 1u);
-  EXPECT_NE(results.warnings[0].find("(block) falls free"), std::string::npos) << results.warnings[0];
+  EXPECT_NE(results.warnings[0].find("(block) falls freely"), std::string::npos) << results.warnings[0];
 }
 
-TEST(FreeFall, IsNotSeenWhereSomethingMayCatchTheBlock) {
+TEST(FreeFall, IsNotReportedIfSomethingMayCatchTheBlock) {
   Model<2> model = block_on_plate<2>(0, 40 * degree);
   const int block = shapes::index_of(model, "block"), plate = shapes::index_of(model, "plate");
   State<2> state = initial_state(model);
@@ -425,13 +426,13 @@ TEST(FreeFall, IsNotSeenWhereSomethingMayCatchTheBlock) {
   EXPECT_EQ(fastest(model, state), block);
   state.bodies.motions[block].velocity.setZero();
   model.bodies[plate].reference[1] -= 100;
-  EXPECT_EQ(falling_free(model, state), -1) << "the plate lies below";
+  EXPECT_EQ(falling_free(model, state), -1) << "the plate is below";
   model.bodies[plate].reference[1] += 100;
   state.bodies.motions[block].displacement = {0, -5};
-  EXPECT_EQ(falling_free(model, state), -1) << "less far than the model is wide";
+  EXPECT_EQ(falling_free(model, state), -1) << "less than the width of the model";
   state.bodies.motions[block].displacement = {0, -50};
   state.schedule.gravity_factor = 0;
-  EXPECT_EQ(falling_free(model, state), -1) << "nothing pulls";
+  EXPECT_EQ(falling_free(model, state), -1) << "no load acts";
 }
 
 }  // namespace

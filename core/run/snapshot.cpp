@@ -7,7 +7,7 @@ namespace voussoir {
 
 namespace {
 
-// how many stages have changed the model; one that did not reach its goal is the last of them
+// number of stages that have changed the model; one that did not reach its goal is the last
 template <int Dim>
 int stages_begun(const Progress<Dim>& progress) {
   return progress.stage + (progress.stage_under_way || progress.results.outcome != Outcome::done);

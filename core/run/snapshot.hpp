@@ -1,4 +1,4 @@
-// What a simulation is between two steps, for those who list or draw it: what a frame of this moment shows.
+// A simulation between two steps, for tables and drawings: the content of a frame at this moment.
 #pragma once
 
 #include "core/model/prepared.hpp"
@@ -8,15 +8,15 @@ namespace voussoir {
 
 template <int Dim>
 struct Snapshot {
-  Model<Dim> model;  // as the stages so far have made it, that under way included
-  State<Dim> state;  // forces are those at the positions; where the simulation failed, those that it failed with
+  Model<Dim> model;  // after the stages so far, including that under way
+  State<Dim> state;  // forces are those at the positions; if the simulation failed, those at failure
 };
 
 // of a simulation that pauses, has ended, or has not begun
 template <int Dim>
 Snapshot<Dim> snapshot(const Prepared<Dim>& scene, const Progress<Dim>& progress);
 
-// the model alone
+// only the model
 template <int Dim>
 Model<Dim> model_of(const Prepared<Dim>& scene, const Progress<Dim>& progress);
 

@@ -10,7 +10,7 @@
 namespace voussoir {
 namespace {
 
-// how many joints a line names; results.json has all
+// number of joints named in a line; results.json has all
 constexpr std::size_t most_named = 4;
 
 template <int Dim>
@@ -43,7 +43,7 @@ std::optional<WholeBonds> whole_bonds_of(const Prepared<Dim>& scene, const Model
 }  // namespace
 
 std::string moment_text(const StableState& at) {
-  if (!at.level) return "at rest";
+  if (!at.level) return "in equilibrium";
   return at.unit == "1" ? fmt::format("at the last stable state, a factor of {:.6g}", *at.level)
                         : fmt::format("at the last stable state, {:.6g} {}", *at.level, at.unit);
 }
@@ -62,7 +62,7 @@ std::vector<std::string> doubts_about(const std::vector<StableState>& noted, con
   for (const StableState& at : noted)
     if (at.stage == stage && at.bonds && at.bonds->whole == 0)
       doubts.push_back(fmt::format(
-          "stage {}: {}: none of {} bonds is whole, so that cohesion and tensile strength carry nothing there",
+          "stage {}: {}: none of {} bonds is intact, so that cohesion and tensile strength have no effect there",
           at.stage, moment_text(at), at.bonds->made));
   return doubts;
 }
@@ -72,7 +72,8 @@ void count_all_bonds(const Prepared<Dim>& scene, const State<Dim>& state, Result
   if (std::ranges::none_of(scene.stages, [](const StagePlan& stage) { return stage.change.bond; })) return;
   results.bonds = count_bonds(state.contacts, state.ledger.bonds);
   if (results.bonds->made == 0)
-    results.warnings.push_back("stage.bond has made no bond: no joint with tension or cohesion was closed and pressed");
+    results.warnings.push_back(
+        "stage.bond has made no bond: no joint with tension or cohesion was closed and compressed");
 }
 
 std::string bonds_text(const WholeBonds& bonds) {
@@ -84,7 +85,7 @@ std::string bonds_text(const WholeBonds& bonds) {
                           100 * joint.area_share);
   }
   if (bonds.by_joint.size() > most_named) joints += fmt::format("; {} more", bonds.by_joint.size() - most_named);
-  return fmt::format("{} of {} bonds whole ({})", bonds.whole, bonds.made, joints);
+  return fmt::format("{} of {} bonds intact ({})", bonds.whole, bonds.made, joints);
 }
 
 template void note_stable_state<2>(const Prepared<2>&, const Model<2>&, const State<2>&, const BondedContacts&,

@@ -1,5 +1,5 @@
-// Bonds at the last stable state: columns that are pulled off their floors, or not, in one scene, against areas by
-// hand.
+// Bonds at the last stable state: columns that are pulled off their floors, or not, in one scene, compared with areas
+// by hand.
 #include "core/run/stable_state.hpp"
 
 #include <fmt/format.h>
@@ -39,8 +39,8 @@ struct Columns {
     return dimension == 2 ? fmt::format("[0, {}]", f) : fmt::format("[0, 0, {}]", f);
   }
 
-  // A pull of a third of what a bond and its block's weight can take does not break it, whatever the block's swing adds
-  // (twice at most); one of three times does.
+  // A pull of a third of the capacity of a bond and its block's weight does not break it, even with the block's
+  // oscillation (at most twice); one of three times does.
   std::string text() const {
     const double all = 3.0 * static_cast<double>(columns.size());
     std::string text = fmt::format("dimension = {}\ngravity = {}\ndensity = 2600\ndomain = {{ box = {} }}\n", dimension,
@@ -49,7 +49,7 @@ struct Columns {
         "[[joint_properties]]\nname = \"rock\"\nnormal_stiffness = 1e9\nshear_stiffness = 1e8\nfriction_deg = 30\n"
         "tension = {}\ncohesion = 50e3\nsub_contacts = {}\n",
         tension, points);
-    // cut as they are given: the sides of the columns, then the floor of each
+    // cut in the given order: the sides of the columns, then the floor of each
     text += "[slicing]\norder = \"given\"\n";
     for (std::size_t k = 0; k < columns.size(); ++k) {
       const double from = 3.0 * static_cast<double>(k) + columns[k].width, to = 3.0 * static_cast<double>(k + 1);
@@ -77,7 +77,7 @@ struct Columns {
     text += "[[restrain]]\nall = true\nrotation = true\n";
     text += "[[stage]]\nname = \"settle\"\nkind = \"settle\"\ngravity_ramp_s = 0.1\nbond = true\n";
     text += "[[stage]]\nname = \"pull\"\nkind = \"run\"\nduration_s = 0.02\n" + forces;
-    text += "[[stage]]\nname = \"rest\"\nkind = \"settle\"\ndamping = { statics = \"local\" }\n";
+    text += "[[stage]]\nname = \"rest\"\nkind = \"settle\"\nstatics = \"local\"\n";
     return text + "[output]\nframes = false\n";
   }
 };
@@ -121,7 +121,7 @@ void expect_bonds(const Columns& scene, bool pulled, const StableState& at) {
     ASSERT_TRUE(areas.contains(joint.joint)) << joint.joint;
     EXPECT_EQ(joint.whole, counts[joint.joint].first) << joint.joint;
     EXPECT_EQ(joint.made, counts[joint.joint].second) << joint.joint;
-    // areas are cut where the faces overlap: blocks that do not turn overlap over the whole face, to rounding
+    // areas are intersections of faces: blocks that do not rotate overlap over the full face, to rounding
     EXPECT_NEAR(joint.area_share, areas[joint.joint].first / areas[joint.joint].second, 1e-9) << joint.joint;
   }
 }
@@ -137,12 +137,12 @@ void pull_random_columns(unsigned seed) {
   const Results results = results_of<Dim>(scene.text());
   ASSERT_EQ(results.outcome, Outcome::done) << results.message << scene.text();
   const StableState *settled = find(results, "settle"), *rested = find(results, "rest");
-  ASSERT_TRUE(settled && rested && !find(results, "pull")) << "a stage of kind run does not end at rest";
+  ASSERT_TRUE(settled && rested && !find(results, "pull")) << "a stage of kind run does not end in equilibrium";
   expect_bonds(scene, false, *settled);
   expect_bonds(scene, true, *rested);
   const bool all_off = std::ranges::all_of(scene.columns, &Column::pulled_off);
-  EXPECT_EQ(lines_with(results.warnings, "stage rest: at rest: none of "), all_off);
-  EXPECT_EQ(lines_with(results.warnings, "stage settle: at rest"), 0);
+  EXPECT_EQ(lines_with(results.warnings, "stage rest: in equilibrium: none of "), all_off);
+  EXPECT_EQ(lines_with(results.warnings, "stage settle: in equilibrium"), 0);
 }
 
 TEST(StableState, BondsAreCountedByJointWithTheirArea) {
@@ -153,7 +153,7 @@ TEST(StableState, BondsAreCountedByJointWithTheirArea) {
 }
 
 // A block on a plane of 20 degrees whose friction is 40, and whose cohesion would raise the factor: pulled off before,
-// it has friction alone, tan 40 / tan 20, and the answer says why.
+// it has only friction, tan 40 / tan 20, and the result states the reason.
 std::string slab(bool pulled_off, const std::string& search) {
   std::string text =
       "dimension = 2\ngravity = [0, -9.81]\ndensity = 2600\ndomain = { box = { min = [-2, -2], max = [2, 2] } }\n"
@@ -166,14 +166,14 @@ std::string slab(bool pulled_off, const std::string& search) {
     text +=
         "[[stage]]\nname = \"pull\"\nkind = \"run\"\nduration_s = 0.02\nforce = [{ name = \"pull\", inside = [0, 1], "
         "force = [0, 2e6], times_s = [0, 0.01, 0.02], factors = [0, 1, 0] }]\n"
-        "[[stage]]\nname = \"rest\"\nkind = \"settle\"\ndamping = { statics = \"local\" }\n";
+        "[[stage]]\nname = \"rest\"\nkind = \"settle\"\nstatics = \"local\"\n";
   return text + "[[stage]]\nname = \"safety\"\nkind = \"reduce\"\nfailure_displacement = 0.002\n" + search +
          "[output]\nframes = false\n";
 }
 
 constexpr const char* factor = "search = \"factor\"\nfrom_factor = 0.5\nto_factor = 5\ntolerance_factor = 0.01\n";
 
-TEST(StableState, ASearchSaysWhichBondsHeldItsLastStableTrial) {
+TEST(StableState, ASearchReportsTheBondsOfItsLastStableTrial) {
   const double pi = std::acos(-1.0), friction = std::tan(40 * pi / 180) / std::tan(20 * pi / 180);
   const Results bonded = results_of<2>(slab(false, factor)), loose = results_of<2>(slab(true, factor));
   for (const Results* results : {&bonded, &loose}) {
@@ -189,13 +189,13 @@ TEST(StableState, ASearchSaysWhichBondsHeldItsLastStableTrial) {
   }
   EXPECT_EQ(find(bonded, "safety")->bonds->whole, 1);
   EXPECT_GT(bonded.find("factor_of_safety")->value, 1.1 * friction);
-  EXPECT_EQ(lines_with(bonded.warnings, "bonds is whole"), 0);
+  EXPECT_EQ(lines_with(bonded.warnings, "bonds is intact"), 0);
   EXPECT_EQ(find(loose, "safety")->bonds->whole, 0);
   EXPECT_NEAR(loose.find("factor_of_safety")->value, friction, 0.01);
   EXPECT_EQ(lines_with(loose.warnings, "stage safety: at the last stable state, a factor of 2."), 1);
 }
 
-// Of every way to search, the state that is told is the one at the stable level that the search knows.
+// For every search method the reported state is that at the known stable level.
 TEST(StableState, IsThatOfTheLastStableTrialOfEveryMethod) {
   for (const char* method : {"bisection", "steps", "rate", "two_rates"}) {
     const Results results = results_of<2>(slab(

@@ -30,7 +30,7 @@ void install_supports(const StageInForce<Dim>& stage, State<Dim>& state, Results
     try {
       for (const std::string& idle : row.install(stage.model, plan.change.install, state))
         results.warnings.push_back(fmt::format("stage {}: {}", plan.name, row.describe_idle(idle)));
-    } catch (const std::invalid_argument& error) {  // grout that does not hold what they are tightened to
+    } catch (const std::invalid_argument& error) {  // grout that is too weak for the tightening force
       fail(plan, Outcome::failed, error.what(), results);
     }
   }
@@ -48,10 +48,10 @@ void renew_for_stage(const Model<Dim>& model, State<Dim>& state) {
     load.begun = load.share;
   std::erase_if(relief,
                 [&](const ReliefLoad<Dim>& load) { return load.share == 0 || !model.bodies[load.body].present; });
-  if (state.ledger.energy.phase == LedgerPhase::running) state.ledger.energy.phase = LedgerPhase::model_changed;
+  if (state.ledger.energy.phase == BalancePhase::running) state.ledger.energy.phase = BalancePhase::model_changed;
 }
 
-// bodies that have come to rest somewhere else: a later search would judge another slope than the scene's
+// bodies in equilibrium at another position: a later search would examine another slope than the scene's
 template <int Dim>
 void judge_moved(const StageInForce<Dim>& stage, const State<Dim>& now, const SettleBegin<Dim>& begin,
                  Results& results) {
@@ -68,7 +68,7 @@ void judge_moved(const StageInForce<Dim>& stage, const State<Dim>& now, const Se
   results.warnings.push_back(fmt::format("stage {}: {}", stage.plan().name, text));
   if (left || searched)
     fail(stage.plan(), Outcome::incomplete,
-         text + (searched ? "; the search that follows needs the blocks where the scene has them" : ""), results);
+         text + (searched ? "; the search that follows needs the blocks in the positions of the scene" : ""), results);
 }
 
 template <int Dim>
@@ -78,7 +78,7 @@ StageResult result_of(const StageInForce<Dim>& stage, const StageOutcome& done, 
   r.name = stage.plan().name;
   r.kind = kind_of(stage.plan());
   r.ended = done.ended;
-  r.relaxed = ends_relaxed(stage.plan(), stage.settings.damping);
+  r.relaxed = ends_relaxed(stage.plan(), stage.settings.statics);
   r.steps = state.counters.steps - progress.steps_before;
   r.time = state.schedule.time - progress.stage_began;
   r.time_step = state.time_step.length;
@@ -86,15 +86,15 @@ StageResult result_of(const StageInForce<Dim>& stage, const StageOutcome& done, 
   return r;
 }
 
-// A stage that lasts for a time is not ended by blocks that have left, but they are hardly what was wanted.
+// Blocks that have left do not end a stage of given duration, but are probably not intended.
 template <int Dim>
 void warn_of_falling(const StageInForce<Dim>& stage, const State<Dim>& state, Results& results) {
   if (!std::holds_alternative<RunPlan>(stage.plan().plan)) return;
   const int body = falling_free(stage.model, state);
   if (body < 0) return;
-  results.warnings.push_back(fmt::format("stage {}: {} falls free, {:.3g} m from where it began: nothing lies below",
-                                         stage.plan().name, label_of(stage.model, body),
-                                         state.bodies.motions[body].displacement.norm()));
+  results.warnings.push_back(
+      fmt::format("stage {}: {} falls freely, {:.3g} m from its initial position: there is nothing below",
+                  stage.plan().name, label_of(stage.model, body), state.bodies.motions[body].displacement.norm()));
 }
 
 }  // namespace
@@ -105,7 +105,7 @@ void enter_stage(const Prepared<Dim>& scene, Model<Dim>& model, Settings& settin
   settings = settings_of(plan, scene.settings);
   if (!progress.stage_under_way && !plan.change.excavate.empty()) {
     const Excavated<Dim> moved =
-        excavate(plan.change.excavate, settings, plan.let_off.has_value(), model, progress.state);
+        excavate(plan.change.excavate, settings, plan.excavation_forces.has_value(), model, progress.state);
     for (StageEnd<Dim>& end : progress.ends)
       carry(moved, end);
     carry(moved, progress.bonded);
@@ -122,7 +122,7 @@ void begin_stage(const StageInForce<Dim>& stage, Progress<Dim>& progress) {
     if (!state.schedule.strength_factor.empty()) state.schedule.strength_factor[p] = 1;
   }
   add_bodies(stage.model, state.bodies, state.contacts, state.loads,
-             state.time_step);  // bolts ask where all bodies are
+             state.time_step);  // bolts need the poses of all bodies
   remove_bonds(stage.model, state.contacts, state.ledger.bonds);
   install_supports(stage, state, progress.results);
   if (change.zero_slip) zero_slip(state.contacts);
@@ -148,7 +148,7 @@ void end_stage(const StageInForce<Dim>& stage, const StageOutcome& done, const W
   warn_of_falling(stage, state, results);
   progress.steps_before = state.counters.steps;
   progress.stage_under_way = false;
-  // where all bodies are, for the monitors that count from the end of this stage
+  // poses of all bodies, for the monitors that measure from the end of this stage
   const auto counts = [&](const Monitor& m) { return m.since == stage.place; };
   if (std::ranges::any_of(stage.scene.monitors, counts)) progress.ends.push_back(stage_end(stage.place, state));
   const State<Dim> now = with_forces(stage, state, results.outcome == Outcome::failed);

@@ -1,4 +1,4 @@
-// What a stage changes before its first step, and what is kept when it has ended.
+// Changes of a stage before its first step, and records at its end.
 #pragma once
 
 #include "core/run/execute_stage.hpp"
@@ -8,7 +8,7 @@
 namespace voussoir {
 
 // Model and settings of the stage at which the progress is, whether it begins or continues; an excavation of a stage
-// that begins takes its region out of the state, too.
+// that begins removes its region from the state, too.
 template <int Dim>
 void enter_stage(const Prepared<Dim>& scene, Model<Dim>& model, Settings& settings, Progress<Dim>& progress);
 

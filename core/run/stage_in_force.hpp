@@ -1,4 +1,4 @@
-// The stage under way, const while it runs, and its judgement.
+// The stage under way, const while it runs, and its outcome.
 #pragma once
 
 #include <string>
@@ -26,8 +26,8 @@ Model<Dim> model_after(const Prepared<Dim>& scene, int stages);
 // "settle", "run", "reduce"
 const char* kind_of(const StagePlan& stage);
 
-// The state with the forces at its positions, which a step leaves at those before: rows and frames are of one time.
-// After a failed run its forces are all there is to see.
+// The state with the forces at its positions, which a step leaves at the previous ones: rows and frames are at one
+// time. After a failed run its forces are kept.
 template <int Dim>
 State<Dim> with_forces(const StageInForce<Dim>& stage, const State<Dim>& state, bool failed);
 

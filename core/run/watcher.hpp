@@ -22,14 +22,14 @@ struct ProgressReport {
 template <int Dim>
 struct Watcher {
   std::function<void(const ProgressReport&)> progress;  // every thousand steps or so
-  // as the output plan asks; time never goes back
+  // by the output plan; time never goes back
   std::function<void(const Model<Dim>&, const State<Dim>&, double time)> frame;
-  // the end of a search's trial, counted from 1, that is taken back
+  // the end of an undone trial of a search, counted from 1
   std::function<void(const Model<Dim>&, const State<Dim>&, int trial)> trial_frame;
-  // before every step, with all that a later `simulate` needs to continue; true stops here
+  // before every step, with everything that a later `simulate` needs to continue; true stops here
   std::function<bool(const Progress<Dim>&)> pause;
-  // once, when the last stage has ended, before the results of the end are added: from here on another scene of the
-  // same stages can continue (begin.hpp)
+  // once, when the last stage has ended, before the final results are added: from here on another scene with the same
+  // stages can continue (begin.hpp)
   std::function<void(const Progress<Dim>&)> ended = {};
 };
 

@@ -13,7 +13,7 @@
 namespace voussoir {
 namespace {
 
-// its place in the table's columns
+// its column in the table
 std::optional<std::size_t> level_of(const Node& scene) {
   const Node* accuracy = scene.find("accuracy");
   if (!accuracy || accuracy->kind != Node::Kind::table) return std::nullopt;
@@ -33,7 +33,7 @@ bool states_dashpots(const Node& table) {
   return ratio && ratio->is_number() && ratio->number > 0;
 }
 
-// the tables of [[stage]]; none where the file states something else there
+// the tables of [[stage]]; none if the file states something else there
 std::vector<Node*> stages_of(Node& scene) {
   std::vector<Node*> stages;
   if (Node* list = scene.find("stage"); list && list->kind == Node::Kind::list)
@@ -56,7 +56,7 @@ Node level_value(double value, const Place& place) {
   return node;
 }
 
-// a fixed step leaves the fraction of the limit without meaning
+// with a fixed step the fraction of the limit has no meaning
 bool is_settled(const Node& table, const LevelSetting& setting) {
   return table.find(setting.key) || (setting.table == "time" && table.find("step_s"));
 }

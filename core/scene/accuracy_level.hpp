@@ -1,4 +1,4 @@
-// [accuracy] level: fills in the settings that a scene leaves to it.
+// [accuracy] level: sets the settings that a scene does not state itself.
 #pragma once
 
 #include <string>
@@ -8,9 +8,9 @@
 
 namespace voussoir {
 
-// Adds the settings of the level that the scene names, or that an accuracy asked for begins with
-// (core/base/accuracy.hpp) to its tree, where it does not state them itself, and says which: "equilibrium.unbalanced =
-// 1e-06". Without a level, or with one that does not exist, it does nothing: check_keys complains about that.
+// Adds to the tree the settings of the scene's level, or of the level at which a required accuracy begins
+// (core/base/accuracy.hpp), unless the scene states them itself, and returns them: "equilibrium.unbalanced = 1e-06".
+// Without a level, or with one that does not exist, it does nothing: check_keys complains about that.
 std::vector<std::string> apply_accuracy_level(Node& scene);
 
 }  // namespace voussoir

@@ -1,4 +1,4 @@
-// What `[accuracy] level` sets, and what it leaves alone.
+// Settings that `[accuracy] level` changes, and those that it does not.
 #include "core/scene/accuracy_level.hpp"
 
 #include <gtest/gtest.h>
@@ -48,7 +48,7 @@ const ReducePlan& reduction(const Scene& scene) {
   return std::get<ReducePlan>(scene.stages.back().plan.plan);
 }
 
-TEST(AccuracyLevel, SetsWhatTheSceneLeavesOut) {
+TEST(AccuracyLevel, SetsUnstatedSettings) {
   EXPECT_THROW(parse(""), SceneError) << "a bisection needs its tolerance";
   double last = 1e300;
   for (const std::string_view level : accuracy_levels) {
@@ -66,7 +66,7 @@ TEST(AccuracyLevel, SetsWhatTheSceneLeavesOut) {
   }
 }
 
-TEST(AccuracyLevel, LeavesWhatTheSceneStates) {
+TEST(AccuracyLevel, KeepsStatedSettings) {
   const std::string level = "accuracy = { level = \"reference\" }\ntime = { fraction = 0.15 }\n";
   const Scene scene = parse(level, {"stage.critical.tolerance_deg=3", "equilibrium.unbalanced=1e-7"});
   EXPECT_NEAR(reduction(scene).tolerance, 3 * degree, 1e-12);
@@ -101,7 +101,7 @@ TEST(AccuracyLevel, IsOneOfTheNames) {
   }
 }
 
-// The table's values lie in the ranges of their keys, and a better promise never takes a coarser setting.
+// The table's values are in the ranges of their keys, and a higher accuracy never has a coarser setting.
 TEST(AccuracyLevel, TableIsSound) {
   for (const LevelSetting& setting : level_settings) {
     const KeyRow* row = find_row({setting.table}, setting.key);

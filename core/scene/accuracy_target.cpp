@@ -6,7 +6,7 @@ namespace voussoir {
 namespace {
 
 constexpr double largest_fraction = 0.5, largest_deg = 45;
-// some 4000 roundings of a value: what a search compares is a sum of as many forces
+// about 4000 rounding errors of a value: a search compares sums of as many forces
 constexpr double least_fraction = 1e-12, least_deg = 1e-10;
 
 bool says(const Node& table, std::string_view key, std::string_view text) {
@@ -35,25 +35,26 @@ std::optional<AccuracyTarget> accuracy_target(const Node& scene) {
   const std::string path = key_path(accuracy->path, "error");
   const std::optional<AccuracyTarget> target = accuracy_target(stated->text);
   if (!target)
-    refuse(
-        *stated, path,
-        "must be a part of the value, \"1 %\", from 1e-10 to 50 %, or of an angle, \"0.1 deg\", from 1e-10 to 45 deg: "
-        "doubles hold no finer answer");
+    refuse(*stated, path,
+           "must be relative, \"1 %\", from 1e-10 to 50 %, or an angle, \"0.1 deg\", from 1e-10 to 45 deg: double "
+           "precision allows no smaller "
+           "error");
   bool searches = false;
   for (const Subject& stage : children({&scene, ""}, "stage")) {
     if (!says(*stage.node, "kind", "reduce")) continue;
     searches = true;
     if (!says(*stage.node, "method", "bisection") && stage.node->find("method"))
       refuse(*stated, path,
-             "is reached by finer brackets, so it applies only where method = \"bisection\", which " + stage.path +
-                 " has not");
+             "is reached by finer brackets, so it applies only if method = \"bisection\", which " + stage.path +
+                 " does not state");
     if (!target->relative && says(*stage.node, "search", "factor"))
-      refuse(*stated, path, stage.path + " searches a factor, which has no degrees: state it as \"1 %\"");
+      refuse(*stated, path, stage.path + " searches for a factor, which is not an angle: state it as \"1 %\"");
   }
   if (!searches)
     refuse(*stated, path,
-           "is that of what a stage with kind = \"reduce\" finds, and there is none; budget = true says "
-           "how far other values are known");
+           "is the error of the result of a stage with kind = \"reduce\", and there is none; budget = true gives the "
+           "errors of other "
+           "values");
   const Node* budget = accuracy->node->find("budget");
   if (budget && !budget->boolean) return std::nullopt;
   return target;

@@ -1,4 +1,4 @@
-// [accuracy] error: how wide the error bar of what a scene searches may be, "1 %" of it or "0.1 deg".
+// [accuracy] error: the largest error bar of a scene's search result, "1 %" of it or "0.1 deg".
 #pragma once
 
 #include <cmath>
@@ -16,11 +16,11 @@ struct AccuracyTarget {
   double allowed(double value) const { return relative ? size * std::abs(value) : size; }
 };
 
-// nothing where the text is no such target
+// nothing if the text is no such target
 std::optional<AccuracyTarget> accuracy_target(std::string_view text);
 
-// Of a tree that check_keys has seen: nothing where it states none or `budget = false`. Throws SceneError where the
-// text is none, and where no search of the scene can be refined to it.
+// Of a tree that check_keys has accepted: nothing if it states none or `budget = false`. Throws SceneError if the text
+// is no target, or if no search of the scene can be refined to it.
 std::optional<AccuracyTarget> accuracy_target(const Node& scene);
 
 }  // namespace voussoir

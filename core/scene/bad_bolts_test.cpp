@@ -1,4 +1,4 @@
-// Bolts that are stated wrongly, and how the scene says so.
+// Errors of bolts in a scene, and their messages.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -92,12 +92,12 @@ TEST(BadBolts, AreRefusedWithAReasonAndARepair) {
       {bolts(line + grouted + "plate = \"steel\"") + install, "plate", "tied"},
       {bolts(line + grouted + "plate = \"spring\"") + install, "plate_stiffness", "is missing"},
       {bolts(line + grouted + "plate = \"tied\"\nplate_stiffness = 1e8") + install, "plate_stiffness", "spring"},
-      {bolts(line + grouted + "pretension = 1e4") + install, "pretension", "needs a plate"},
+      {bolts(line + grouted + "pretension = 1e4") + install, "pretension", "requires a plate"},
       {bolts(line + grouted + "plate = \"tied\"\npretension = 1e5\nbond_strength = 4e4") + install, "pretension",
-       "what the grout holds"},
+       "the strength of the grout"},
       {bolts(line + grouted + "plate = \"tied\"\npretension = 2e5\nyield = 1e5") + install, "pretension",
        "more than yield"},
-      {bolts(line + grouted + "free_length = 2") + install, "free_length", "leaves no grout"},
+      {bolts(line + grouted + "free_length = 2") + install, "free_length", "leaves no grouted length"},
       {bolts(line + grouted + "free_length = -1") + install, "free_length", "0"},
       {bolts(line + grouted + "node_spacing = 3") + install, "node_spacing", "2 m long"},
       {bolts(line + grouted + "node_spacing = 1e-4") + install, "node_spacing", "nodes, more than"},
@@ -107,19 +107,19 @@ TEST(BadBolts, AreRefusedWithAReasonAndARepair) {
       {bolts(line + stiff) + stage + "install = [\"rof\"]\n", "install", "roof"},
       {stage + "install = [\"roof\"]\n", "install", "there is nothing to install"},
       {bolts(line + stiff) + install + "[[stage]]\nname = \"again\"\nkind = \"settle\"\ninstall = [\"roof\"]\n",
-       "install", "once more"},
+       "install", "again; name"},
       {bolts(line + stiff) + bolts(line + stiff) + install, "name", "roof"},
       {bolts(line + stiff) + install + "[[monitors]]\nname = \"m\"\nquantities = [\"bolt_force\"]\nbolts = \"x\"\n",
        "bolts", "no bolts of this name"},
       {bolts(line + stiff) + install + "[[monitors]]\nname = \"m\"\nquantities = [\"bolt_force\"]\njoint = \"bed\"\n",
-       "bolts", "followed on bolts"},
+       "bolts", "a quantity of bolts"},
       {bolts(line + stiff) + install +
            "[[monitors]]\nname = \"m\"\nquantities = [\"displacement\"]\nbolts = \"roof\"\n",
        "quantities", "bolt_force only"},
       {bolts(line + stiff) + install +
            "[[monitors]]\nname = \"m\"\nquantities = [\"bolt_force\"]\nbolts = \"roof\"\n"
            "over = \"sum\"\n",
-       "over", "follows none"},
+       "over", "this monitor has none"},
       {stage + "[[monitors]]\nname = \"m\"\nquantities = [\"displacement\"]\nall = true\n", "monitors", "over ="},
   };
   for (const Case& c : cases) {

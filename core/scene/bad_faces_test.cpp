@@ -1,4 +1,4 @@
-// Mistakes about contacts that are carried as a whole (contact.face = "integrated").
+// Mistakes about integrated face contacts (contact.face = "integrated").
 #include "core/testing/bad_scenes.hpp"
 
 namespace voussoir {
@@ -8,14 +8,14 @@ using namespace bad_scenes;
 
 class BadFace : public testing::TestWithParam<BadInput> {};
 
-TEST_P(BadFace, IsToldInOneLine) {
+TEST_P(BadFace, IsReportedInOneLine) {
   expect_reported(GetParam());
 }
 
 const std::string damping = "[damping]\n", whole = "[contact]\nface = \"integrated\"\n";
 const std::string friction = "friction_deg = 40\n";
 
-// the key that only points use
+// a key that only point contacts use
 BadInput unused(const char* name, const std::string& key, const std::string& value, const char* phrase) {
   return {name, damping, whole + key + " = \"" + value + "\" #!\n" + damping, "contact." + key + " = \"" + value + "\"",
           phrase};
@@ -31,13 +31,13 @@ INSTANTIATE_TEST_SUITE_P(
                     BadInput{"of_joint_properties", friction, friction + "face = \"integrated\" #!\n",
                              "joint_properties.rock.face", "no such key"},
                     unused("multipliers", "normal", "multipliers", "leave one of the two out"),
-                    unused("centroid", "point", "centroid", "carried as a whole"),
-                    unused("chebyshev", "point", "chebyshev", "where a contact acts at a point"),
+                    unused("centroid", "point", "centroid", "has an integrated face contact"),
+                    unused("chebyshev", "point", "chebyshev", "of contacts that act at a point"),
                     unused("central_path", "point", "central_path", "every joint of this scene"),
-                    unused("bracketing", "overlap", "bracketing", "how the depth is found")),
+                    unused("bracketing", "overlap", "bracketing", "the search for the overlap")),
     by_name);
 
-// no joint that could be integrated, and why
+// no joint that could be integrated, and the reason
 BadInput none(const char* name, const std::string& properties, const char* phrase) {
   return {name, friction, friction + properties + "[contact]\nface = \"integrated\" #!\n",
           "contact.face = \"integrated\"", phrase};
@@ -47,15 +47,15 @@ INSTANTIATE_TEST_SUITE_P(
     None, BadFace,
     testing::Values(none("constant_stiffness", "constant_stiffness = true\n", "rock has constant_stiffness"),
                     none("cohesion", "cohesion = 1e5\n", "rock has tension or cohesion"),
-                    none("tension", "tension = 1e5\n", "which a joint loses point by point"),
+                    none("tension", "tension = 1e5\n", "which is lost point by point"),
                     none("law_of_stress", "normal_law = \"linear\"\nnormal_growth = 1e4\n",
                          "depends on stress or slip"),
                     none("softening", "friction_law = \"softening\"\nsoftening_drop = 0.1\nsoftening_slip_m = 0.01\n",
                          "would change nothing")),
     by_name);
 
-// one joint that can be is enough, and what chooses points then serves the others
-TEST(Faces, AreTakenBesidePoints) {
+// one such joint is enough; keys of point contacts then apply to the others
+TEST(Faces, AreAcceptedTogetherWithPoints) {
   std::string text = good_scene;
   EXPECT_EQ(complaint_about(text, {"contact.face='integrated'", "joint_properties.rock.sub_contacts=4"}), "");
   const std::string joint = "point = [0, 0, 0]\n";

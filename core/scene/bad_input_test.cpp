@@ -1,4 +1,4 @@
-// Every mistake a user can make is reported in one line: file, line, key, value found, what is allowed, the repair.
+// Every mistake in a scene is reported in one line: file, line, key, value found, allowed values, repair.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -12,7 +12,7 @@ using namespace bad_scenes;
 
 class Bad : public testing::TestWithParam<BadInput> {};
 
-TEST_P(Bad, IsToldInOneLine) {
+TEST_P(Bad, IsReportedInOneLine) {
   expect_reported(GetParam());
 }
 
@@ -20,12 +20,12 @@ INSTANTIATE_TEST_SUITE_P(
     Syntax, Bad,
     testing::Values(BadInput{"brackets", "", "[[[[[[ #!", "not valid TOML", "correct the TOML"},
                     BadInput{"duplicate_key", "density = 2600", "density = 2600\ndensity = 2700 #!", "'density'",
-                             "may stand once"},
+                             "may appear once"},
                     BadInput{"table_for_list", "", "[joints] #!", "'joints'", "[[name]]"},
                     BadInput{"degree_sign", "dip = 30", "dip = 30° #!", "not valid TOML", "correct the TOML"},
                     BadInput{"accent", "dip = 30", "é = 30 #!", "not valid TOML", "correct the TOML"},
                     BadInput{"overflow", "dip = 30", "dip = 1e400 #!", "1e400", "correct the TOML"},
-                    BadInput{"underflow", "dip = 30", "dip = 1e-400 #!", "too small for the machine", "write 0"},
+                    BadInput{"underflow", "dip = 30", "dip = 1e-400 #!", "too small for double precision", "write 0"},
                     BadInput{"no_value", "dip = 30", "dip = #!", "not valid TOML", "correct the TOML"},
                     BadInput{"open_text", "name = \"A\"", "name = \"A #!", "not valid TOML", "double quotes"},
                     BadInput{"dangling", "dip = 30", "dip = 30 30 #!", "not valid TOML", "correct the TOML"},
@@ -77,9 +77,9 @@ INSTANTIATE_TEST_SUITE_P(
                  "stage.go.duration_s is missing", "duration_s = 2"},
         BadInput{"wrong_kind", "name = \"settle\"\nkind = \"settle\"",
                  "name = \"settle\"\nkind = \"settle\"\nduration_s = 2 #!", "stage.settle.duration_s = 2",
-                 "only where kind = \"run\""},
+                 "only if kind = \"run\""},
         BadInput{"wrong_method", "from_deg = 40", "step_deg = 1 #!\nfrom_deg = 40", "stage.reduce.step_deg = 1",
-                 "only where method = \"steps\", which here is \"bisection\""},
+                 "only if method = \"steps\", which here is \"bisection\""},
         BadInput{"name_twice", "name = \"B\"", "name = \"A\" #!", "joints.A.name = \"A\"", "must be unique in joints"},
         BadInput{"dot_in_name", "name = \"B\"", "name = \"B.1\" #!", "\"B.1\"", "write '-' or a space instead"},
         BadInput{"empty_name", "name = \"B\"", "name = \"\" #!", "joints.2.name = \"\"", "must not be empty"}),
@@ -132,7 +132,7 @@ INSTANTIATE_TEST_SUITE_P(
                              "normal_stiffness = 0", "must be greater than 0"},
                     BadInput{"friction", "friction_deg = 40", "friction_deg = 90 #!", "friction_deg = 90",
                              "less than 90 deg; give the angle"},
-                    BadInput{"damping", "local = 0.7", "local = 1 #!", "damping.local = 1", "0.7 to reach rest"},
+                    BadInput{"damping", "local = 0.7", "local = 1 #!", "damping.local = 1", "0.7 to reach equilibrium"},
                     BadInput{"dimension", "dimension = 3", "dimension = 4 #!", "dimension = 4",
                              "write dimension = 2 or dimension = 3"},
                     BadInput{"huge", "point = [0, 0, 0]", "point = [0, 0, 1e300] #!", "joints.A.point = 1e+300",
@@ -154,14 +154,14 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"empty_domain_table", "box = { min = [-2, -2, -2], max = [2, 2, 2] }", "", "domain.box is missing",
                  "a box, planes or both"},
         BadInput{"rate_by_newton", "to_deg = 5\ntolerance_deg = 0.01",
-                 "to_deg = 5\nmethod = \"rate\" #!\nrate_deg_per_s = 1\ndamping = { statics = \"newton\" }",
+                 "to_deg = 5\nmethod = \"rate\" #!\nrate_deg_per_s = 1\nstatics = \"newton\"",
                  "stage.reduce.method = \"rate\"", "method = \"bisection\""},
         BadInput{"open_domain", "[domain]\nbox = { min = [-2, -2, -2], max = [2, 2, 2] }",
                  "[domain] #!\nplanes = [{ dip = 0, point = [0, 0, 0], keep = \"below\" }]", "domain = {",
                  "do not close a region"},
         BadInput{"empty_domain", "[domain]\nbox",
                  "[domain] #!\nplanes = [{ dip = 0, point = [0, 0, 5], keep = \"above\" }]\nbox", "domain = {",
-                 "no point lies inside all planes"},
+                 "no point is inside all planes"},
         BadInput{"open_block", "box = { min = [10, 0, 0], max = [11, 1, 1] }",
                  "planes = [{ normal = [0, 0, 1], offset = 1 }] #!", "blocks.far.planes",
                  "the block is open; add the missing planes"},
@@ -172,7 +172,7 @@ INSTANTIATE_TEST_SUITE_P(
                  "blocks.far.planes", "the block is empty"},
         BadInput{"flat_block", "box = { min = [10, 0, 0], max = [11, 1, 1] }",
                  "vertices = [[10, 0, 0], [11, 0, 0], [11, 1, 0], [10, 1, 0]] #!", "blocks.far.vertices",
-                 "do not lie in one plane"},
+                 "are not in one plane"},
         BadInput{"few_points", "box = { min = [10, 0, 0], max = [11, 1, 1] }", "vertices = [[10, 0, 0], [11, 0, 0]] #!",
                  "blocks.far.vertices", "at least 4 points"},
         BadInput{"inner_vertex", "box = { min = [10, 0, 0], max = [11, 1, 1] }",
@@ -246,7 +246,7 @@ INSTANTIATE_TEST_SUITE_P(
                     BadInput{"force_without_joint", "[\"displacement\"]", "[\"contact_force\"]",
                              "monitors.slider.joint is missing", "write for example joint = \"A\""},
                     BadInput{"joint_displacement", "[\"contact_force\"]", "[\"displacement\"] #!",
-                             "monitors.on A.quantities", "follows contact_force only"}),
+                             "monitors.on A.quantities", "has contact_force and whole_bonds only"}),
     by_name);
 
 INSTANTIATE_TEST_SUITE_P(
@@ -266,7 +266,7 @@ INSTANTIATE_TEST_SUITE_P(
                     BadInput{"flat_2d", good_scene,
                              "dimension = 2\ndensity = 1\n[[blocks]]\nname = \"a\"\nvertices = [[0, 0], [1, 1], [2, "
                              "2]] #!\n[[stage]]\nname = \"s\"\nkind = \"settle\"",
-                             "blocks.a.vertices", "do not lie on one line"}),
+                             "blocks.a.vertices", "are not on one line"}),
     by_name);
 
 INSTANTIATE_TEST_SUITE_P(
@@ -287,13 +287,13 @@ struct BadOverride {
   const char *text, *key, *phrase;
 };
 
-TEST(BadOverrides, AreToldWithTheirText) {
+TEST(BadOverrides, AreReportedWithTheirText) {
   const BadOverride all[] = {{"joints.A.dip=95", "joints.A.dip = 95", "must lie between 0 and 90"},
                              {"joints.C.dip=65", "joints.C", "there are: A, B"},
                              {"joints.A.dp=65", "joints.A.dp", "did you mean 'dip'?"},
                              {"joint.A.dip=65", "joint", "did you mean 'joints'?"},
                              {"joints.A=65", "joints.A", "name one of its keys: name, dip"},
-                             {"joints.A.dip.x=65", "joints.A.dip", "it has no keys"},
+                             {"joints.A.dip.x=65", "joints.A.dip", "a value and has no keys"},
                              {"restrain.1.rotation=true", "restrain", "write [[restrain]] in the file"},
                              {"fix.2.all=true", "fix.2", "there are: 1"},
                              {"joints.A.dip", "joints.A.dip", "has no '='"},
@@ -320,7 +320,7 @@ TEST(BadOverrides, AreToldWithTheirText) {
   }
 }
 
-TEST(BadFiles, AreToldWithTheirPath) {
+TEST(BadFiles, AreReportedWithTheirPath) {
   const auto complaint = [](const std::filesystem::path& path) -> std::string {
     try {
       read_scene(path);
@@ -344,8 +344,8 @@ TEST(GoodScene, IsAccepted) {
   EXPECT_EQ(complaint_about(good_scene), "");
 }
 
-// anything at all is either accepted or refused in words, never a crash: the good scene cut short and with each
-// character replaced
+// any text is either accepted or refused with a message, and never causes a crash: the good scene truncated, and with
+// each character replaced
 TEST(Damaged, NeverCrashes) {
   for (std::size_t i = 0; i < good_scene.size(); ++i) {
     for (const char c : {'[', '=', '"', '-'}) {

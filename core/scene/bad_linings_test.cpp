@@ -1,4 +1,4 @@
-// Linings that are stated wrongly, and how the scene says so.
+// Errors of linings in a scene, and their messages.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -65,7 +65,7 @@ TEST(BadLinings, AreRefusedWithAReasonAndARepair) {
       {lining("nodes = 2\nthickness = 0.3\nyoung_modulus = 25e9\n") + dig, "nodes", "3"},
       {lining("nodes = 48\nthickness = -0.3\nyoung_modulus = 25e9\n") + dig, "thickness", "greater than 0"},
       {lining(section + "to_deg = 180\n") + dig, "to_deg", "from_deg is missing"},
-      {lining(section + "from_deg = 180\nto_deg = 0\n") + dig, "to_deg", "must lie beyond"},
+      {lining(section + "from_deg = 180\nto_deg = 0\n") + dig, "to_deg", "must be beyond"},
       {lining(section + "from_deg = 0\nto_deg = 360\n") + dig, "to_deg", "leave to_deg out"},
       {lining(section + "compressive_strength = 25e6\n") + dig, "compressive_strength", "tensile_strength is missing"},
       {lining(section + "tensile_strength = 2e6\n") + dig, "tensile_strength", "compressive_strength is missing"},
@@ -73,15 +73,15 @@ TEST(BadLinings, AreRefusedWithAReasonAndARepair) {
       {lining(section) + stage + "install = [\"shel\"]\n", "install", "did you mean"},
       {lining(section) + stage + "install = [\"shell\"]\n" +
            "[[stage]]\nname = \"dig\"\nkind = \"settle\"\nexcavate = [\"tunnel\"]\n",
-       "install", "before 'tunnel' is taken out"},
+       "install", "before 'tunnel' is excavated"},
       {lining(section) + dig + "[[stage]]\nname = \"again\"\nkind = \"settle\"\ninstall = [\"shell\"]\n", "install",
-       "once more"},
+       "again; name"},
       {lining(section) + "[[bolts]]\nname = \"shell\"\nfrom = [0, 3]\nto = [0, 5]\nstiffness = 1e8\n" + dig, "name",
        "name of bolts"},
       {lining(section) + dig + monitor("quantities = [\"lining_force\"]\nlining = \"x\"\n"), "lining",
        "no lining of this name"},
       {lining(section) + dig + monitor("quantities = [\"lining_force\"]\njoint = \"bed\"\n"), "lining",
-       "is followed on"},
+       "is a quantity of"},
       {lining(section) + dig + monitor("quantities = [\"displacement\"]\nlining = \"shell\"\n"), "quantities",
        "lining_force only"},
       {lining(section) + dig +
@@ -96,7 +96,7 @@ TEST(BadLinings, AreRefusedWithAReasonAndARepair) {
   }
 }
 
-TEST(BadLinings, StandInThePlaneOnly) {
+TEST(BadLinings, ArePlaneOnly) {
   try {
     parse_scene("dimension = 3\ndensity = 2500\ndomain = { box = { min = [0, 0, 0], max = [1, 1, 1] } }\n" +
                     lining(section) + stage,

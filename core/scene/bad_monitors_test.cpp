@@ -1,4 +1,4 @@
-// Monitors of an opening's wall, and of motion since a stage, that are stated wrongly.
+// Errors of monitors of an opening's wall, and of motion since a stage.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -58,8 +58,7 @@ TEST(BadMonitors, OfWallsAndOfStagesAreRefusedWithAReasonAndARepair) {
       {monitor(wall + "angles_deg = [400]"), "angles_deg", "360"},
       {monitor("quantities = [\"convergence\"]\nangles_deg = [90]"), "excavation", "is missing"},
       {monitor("quantities = [\"convergence\"]\nangles_deg = [90]\nexcavation = \"tunel\""), "excavation", "tunnel"},
-      {monitor("quantities = [\"convergence\"]\nangles_deg = [90]\nexcavation = \"cut\""), "excavation",
-       "planes alone"},
+      {monitor("quantities = [\"convergence\"]\nangles_deg = [90]\nexcavation = \"cut\""), "excavation", "planes only"},
       {monitor("quantities = [\"convergence\"]\nangles_deg = [90]\nexcavation = \"half\""), "excavation", "its own"},
       {monitor("quantities = [\"convergence\", \"displacement\"]\nangles_deg = [90]\nexcavation = \"tunnel\""),
        "quantities", "convergence only"},
@@ -72,12 +71,12 @@ TEST(BadMonitors, OfWallsAndOfStagesAreRefusedWithAReasonAndARepair) {
       {monitor(block + "since = \"stres\""), "since", "stress"},
       {monitor(block + "since = \"later\""), "since", "last stage"},
       {monitor("inside = [3.8, 0]\nquantities = [\"displacement\", \"velocity\"]\nsince = \"dig\""), "since",
-       "velocity is no motion"},
+       "velocity is not a motion"},
       {monitor(block + "since_start = \"digg\""), "since_start", "dig"},
       {monitor(block + "since_start = 2"), "since_start", "text in double quotes"},
-      {monitor(block + "since_start = \"dig\"\nsince = \"stress\""), "since_start", "beside since"},
+      {monitor(block + "since_start = \"dig\"\nsince = \"stress\""), "since_start", "together with since"},
       {monitor("inside = [3.8, 0]\nquantities = [\"velocity\"]\nsince_start = \"dig\""), "since_start",
-       "velocity is no motion"},
+       "velocity is not a motion"},
       {monitor("joint = \"bed\"\nquantities = [\"contact_force\"]\nsince = \"dig\""), "since", "contact_force"},
   };
   for (const Case& c : cases) {
@@ -88,7 +87,7 @@ TEST(BadMonitors, OfWallsAndOfStagesAreRefusedWithAReasonAndARepair) {
   }
 }
 
-TEST(BadMonitors, InSpaceAnOpeningNeedsAnAxis) {
+TEST(BadMonitors, InThreeDimensionsAnOpeningNeedsAnAxis) {
   const std::string text = R"(
 dimension = 3
 density = 2500
@@ -103,7 +102,7 @@ excavate = ["tunnel"]
     prepare<3>(parse_scene(text + monitor(wall + "angles_deg = [90]"), "scene.toml", {}));
     FAIL() << "was taken";
   } catch (const SceneError& error) {
-    EXPECT_NE(std::string(error.what()).find("no axis to look across"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("has no axis"), std::string::npos) << error.what();
   }
 }
 

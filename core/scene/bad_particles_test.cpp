@@ -1,4 +1,4 @@
-// Mistakes in what a scene says about potential particles.
+// Mistakes in the keys of potential particles.
 #include "core/testing/bad_scenes.hpp"
 
 namespace voussoir {
@@ -61,13 +61,13 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"corners", "",
                  ball + "sphericity = 0.02\ncorner_radius = 0.1\nvertices = [[20, 0, 0], [21, 0, 0], [20, 1, 0], [20, "
                         "0, 1]] #!",
-                 "blocks.ball.vertices", "states no potential particle"},
+                 "blocks.ball.vertices", "cannot define a potential particle"},
         BadInput{"radius_of_a_block", "[[blocks]]\nname = \"far\"",
                  "[[blocks]]\nname = \"far\"\ncorner_radius = 0.1 #!", "blocks.far.corner_radius = 0.1",
-                 "applies only where shape = \"potential\""}),
+                 "applies only if shape = \"potential\""}),
     by_name);
 
-// what does not go with particles
+// keys that cannot be combined with particles
 const std::string friction = "friction_deg = 40\n";
 const std::string constant = friction + "constant_stiffness = true\n";
 const std::string settle = "[[stage]]\nname = \"settle\"\nkind = \"settle\"\n";
@@ -82,12 +82,12 @@ INSTANTIATE_TEST_SUITE_P(
                     BadInput{"sub_contacts", friction, constant + "sub_contacts = 2 #!\n" + sphere,
                              "joint_properties.rock.sub_contacts = 2", "touch at one point"},
                     BadInput{"water", friction, constant + sphere + "[[water]]\nname = \"lake\" #!\nlevel = 1\n",
-                             "water.lake.name", "know no potential particles"},
+                             "water.lake.name", "cannot act on potential particles"},
                     BadInput{"bolts", settle,
                              sphere + standard +
                                  "[[bolts]]\nname = \"pin\" #!\nfrom = [0, 0, 1]\nto = [0, 0, -1]\nstiffness = 1e8\n" +
                                  settle + "install = [\"pin\"]\n",
-                             "bolts.pin.name", "know no potential particles"},
+                             "bolts.pin.name", "cannot act on potential particles"},
                     BadInput{"tolerance", friction, constant + sphere + "[contact]\ntolerance = 1e-12 #!\n",
                              "contact.tolerance = 1e-12", "a tolerance of half-spaces"},
                     BadInput{"boundary_stress", settle,

@@ -1,4 +1,4 @@
-// Mistakes in searches, in what a stage makes of friction, and in joint sets through a point.
+// Mistakes in searches, in changes of friction by a stage, and in joint sets through a point.
 #include "core/testing/bad_scenes.hpp"
 
 namespace voussoir {
@@ -8,7 +8,7 @@ using namespace bad_scenes;
 
 class BadSearch : public testing::TestWithParam<BadInput> {};
 
-TEST_P(BadSearch, IsToldInOneLine) {
+TEST_P(BadSearch, IsReportedInOneLine) {
   expect_reported(GetParam());
 }
 
@@ -20,17 +20,16 @@ INSTANTIATE_TEST_SUITE_P(
     Factor, BadSearch,
     testing::Values(
         BadInput{"of_angle", reduction, factor + range + "tolerance_factor = 0.01\nto_deg = 5 #!",
-                 "stage.reduce.to_deg = 5", "only where search = \"friction\", which here is \"factor\""},
+                 "stage.reduce.to_deg = 5", "only if search = \"friction\", which here is \"factor\""},
         BadInput{"without_search", reduction, "to_deg = 5\nfrom_deg = 40\ntolerance_deg = 0.01\nto_factor = 2 #!",
-                 "stage.reduce.to_factor = 2",
-                 "only where search = \"factor\", which here is \"friction\" (the default)"},
+                 "stage.reduce.to_factor = 2", "only if search = \"factor\", which here is \"friction\" (the default)"},
         BadInput{"tolerance_of_angle", reduction, factor + range + "tolerance_deg = 0.01 #!",
-                 "stage.reduce.tolerance_deg = 0.01", "only where search = \"friction\""},
+                 "stage.reduce.tolerance_deg = 0.01", "only if search = \"friction\""},
         BadInput{"tolerance_of_steps", reduction,
                  factor + range + "method = \"steps\"\nstep_factor = 0.1\ntolerance_factor = 0.01 #!",
-                 "stage.reduce.tolerance_factor = 0.01", "only where method = \"bisection\", which here is \"steps\""},
+                 "stage.reduce.tolerance_factor = 0.01", "only if method = \"bisection\", which here is \"steps\""},
         BadInput{"step_of_angle", reduction, factor + range + "method = \"steps\"\nstep_deg = 0.1 #!",
-                 "stage.reduce.step_deg = 0.1", "only where search = \"friction\""},
+                 "stage.reduce.step_deg = 0.1", "only if search = \"friction\""},
         BadInput{"without_tolerance", "[[stage]]\nname = \"reduce\"\nkind = \"reduce\"\n" + reduction,
                  "[[stage]] #!\nname = \"reduce\"\nkind = \"reduce\"\n" + factor + range,
                  "stage.reduce.tolerance_factor is missing", "tolerance_factor = 0.001"},
@@ -45,21 +44,21 @@ INSTANTIATE_TEST_SUITE_P(
                  "stage.reduce.method = \"rate\"", "write method = \"bisection\" or \"steps\""},
         BadInput{"by_two_rates", reduction,
                  factor + range + "method = \"two_rates\" #!\nrate_deg_per_s = 1\nslower_rate_deg_per_s = 0.1",
-                 "stage.reduce.method = \"two_rates\"", "how late a rate finds failure"},
+                 "stage.reduce.method = \"two_rates\"", "the delay of failure at a finite rate"},
         BadInput{"another_search", reduction, "search = \"cohesion\" #!\n" + reduction,
                  "stage.reduce.search = \"cohesion\"", "must be one of \"friction\", \"factor\""},
         BadInput{"of_nobody", reduction, factor + range + "tolerance_factor = 0.01\njoint_properties = [\"rok\"] #!",
                  "stage.reduce.joint_properties", "did you mean 'rock'?"}),
     by_name);
 
-INSTANTIATE_TEST_SUITE_P(
-    Failure, BadSearch,
-    testing::Values(BadInput{"fraction_above_one", reduction, reduction + "\nfailure_fraction = 10 #!",
-                             "stage.reduce.failure_fraction = 10", "must lie between 0 and 1"},
-                    BadInput{"fraction_of_a_settle", "name = \"settle\"\nkind",
-                             "name = \"settle\"\nfailure_fraction = 0.1 #!\nkind",
-                             "stage.settle.failure_fraction = 0.1", "only where kind = \"reduce\""}),
-    by_name);
+INSTANTIATE_TEST_SUITE_P(Failure, BadSearch,
+                         testing::Values(BadInput{"fraction_above_one", reduction,
+                                                  reduction + "\nfailure_fraction = 10 #!",
+                                                  "stage.reduce.failure_fraction = 10", "must lie between 0 and 1"},
+                                         BadInput{"fraction_of_a_settle", "name = \"settle\"\nkind",
+                                                  "name = \"settle\"\nfailure_fraction = 0.1 #!\nkind",
+                                                  "stage.settle.failure_fraction = 0.1", "only if kind = \"reduce\""}),
+                         by_name);
 
 const std::string settle = "name = \"settle\"\nkind = \"settle\"\n";
 
@@ -89,12 +88,12 @@ INSTANTIATE_TEST_SUITE_P(
     Point, BadSearch,
     testing::Values(
         BadInput{"of_poisson", "", set + "point = [0, 0, 0] #!", "joint_sets.S.point = [0, 0, 0]",
-                 "only where arrangement = \"equal\", which here is \"poisson\" (the default)"},
+                 "only if arrangement = \"equal\", which here is \"poisson\" (the default)"},
         BadInput{"of_two_entries", "", set + "arrangement = \"equal\"\npoint = [0, 0] #!",
                  "joint_sets.S.point = [0, 0]", "a list of 3 numbers in m"},
         BadInput{"with_scatter", "",
                  set + "arrangement = \"equal\"\nscatter = \"fisher\"\nfisher_constant = 100\npoint = [0, 0, 0] #!",
-                 "joint_sets.S.point = [0, 0, 0]", "stands beside scatter"}),
+                 "joint_sets.S.point = [0, 0, 0]", "is stated together with scatter"}),
     by_name);
 
 }  // namespace

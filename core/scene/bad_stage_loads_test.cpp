@@ -1,4 +1,4 @@
-// Mistakes in what a stage brings upon blocks: stress on their faces, forces, prescribed motions.
+// Mistakes in the loads of a stage: stress on faces, forces, prescribed motions.
 #include "core/testing/bad_scenes.hpp"
 
 namespace voussoir {
@@ -8,7 +8,7 @@ using namespace bad_scenes;
 
 class BadLoad : public testing::TestWithParam<BadInput> {};
 
-TEST_P(BadLoad, IsToldInOneLine) {
+TEST_P(BadLoad, IsReportedInOneLine) {
   expect_reported(GetParam());
 }
 
@@ -50,24 +50,24 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"axis_not_named", "", moving + "bodies = [\"far\"]\ntranslation = [\"z\"]\nvelocity = [1, 0, 0] #!",
                  "stage.push.move.1.velocity = [1, 0, 0]", "component along x"},
         BadInput{"only_axes", "", moving + "bodies = [\"far\"]\nangular_velocity = [1, 0, 0]\ntranslation = [\"z\"] #!",
-                 "stage.push.move.1.translation", "beside no velocity"},
+                 "stage.push.move.1.translation", "without a velocity"},
         BadInput{"times_without_factors", "", moving + "bodies = [\"far\"]\nvelocity = [1, 0, 0]\ntimes_s = [0, 1]",
-                 "stage.push.move.1.factors is missing", "as many entries"},
+                 "stage.push.move.1.factors is missing", "the same number of entries"},
         BadInput{"times_fall", "",
                  moving + "bodies = [\"far\"]\nvelocity = [1, 0, 0]\nfactors = [0, 1]\ntimes_s = [1, 1] #!",
-                 "stage.push.move.1.times_s = [1, 1]", "must ascend"},
+                 "stage.push.move.1.times_s = [1, 1]", "must be ascending"},
         BadInput{"times_of_words", "",
                  moving + "bodies = [\"far\"]\nvelocity = [1, 0, 0]\nfactors = [0]\ntimes_s = [\"a\"] #!",
                  "stage.push.move.1.times_s.1 = \"a\"", "must be a number"},
         BadInput{"phase_alone", "", moving + "bodies = [\"far\"]\nvelocity = [1, 0, 0]\nphase_deg = 90 #!",
-                 "stage.push.move.1.phase_deg = 90", "no frequency_hz"},
+                 "stage.push.move.1.phase_deg = 90", "without frequency_hz"},
         BadInput{
             "moved_twice", "",
             moving + "bodies = [\"far\"]\nvelocity = [1, 0, 0]\n[[stage.move]] #!\nall = true\nvelocity = [1, 0, 0]",
             "stage.push.move.2", "already moves"},
         BadInput{"at_rest", "kind = \"settle\"",
                  "kind = \"settle\"\n[[stage.move]] #!\nbodies = [\"far\"]\nvelocity = [1, 0, 0]", "stage.settle.move",
-                 "applies only where kind"}),
+                 "applies only if kind"}),
     by_name);
 
 const std::string digging =
@@ -84,25 +84,28 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"twice", "",
                  digging + "excavate = [\"pit\"]\n[[stage]]\nname = \"again\"\nkind = \"settle\"\nexcavate = "
                            "[\"pit\"] #!",
-                 "stage.again.excavate", "once more"},
+                 "stage.again.excavate", "again; name"},
         BadInput{"by_a_word", "", digging + "excavate = 3 #!", "stage.dig.excavate = 3", "names"},
-        BadInput{"nothing_to_let_off", "", digging + "let_off = { share = 0, duration_s = 1 } #!", "stage.dig.let_off",
-                 "nothing to let off"},
-        BadInput{"no_share", "", digging + "excavate = [\"pit\"]\nlet_off = { duration_s = 1 } ",
-                 "stage.dig.let_off.share is missing", "still acts"},
-        BadInput{"share_in_percent", "", digging + "excavate = [\"pit\"]\nlet_off = { share = 40, duration_s = 1 } #!",
-                 "stage.dig.let_off.share = 40", "must lie between"},
-        BadInput{"no_duration", "", digging + "excavate = [\"pit\"]\nlet_off = { share = 0.4 } ",
-                 "stage.dig.let_off.duration_s is missing", "kind settle"},
-        BadInput{"longer_than_the_limit", "",
-                 digging + "time_limit_s = 2\nexcavate = [\"pit\"]\nlet_off = { share = 0.4, duration_s = 3 } #!",
-                 "stage.dig.let_off.duration_s = 3", "time_limit_s (2)"},
+        BadInput{"no_excavation_forces", "", digging + "excavation_forces = { remaining = 0, duration_s = 1 } #!",
+                 "stage.dig.excavation_forces", "no such forces"},
+        BadInput{"no_remaining", "", digging + "excavate = [\"pit\"]\nexcavation_forces = { duration_s = 1 } ",
+                 "stage.dig.excavation_forces.remaining is missing", "still acts"},
+        BadInput{"remaining_in_percent", "",
+                 digging + "excavate = [\"pit\"]\nexcavation_forces = { remaining = 40, duration_s = 1 } #!",
+                 "stage.dig.excavation_forces.remaining = 40", "must lie between"},
+        BadInput{"no_duration", "", digging + "excavate = [\"pit\"]\nexcavation_forces = { remaining = 0.4 } ",
+                 "stage.dig.excavation_forces.duration_s is missing", "kind settle"},
         BadInput{
-            "longer_than_the_stage", "",
-            "[[stage]]\nname = \"dig\"\nkind = \"run\"\nduration_s = 1\nlet_off = { share = 0, duration_s = 3 } #!",
-            "stage.dig.let_off.duration_s = 3", "at most the stage's duration_s (1)"},
-        BadInput{"in_a_search", "to_deg = 5", "to_deg = 5\nlet_off = { share = 0, duration_s = 3 } #!",
-                 "stage.reduce.let_off", "applies only where kind"}),
+            "longer_than_the_limit", "",
+            digging +
+                "time_limit_s = 2\nexcavate = [\"pit\"]\nexcavation_forces = { remaining = 0.4, duration_s = 3 } #!",
+            "stage.dig.excavation_forces.duration_s = 3", "time_limit_s (2)"},
+        BadInput{"longer_than_the_stage", "",
+                 "[[stage]]\nname = \"dig\"\nkind = \"run\"\nduration_s = 1\nexcavation_forces = { remaining = 0, "
+                 "duration_s = 3 } #!",
+                 "stage.dig.excavation_forces.duration_s = 3", "at most the stage's duration_s (1)"},
+        BadInput{"in_a_search", "to_deg = 5", "to_deg = 5\nexcavation_forces = { remaining = 0, duration_s = 3 } #!",
+                 "stage.reduce.excavation_forces", "applies only if kind"}),
     by_name);
 
 const std::string forcing = "[[stage]]\nname = \"press\"\nkind = \"settle\"\n[[stage.force]]\nname = \"jack\"\n";
@@ -133,7 +136,7 @@ INSTANTIATE_TEST_SUITE_P(
                              "stage.press.force.jack.point = [10.5, 0.5, 1.25]", "0.25 m outside of block 'far'"},
                     BadInput{"outside_of_one", "",
                              forcing + "all = true\nforce = [1, 0, 0]\npoint = [10.5, 0.5, 0.5] #!",
-                             "stage.press.force.jack.point", "choose the block it lies in"},
+                             "stage.press.force.jack.point", "choose the block that contains it"},
                     BadInput{"twice", "", forcing + on_far + "[[stage.force]]\n" + on_far + "name = \"jack\" #!",
                              "stage.press.force.jack.name = \"jack\"", "must be unique in stage.press.force"},
                     BadInput{"times_at_rest", "", forcing + on_far + "factors = [0, 1]\ntimes_s = [0, 1] #!",
@@ -141,11 +144,11 @@ INSTANTIATE_TEST_SUITE_P(
                     BadInput{"sine_at_rest", "", forcing + on_far + "frequency_hz = 2 #!",
                              "stage.press.force.jack.frequency_hz = 2", "needs a stage of kind run"},
                     BadInput{"factors_alone", "", forcing + on_far + "factors = [0, 1] ",
-                             "stage.press.force.jack.times_s is missing", "as many entries"},
+                             "stage.press.force.jack.times_s is missing", "the same number of entries"},
                     BadInput{"times_fall", "", forcing_in_time + on_far + "factors = [0, 1]\ntimes_s = [1, 1] #!",
-                             "stage.press.force.jack.times_s = [1, 1]", "must ascend"},
+                             "stage.press.force.jack.times_s = [1, 1]", "must be ascending"},
                     BadInput{"phase_alone", "", forcing_in_time + on_far + "phase_deg = 90 #!",
-                             "stage.press.force.jack.phase_deg = 90", "no frequency_hz"},
+                             "stage.press.force.jack.phase_deg = 90", "without frequency_hz"},
                     BadInput{"unknown_key", "", forcing + on_far + "turn_with_body = true #!",
                              "stage.press.force.jack.turn_with_body", "did you mean 'turns_with_body'?"},
                     BadInput{"turns_by_word", "", forcing + on_far + "turns_with_body = \"yes\" #!",

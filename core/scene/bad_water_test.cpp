@@ -1,4 +1,4 @@
-// Mistakes in what a scene says about water.
+// Mistakes in the keys of water.
 #include "core/testing/bad_scenes.hpp"
 
 namespace voussoir {
@@ -16,7 +16,7 @@ const std::string lake = "[[water]]\nname = \"lake\"\n";
 const std::string level = lake + "level = 1\n";
 const std::string seep = "[[water]]\nname = \"seep\"\n";
 
-// the water stands behind the monitors, a change of it in the stage that settles
+// the water is written after the monitors, its change in the settle stage
 const std::string running = level + "[[stage]]\nname = \"drain\"\nkind = \"run\"\nduration_s = 2\n[[stage.water]]\n";
 const std::string settling = level + "[[stage]]\nname = \"drain\"\nkind = \"settle\"\n[[stage.water]]\n";
 
@@ -31,7 +31,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"negative_pressure", "", lake + "pressure = -5 #!", "water.lake.pressure = -5", "must lie between"},
         BadInput{"no_weight", "", level + "unit_weight = 0 #!", "water.lake.unit_weight = 0", "must be greater than 0"},
         BadInput{"weight_of_a_pressure", "", lake + "pressure = 5\nunit_weight = 9810 #!",
-                 "water.lake.unit_weight = 9810", "beside a pressure"},
+                 "water.lake.unit_weight = 9810", "together with a pressure"},
         BadInput{"twice", "", level + "[[water]]\nlevel = 2\nname = \"lake\" #!", "water.lake.name = \"lake\"",
                  "must be unique in water"},
         BadInput{"steep", "", lake + "table = { point = [0, 0, 1], dip = 85, dip_direction = 90 } #!",
@@ -54,18 +54,18 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"two_waters_outside", "", level + seep + "level = 2\nfaces = \"outer\" #!",
                  "water.seep.faces = \"outer\"", "the outer faces have the water 'lake' already"},
         BadInput{"a_number", "", level + "faces = 5 #!", "water.lake.faces = 5", "must be a name or a list of names"},
-        BadInput{"a_name_twice", "", level + "faces = [\"A\", \"A\"] #!", "water.lake.faces", "stands twice"}),
+        BadInput{"a_name_twice", "", level + "faces = [\"A\", \"A\"] #!", "water.lake.faces", "appears twice"}),
     by_name);
 
 INSTANTIATE_TEST_SUITE_P(
     Changes, BadWater,
     testing::Values(
         BadInput{"without_time", "", running + "name = \"lake\"\nlevel = 0 ",
-                 "stage.drain.water.lake.duration_s is missing", "a water that changes needs its time"},
+                 "stage.drain.water.lake.duration_s is missing", "a change of water needs a duration"},
         BadInput{"without_time_at_rest", "", settling + "name = \"lake\"\nlevel = 0 ",
-                 "stage.drain.water.lake.duration_s is missing", "as of gravity_ramp_s"},
+                 "stage.drain.water.lake.duration_s is missing", "like gravity_ramp_s"},
         BadInput{"two_times", "", running + "name = \"lake\"\nlevel = 0\nduration_s = 1\nrate = 1 #!",
-                 "stage.drain.water.lake.rate = 1", "beside duration_s"},
+                 "stage.drain.water.lake.rate = 1", "together with duration_s"},
         BadInput{"unknown", "", running + "name = \"lkae\" #!\nlevel = 0\nduration_s = 1",
                  "stage.drain.water.lkae.name = \"lkae\"", "did you mean 'lake'?"},
         BadInput{"to_a_pressure", "", running + "name = \"lake\"\nduration_s = 1\npressure = 5 #!",
@@ -82,25 +82,25 @@ INSTANTIATE_TEST_SUITE_P(
                  "stage.drain.water.lake.duration_s = 5", "must be less than time_limit_s"},
         BadInput{"tilting_at_a_rate", "",
                  running + "name = \"lake\"\ntable = { point = [0, 0, 1], dip = 5, dip_direction = 90 }\nrate = 1 #!",
-                 "stage.drain.water.lake.rate = 1", "no two places then rise alike"},
+                 "stage.drain.water.lake.rate = 1", "the rise then differs from place to place"},
         BadInput{"while_friction_falls", "kind = \"reduce\"",
                  "kind = \"reduce\"\nwater = [{ name = \"lake\", level = 0, duration_s = 1 }] #!", "stage.reduce.water",
-                 "applies only where kind"}),
+                 "applies only if kind"}),
     by_name);
 
 INSTANTIATE_TEST_SUITE_P(
     Monitors, BadWater,
     testing::Values(BadInput{"level_of_nothing", "", level + "[[monitors]]\nname = \"l\"\nquantities = [\"level\"]",
-                             "monitors.l.water is missing", "level is followed on a water"},
+                             "monitors.l.water is missing", "level is a quantity of a water"},
                     BadInput{"level_of_no_water", "",
                              level + "[[monitors]]\nname = \"l\"\nquantities = [\"level\"]\nwater = \"sea\" #!",
                              "monitors.l.water = \"sea\"", "no water of this name"},
                     BadInput{"force_of_a_water", "",
                              level + "[[monitors]]\nname = \"l\"\nwater = \"lake\"\nquantities = [\"water_load\"] #!",
-                             "monitors.l.quantities", "follows its level only"},
+                             "monitors.l.quantities", "has its level only"},
                     BadInput{"bonds_of_a_block", "",
                              "[[monitors]]\nname = \"l\"\nbodies = [\"far\"]\nquantities = [\"whole_bonds\"]",
-                             "monitors.l.joint is missing", "whole_bonds is followed on a joint"}),
+                             "monitors.l.joint is missing", "whole_bonds is a quantity of a joint"}),
     by_name);
 
 const std::string in_the_plane = R"(dimension = 2

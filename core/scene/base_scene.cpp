@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "core/scene/renamed_keys.hpp"
 #include "core/scene/scene_text.hpp"
 #include "core/scene/toml_text.hpp"
 
@@ -12,7 +13,7 @@ namespace {
 // a base of a base of a base …
 constexpr std::size_t most_bases = 16;
 
-// a stage of another kind or method shares its name with the base's and nothing else
+// a stage of another kind or method has only its name in common with the base's
 bool is_another(const Node& base, const Node& scene) {
   for (const char* key : {"kind", "method"}) {
     const Node *below = base.find(key), *above = scene.find(key);
@@ -21,9 +22,9 @@ bool is_another(const Node& base, const Node& scene) {
   return false;
 }
 
-// a table of the list goes over the base's of the same name, or behind the others
+// a table of the list is merged into the base's of the same name, or appended
 void lay_list_over(Node& base, const Node& scene) {
-  std::map<std::string, std::size_t> places;  // by name, the first of it
+  std::map<std::string, std::size_t> places;  // by name, the first occurrence
   for (std::size_t i = 0; i < base.items.size(); ++i)
     if (const std::string name = name_of(base.items[i]); !name.empty()) places.emplace(name, i);
   for (const Node& item : scene.items) {
@@ -66,7 +67,8 @@ namespace fs = std::filesystem;
 
 // `chain` holds the bases that led here
 Node load(Node scene, const fs::path& folder, std::vector<fs::path>& chain, FilesRead& read) {
-  // what files of joints and blocks state lies below the scene that names them, as a base does
+  take_present_names(scene, "", "", read.renamed);
+  // tables from files of joints and blocks have lower precedence than the scene that names them, like a base
   Node files = tables_of_files(scene, folder, read);
   lay_over(files, scene);
   scene = std::move(files);
@@ -76,9 +78,10 @@ Node load(Node scene, const fs::path& folder, std::vector<fs::path>& chain, File
   if (!stated) return scene;
   const fs::path file = file_beside(*stated, "base", folder);
   if (std::find(chain.begin(), chain.end(), file) != chain.end())
-    refuse(*stated, "base", "leads back to itself; name another file, or remove one base of the circle");
+    refuse(*stated, "base", "leads back to the scene itself; name another file, or remove one base of the circle");
   if (chain.size() == most_bases)
-    refuse(*stated, "base", "more than 16 bases in a row; state this scene's differences from one nearer to the first");
+    refuse(*stated, "base",
+           "more than 16 bases in a row; state this scene's differences from a scene nearer to the first");
   chain.push_back(file);
   read.files.push_back(file);
   // messages name the file as the user would find it

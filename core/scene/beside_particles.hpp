@@ -1,4 +1,4 @@
-// What potential particles cannot have beside them.
+// Parts of a scene that cannot be combined with potential particles.
 #pragma once
 
 #include "core/model/model.hpp"
@@ -6,7 +6,7 @@
 
 namespace voussoir {
 
-// Throws SceneError for what a scene with particles may not state beside them.
+// Throws SceneError if a scene with particles states something that cannot be combined with them.
 template <int Dim>
 void check_beside_particles(const Scene& scene, const Model<Dim>& model);
 

@@ -8,8 +8,8 @@
 namespace voussoir {
 namespace {
 
-// a stated corner is a corner of the hull when one lies this near, relative to the block's extent: far above the
-// rounding of coordinates, far below what anyone would state as two corners
+// a stated corner is a corner of the hull if one is this near, relative to the block's extent: far above the rounding
+// of coordinates, far below the distance of two intended corners
 constexpr double same_corner = 1e-6;
 
 // an unnamed normal of any length; the offset moves with the origin
@@ -29,7 +29,7 @@ std::vector<Vector<Dim>> corners(const BlockSpec& block, const Vector<Dim>& orig
   return points;
 }
 
-// a point that the scene states on a solid, and where
+// a point that the scene states on a solid, and its key
 template <int Dim>
 struct StatedPoint {
   Vector<Dim> point;
@@ -78,7 +78,7 @@ Vector<Dim> middle(const std::vector<Vector<Dim>>& points) {
   return low + 0.5 * (high - low);
 }
 
-// the statement to look at when something lies far from everything else
+// the statement that is reported if a solid is far from all others
 template <int Dim>
 std::string farthest_statement(const Scene& scene) {
   const std::vector<StatedPoint<Dim>> points = stated_points<Dim>(scene);
@@ -96,18 +96,20 @@ Polytope<Dim> checked(const Scene& scene, const BlockResult<Dim>& result, const 
     case BlockStatus::open:
       refuse(node, path,
              std::string("the planes do not close a region, the ") + what +
-                 " is open; add the missing planes, or turn one round that points the wrong way");
+                 " is open; add the missing planes, or reverse one that points the wrong way");
     case BlockStatus::empty:
       refuse(node, path,
-             std::string("no point lies inside all planes, the ") + what +
-                 " is empty; turn round the plane that points the wrong way, or move one");
+             std::string("no point is inside all planes, the ") + what +
+                 " is empty; reverse the plane that points the wrong way, or move "
+                 "one");
     case BlockStatus::flat:
       break;
     case BlockStatus::far:
       refuse(node, path,
              std::string("the ") + what +
-                 " lies so far from the middle of the scene that its coordinates round by more than 1e-6 of its size; "
-                 "bring the solids together, or make it larger (the largest coordinate is that of " +
+                 " is so far from the middle of the scene that its coordinates are rounded by more than 1e-6 of its "
+                 "size; move the solids "
+                 "together, or make it larger (the largest coordinate is that of " +
                  farthest_statement<Dim>(scene) + ")");
     case BlockStatus::bad_plane:
       refuse(node, path + "." + std::to_string(result.plane + 1), "is not a plane; give a normal that is not zero");
@@ -140,8 +142,8 @@ Polytope<Dim> make_hull(const Scene& scene, const BlockSpec& block, const Vector
   const Node& node = *block.subject.node->find("vertices");
   const std::string path = key_path(block.subject.path, "vertices");
   const std::vector<Vector<Dim>> points = corners<Dim>(block, origin);
-  const std::string flat = Dim == 3 ? "the block has no volume; give at least 4 points that do not lie in one plane"
-                                    : "the block has no area; give at least 3 points that do not lie on one line";
+  const std::string flat = Dim == 3 ? "the block has no volume; give at least 4 points that are not in one plane"
+                                    : "the block has no area; give at least 3 points that are not on one line";
   if (points.size() <= Dim) refuse(node, path, flat);
   const HalfSpaces<Dim> planes = hull_planes<Dim>(points);
   if (planes.empty()) refuse(node, path, flat);
@@ -193,7 +195,7 @@ Vector<Dim> find_origin(const Scene& scene) {
   const Vector<Dim> first = middle<Dim>(points);
   if (!has_planes(scene)) return first;
 
-  // the points of planes may lie anywhere on them: a second look at the solids they make
+  // the points of planes may be anywhere on them: a second check, of the resulting solids
   points.clear();
   const auto add = [&](const Polytope<Dim>& part) {
     points.insert(points.end(), part.vertices.begin(), part.vertices.end());

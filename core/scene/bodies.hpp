@@ -19,12 +19,12 @@ HalfSpace<Dim> to_half_space(const PlaneSpec& plane, const Vector<Dim>& origin);
 template <int Dim>
 HalfSpaces<Dim> box_planes(const BoxSpec& box, const Vector<Dim>& origin);
 
-// Centre of everything solid, so that a scene far from the file's origin keeps all its digits.
+// Centre of all solids, so that a scene far from the file's origin loses no digits.
 template <int Dim>
 Vector<Dim> find_origin(const Scene& scene);
 
-// The scene's domain, and one of its blocks, a potential particle's not finished. Both throw SceneError on what is
-// open, empty, flat or far.
+// The scene's domain, and one of its blocks (of a potential particle only its planes). Both throw SceneError if a solid
+// is open, empty, flat or too far away.
 template <int Dim>
 Polytope<Dim> make_domain(const Scene& scene, const Vector<Dim>& origin);
 template <int Dim>

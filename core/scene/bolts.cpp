@@ -15,11 +15,11 @@
 namespace voussoir {
 namespace {
 
-// more are a mistake in a spacing
+// a larger number is a mistake in a spacing
 constexpr double most_bolts = 100'000;
 
 double rays_of(const FanSpec& fan) {
-  constexpr double rounding = 1e-9;  // of a spacing: the last ray lies on to_deg
+  constexpr double rounding = 1e-9;  // of a spacing: the last ray is at to_deg
   return std::floor((fan.to - fan.from) / fan.spacing + rounding) + 1;
 }
 
@@ -31,16 +31,15 @@ FanSpec read_fan(const Subject& subject, int dimension) {
            "must not be less than from_deg (" + value_text(*subject.node->find("from_deg")) + "); swap the two");
   constexpr double whole_turn = 2 * std::numbers::pi, rounding = 1e-12;
   if (fan.to - fan.from > whole_turn + rounding)
-    refuse(
-        subject, "to_deg",
-        fmt::format("is more than a whole turn beyond from_deg ({:g}): bolts would lie on top of each other; state at "
-                    "most from_deg + 360",
-                    to_degrees(fan.from)));
+    refuse(subject, "to_deg",
+           fmt::format(
+               "is more than 360 degrees beyond from_deg ({:g}): bolts would coincide; state at most from_deg + 360",
+               to_degrees(fan.from)));
   if (dimension == 2 && !fan.axis.empty())
-    refuse(subject, "axis", "rays stand across the third direction because dimension = 2; remove it");
+    refuse(subject, "axis", "the rays are in the plane because dimension = 2; remove it");
   const auto is_zero = [](double x) { return x == 0; };
   if (dimension == 3 && std::ranges::all_of(fan.axis, is_zero))
-    refuse(subject, "axis", "the rays need a direction that they stand across; write for example axis = [0, 1, 0]");
+    refuse(subject, "axis", "the direction perpendicular to the rays is missing; write for example axis = [0, 1, 0]");
   return fan;
 }
 
@@ -63,26 +62,27 @@ void check_law(const Subject& item, const BoltProperties& p) {
     refuse(item, "dowel_strength", "dowel_stiffness is missing: without it no force acts across the bolt; add it");
 }
 
-// more nodes of a bar are a mistake in their spacing
+// a larger number of nodes is a mistake in their spacing
 constexpr double most_nodes = 10'000;
 
 void check_grouted(const Subject& item, const BoltProperties& p, double length) {
   const std::string long_text = fmt::format("the bolt is {:g} m long", length);
   if (p.free_length >= length)
-    refuse(item, "free_length", "leaves no grout, " + long_text + "; lower it, or write kind = \"end_anchored\"");
+    refuse(item, "free_length",
+           "leaves no grouted length, " + long_text + "; lower it, or write kind = \"end_anchored\"");
   if (p.node_spacing && *p.node_spacing > length)
-    refuse(item, "node_spacing", "holds no node, " + long_text + "; lower it, or leave it out");
+    refuse(item, "node_spacing", "leaves no node, " + long_text + "; lower it, or leave it out");
   if (length > most_nodes * node_spacing(p, length))
     refuse(item, "node_spacing",
            fmt::format("makes {:.0f} nodes, more than {:.0f}, {}; raise it, or leave it out",
                        length / node_spacing(p, length), most_nodes, long_text));
   if (p.pretension > 0 && p.plate == Plate::none)
-    refuse(item, "pretension", "needs a plate to be tightened; write plate = \"tied\" or \"spring\", or remove it");
+    refuse(item, "pretension", "requires a plate; write plate = \"tied\" or \"spring\", or remove it");
   if (p.bond_strength && p.pretension >= *p.bond_strength * (length - p.free_length))
-    refuse(
-        item, "pretension",
-        fmt::format("is no less than what the grout holds, bond_strength times {:g} m; lower it, or lengthen the bolt",
-                    length - p.free_length));
+    refuse(item, "pretension",
+           fmt::format(
+               "is not less than the strength of the grout, bond_strength times {:g} m; lower it, or lengthen the bolt",
+               length - p.free_length));
 }
 
 BoltSpec read_bolt(const Subject& item, int dimension) {
@@ -95,17 +95,17 @@ BoltSpec read_bolt(const Subject& item, int dimension) {
     RepeatSpec& row = spec.repeat.emplace_back();
     read_keys(*repeat.node, "repeat", row);
     if (std::ranges::all_of(row.step, [](double x) { return x == 0; }))
-      refuse(repeat, "step", "is zero: all bolts would lie in one place; write for example the distance between two");
+      refuse(repeat, "step", "is zero: all bolts would coincide; write for example the distance between two bolts");
   }
   const bool line = !spec.from.empty() || !spec.to.empty();
   if (line && spec.fan) refuse(item, "fan", "bolts take either a fan or from and to; remove one");
   if (!line && !spec.fan)
-    refuse(item, "from", "where the bolts lie is not stated; write from and to, or fan = { centre = […], … }");
+    refuse(item, "from", "the position of the bolts is not stated; write from and to, or fan = { centre = […], … }");
   if (line && (spec.from.empty() || spec.to.empty()))
     refuse(item, spec.from.empty() ? "from" : "to", "a bolt needs both its collar, from, and its end, to; add it");
   if (line && spec.from == spec.to) refuse(item, "to", "is the same point as from: the bolt has no length; move it");
   if (dimension == 3 && spec.spacing)
-    refuse(item, "spacing", "applies only where dimension = 2; in 3-D write repeat = [{ step = […], count = … }]");
+    refuse(item, "spacing", "applies only if dimension = 2; in 3-D write repeat = [{ step = […], count = … }]");
   spec.properties.tension_only |= spec.properties.kind == BoltKind::end_anchored;
   double count = spec.fan ? rays_of(*spec.fan) : 1;
   for (const RepeatSpec& row : spec.repeat)
@@ -118,7 +118,7 @@ BoltSpec read_bolt(const Subject& item, int dimension) {
   return spec;
 }
 
-// in the plane of a fan: to the right, and up
+// axes in the plane of a fan: to the right, and up
 template <int Dim>
 std::array<Vector<Dim>, 2> axes_of(const FanSpec& fan) {
   if constexpr (Dim == 2) {
@@ -159,7 +159,7 @@ std::vector<std::pair<Vector<Dim>, Vector<Dim>>> lines_of(const BoltSpec& spec) 
   return lines;
 }
 
-// of a slice of 1 m
+// number in a slice of 1 m
 BoltProperties per_metre(BoltProperties p, double spacing) {
   p.spacing = spacing;
   for (double* value :

@@ -1,4 +1,4 @@
-// [[bolts]]: read, checked, and placed.
+// [[bolts]]: reading, checks and positions.
 #pragma once
 
 #include <array>
@@ -11,11 +11,12 @@ namespace voussoir {
 // Throws SceneError.
 void read_bolts(const Subject& top, Scene& scene);
 
-// What angles of rays across an axis count from and turn to: right and up; in the plane the x and the y axis.
+// Axes for the angles of rays perpendicular to an axis, from the first towards the second: right and up; in 2-D the x
+// and the y axis.
 template <int Dim>
 std::array<Vector<Dim>, 2> ray_axes(const std::vector<double>& axis);
 
-// Model::bolts and their properties, whatever the order in which the scene states them; the model has its origin.
+// Model::bolts and their properties, independent of their order in the scene; the model's origin is set.
 template <int Dim>
 void add_bolts(const Scene& scene, Model<Dim>& model);
 

@@ -1,3 +1,4 @@
+#include "core/scene/renamed_keys.hpp"
 #include "core/scene/scene.hpp"
 
 #include <charconv>
@@ -52,7 +53,7 @@ std::string canonical_text(const Node& part) {
 }
 
 std::string canonical_text(const Scene& scene) {
-  return canonical_text(*scene.tree);
+  return canonical_text(with_earliest_names(*scene.tree));
 }
 
 }  // namespace voussoir

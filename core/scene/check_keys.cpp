@@ -1,4 +1,4 @@
-// Holds a scene's tree against the key table.
+// Checks a scene's tree against the key table.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -11,7 +11,7 @@ namespace {
 // planes or corners of one block, every three of which are tried
 constexpr std::size_t most_corners = 200;
 
-// so many joints that meet make more blocks than any memory holds
+// so many intersecting joints make more blocks than any memory holds
 constexpr std::size_t most_stated_joints = 10000;
 
 struct Checker {
@@ -45,7 +45,7 @@ std::string repair_of(const KeyRow& row) {
   return row.repair.empty() ? example_of(row) : "; " + std::string(row.repair);
 }
 
-// examples stand for 3-D scenes; in 2-D only the number of entries is reported
+// examples are for 3-D scenes; in 2-D only the number of entries is reported
 std::string vector_rule(const KeyRow& row, std::size_t count) {
   std::string rule =
       "must be " + (count == 1 ? std::string("one number") : "a list of " + std::to_string(count) + " numbers");
@@ -57,14 +57,14 @@ std::string vector_rule(const KeyRow& row, std::size_t count) {
   return rule + "; write for example " + std::string(row.key) + " = " + (row.key == "gravity" ? downwards : upwards);
 }
 
-// how a list that is too long becomes short enough
+// the repair of a list that is too long
 std::string fewer(const KeyRow& row) {
   if (row.table == "blocks") return "divide the block into parts";
   if (row.table == "domain") return "leave out those that bound nothing, or divide the domain";
   if (row.table == "excavations" || row.table == "region") return "divide the excavation";
   if (row.key == "table")
-    return "leave out points that lie on the straight line between their neighbours, or nearly so";
-  return "leave out those that lie next to one another";
+    return "leave out points that are on the straight line between their neighbours, or nearly so";
+  return "leave out those that are close to one another";
 }
 
 const Node* text_of(const Node& table, std::string_view key) {
@@ -125,7 +125,7 @@ void refuse_inapplicable(const Node& table, const Groups& groups, const KeyRow& 
   const std::string found =
       stated ? '"' + one_line(stated->text, 40) + '"' : std::string(decisive.default_value) + " (the default)";
   refuse(node, path,
-         "applies only where " + std::string(failing.key) + " = " + values + ", which here is " + found +
+         "applies only if " + std::string(failing.key) + " = " + values + ", which here is " + found +
              "; remove it or change " + std::string(failing.key));
 }
 
@@ -168,9 +168,9 @@ void Checker::tables(const KeyRow& row, const Node& node, const std::string& pat
   if (!of_tables)
     refuse(node, path, "must be a list of tables; write [[" + path + "]] with two brackets on a line of its own");
   if (row.key == "planes" && node.items.size() > most_corners)
-    refuse(node, path, "must hold at most " + std::to_string(most_corners) + " planes; " + fewer(row));
+    refuse(node, path, "must have at most " + std::to_string(most_corners) + " planes; " + fewer(row));
   if (row.key == "joints" && node.items.size() > most_stated_joints)
-    refuse(node, path, "must hold at most " + std::to_string(most_stated_joints) + " joints; divide the scene");
+    refuse(node, path, "must have at most " + std::to_string(most_stated_joints) + " joints; divide the scene");
   std::set<std::string> names;
   for (std::size_t i = 0; i < node.items.size(); ++i) {
     const Node& item = node.items[i];
@@ -209,7 +209,7 @@ void Checker::numbers(const KeyRow& row, const Node& node, const std::string& pa
 void Checker::points(const KeyRow& row, const Node& node, const std::string& path) const {
   if (node.kind != Node::Kind::list) refuse(node, path, "must be a list of points" + example_of(row));
   if (node.items.size() > most_corners)
-    refuse(node, path, "must hold at most " + std::to_string(most_corners) + " points; " + fewer(row));
+    refuse(node, path, "must have at most " + std::to_string(most_corners) + " points; " + fewer(row));
   for (std::size_t i = 0; i < node.items.size(); ++i)
     numbers(row, node.items[i], path + "." + std::to_string(i + 1), dimension);
 }
@@ -224,7 +224,7 @@ void Checker::list(const KeyRow& row, const Node& node, const std::string& path)
 void Checker::words(const KeyRow& row, const Node& node, const std::string& path,
                     const std::vector<std::string_view>& allowed) const {
   const std::string what =
-      allowed.empty() ? "a name or a list of names" : "one, or a list of some, of " + quoted_list(allowed);
+      allowed.empty() ? "a name or a list of names" : "one or several (as a list) of " + quoted_list(allowed);
   const bool one = node.kind == Node::Kind::text;
   if (!one && (node.kind != Node::Kind::list || node.items.empty()))
     refuse(node, path, "must be " + what + example_of(row));
@@ -236,7 +236,7 @@ void Checker::words(const KeyRow& row, const Node& node, const std::string& path
       const std::string near = nearest(item.text, {allowed.begin(), allowed.end()});
       refuse(item, path, "must be " + what + (near.empty() ? example_of(row) : "; did you mean \"" + near + "\"?"));
     }
-    if (!seen.insert(item.text).second) refuse(item, path, "stands twice in the list; remove one");
+    if (!seen.insert(item.text).second) refuse(item, path, "appears twice in the list; remove one");
   }
 }
 
@@ -305,7 +305,7 @@ void Checker::value(const KeyRow& row, const Node& node, const std::string& path
   }
 }
 
-// behind a number; a ratio needs none
+// after a number; a ratio needs none
 std::string unit_of(const KeyRow& row) {
   return row.unit.empty() || row.unit == "1" ? "" : " " + std::string(row.unit);
 }

@@ -10,7 +10,7 @@
 namespace voussoir {
 namespace {
 
-// a friction angle and the stage that has stated it last; empty: none has
+// a friction angle and the stage that last stated it; empty: none
 struct FrictionInForce {
   double angle;  // rad
   std::string stage;
@@ -35,7 +35,7 @@ std::string item(const std::string& properties, double angle) {
   return fmt::format("{{ name = \"{}\", friction_deg = {:.10g} }}", properties, to_degrees(angle));
 }
 
-// what the stage states already stays in the line
+// entries that the stage already states stay in the line
 std::string line_to_add(const Change& change, std::vector<std::string> missing) {
   std::vector<std::string> items;
   for (const FrictionPlan& plan : change.friction_of)
@@ -60,9 +60,9 @@ void check_search(const StageSpec& stage, const ReducePlan& search, const std::v
   if (missing.empty()) return;
   refuse(
       stage.subject, "friction",
-      fmt::format("{}; a factor of safety divides the friction that its own stage states: write {}, or the angle that "
-                  "is to be divided",
-                  fmt::join(told, "; "), line_to_add(stage.plan.change, missing)));
+      fmt::format(
+          "{}; a factor of safety divides the friction that its own stage states: write {}, or the angle to be reduced",
+          fmt::join(told, "; "), line_to_add(stage.plan.change, missing)));
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Which friction a search for a factor of safety divides: random chains of stages, against a bookkeeping of their text.
+// The friction that a search for a factor of safety divides: random sequences of stages, compared with bookkeeping of
+// their text.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
@@ -15,7 +16,7 @@
 namespace voussoir {
 namespace {
 
-// what the text of a stage says
+// the text of a stage
 struct WrittenStage {
   std::string name = {}, search = {};          // search: "", "friction" or "factor"
   std::vector<std::string> named = {};         // by the search; none: all
@@ -37,7 +38,7 @@ struct WrittenStage {
     return text;
   }
   bool states(const std::string& joint) const { return !all.empty() || of.contains(joint); }
-  // by words alone, so that equal angles have equal texts
+  // as texts only, so that equal angles have equal texts
   std::string angle_of(const std::string& joint, const std::string& before) const {
     if (of.contains(joint)) return of.at(joint);
     return all.empty() ? before : all;
@@ -141,7 +142,7 @@ TEST(DividedStrength, IsThatOfItsOwnStageOrOfTheJointNeverOfAnEarlierStage) {
         ASSERT_NE(said.find(fmt::format("state {} deg", angles.second)), std::string::npos) << said;
         stage.of[joint] = angles.second;
       }
-      // the line that it tells is that of the mended stage
+      // the line in the message is that of the repaired stage
       const std::string line = said.substr(said.find("write friction = ["));
       for (const auto& [joint, angle] : stage.of)
         ASSERT_NE(line.find(fmt::format("{{ name = \"{}\", friction_deg = {} }}", joint, angle)), std::string::npos)
@@ -150,7 +151,7 @@ TEST(DividedStrength, IsThatOfItsOwnStageOrOfTheJointNeverOfAnEarlierStage) {
     ++accepted;
     ASSERT_EQ(complaint_about(scene), "") << scene.text();
 
-    // what a search then finds in the model is what its own stage states, or the joint's own
+    // a search then divides the value of its own stage, or the joint's own
     const Prepared<2> prepared = prepare<2>(parse_scene(scene.text(), "scene.toml"));
     Model<2> model = prepared.model;
     for (std::size_t s = 0; s < scene.stages.size(); ++s) {
@@ -167,8 +168,8 @@ TEST(DividedStrength, IsThatOfItsOwnStageOrOfTheJointNeverOfAnEarlierStage) {
   EXPECT_EQ(accepted, 400);
 }
 
-// an angle search may begin elsewhere
-TEST(DividedStrength, AnAngleThatIsSearchedReplacesWhateverWasThere) {
+// a search for an angle may start from another value
+TEST(DividedStrength, ASearchForAnAngleReplacesEarlierAngles) {
   RandomSearch random(53);
   for (int k = 0; k < 100; ++k) {
     WrittenScene scene = random.scene();
@@ -197,7 +198,7 @@ TEST(DividedStrength, TheWetSlopeNeedsItsRestoringLine) {
   }
 }
 
-TEST(DividedStrength, ASentenceSaysWhatIsDividedAndWhatIsNot) {
+TEST(DividedStrength, ASentenceNamesTheDividedStrengths) {
   EXPECT_EQ(divided_by_factor({"joint", "crack"}),
             "divides tan φ and cohesion of 'joint', 'crack'; not tensile strength, bolts, linings' beams or water");
   EXPECT_EQ(divided_by_factor({}, false),

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "core/scene/keys.hpp"
+#include "core/scene/renamed_keys.hpp"
 #include "core/scene/scene.hpp"
 
 namespace voussoir {
@@ -9,9 +10,8 @@ namespace {
 
 constexpr const char* introduction = R"(# Scene files
 
-A scene is one TOML file: the blocks, the joints, what happens to them and what is followed. It names only what it
-needs. Lengths are in m, all units are SI, angles are in degrees. x points east, y north, z up; in 2-D x to the right, y
-up.
+A scene is one TOML file with blocks, joints, stages and monitors. It states only the keys that it needs. Lengths are in
+m, all units are SI, angles are in degrees. x points east, y north, z up; in 2-D x to the right, y up.
 
 ```toml
 title = "Block on an incline"
@@ -48,17 +48,17 @@ quantities = ["displacement"]
 ```
 
 Every key can be changed on the command line: `--set joints.A.dip=35`, `--set gravity=[0,0,-1.62]`. Tables of a list are
-addressed by their name, or by their number from 1 where they have none (`--set fix.1.below=["B"]`). The value is
-written as in the file; a word needs no quotes. What [[repeat]] copies is addressed by its name, a copy by its own
-(`--set blocks.stone-3.density=2500`). A key that the file leaves out can be set as well. So a name may hold
-any characters but '.' and '=', and is unique in its list. Every text is one line of UTF-8 without control characters.
+addressed by their name, or by their number from 1 if they have none (`--set fix.1.below=["B"]`). The value is written
+as in the file; a word needs no quotes. Tables that [[repeat]] copies are addressed by their names, a copy by its own
+(`--set blocks.stone-3.density=2500`). A key that the file does not state can be set as well. A name may therefore
+contain any characters except '.' and '=', and is unique in its list. Every text is one line of UTF-8 without control
+characters.
 
-A value outside the range that a key allows is refused. One outside its usual range is reported as a warning before the run:
-most often its unit is wrong.
+A value outside the allowed range of its key is refused. One outside its usual range is reported as a warning before the
+run: usually its unit is wrong.
 
-Blocks are chosen by selectors: by name, by the side of joints, by a point inside, by a side of the model or by a
-box, never by number. A block is chosen
-when it satisfies every condition that the table states.
+Blocks are chosen by selectors: by name, by the side of joints, by a point inside, by a side of the model or by a box,
+never by number. A block is chosen if it satisfies every condition of the table.
 )";
 
 std::string type_text(const KeyRow& row) {
@@ -101,7 +101,7 @@ std::string type_text(const KeyRow& row) {
   return text;
 }
 
-// ranges that only keep numbers sane would be noise
+// ranges that only exclude absurd numbers would be noise
 std::string allowed_text(const KeyRow& row) {
   const std::string plausible = plausible_text(row).empty() ? "" : "; usually " + plausible_text(row);
   const bool numeric = row.type == KeyType::number || row.type == KeyType::integer;
@@ -146,7 +146,7 @@ std::string row_text(const KeyRow& row) {
          default_text(row) + " | " + within_a_table(meaning) + " |\n";
 }
 
-// where in a file the keys of a group stand: [domain], [[stage.fix]]
+// the tables that contain the keys of a group: [domain], [[stage.fix]]
 std::string places_text(std::string_view group) {
   if (group.empty()) return "The top of the file";
   std::string places;
@@ -171,6 +171,11 @@ std::string scene_documentation() {
     }
     text += row_text(row);
   }
+  text +=
+      "\n## Earlier names\n\nA key may be written by its earlier name; `voussoir check` names the present one.\n\n"
+      "| earlier | present |\n|---|---|\n";
+  for (const RenamedKey& row : renamed_keys)
+    text += "| `" + std::string(row.earlier) + "` | `" + std::string(row.present) + "` |\n";
   return text;
 }
 

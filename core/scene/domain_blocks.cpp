@@ -12,7 +12,7 @@
 namespace voussoir {
 namespace {
 
-// of the polygon about an ellipse, which is 1.3 % larger
+// sides of the polygon around an ellipse, which is 1.3 % larger
 constexpr int ellipse_sides = 16;
 
 template <int Dim>
@@ -28,10 +28,10 @@ std::vector<Cut<Dim>> cuts_of(const Scene& scene, const Model<Dim>& model) {
     if (joint.within)
       for (const HalfSpace<Dim>& bound : region_planes<Dim>(*joint.within, model.origin))
         cut.extent.bounds.push_back(bound);
-    // a joint without a set is one of its own
+    // a joint without a set is a set of its own
     cut.set = joint.set.empty() ? number : sets.try_emplace(joint.set, number).first->second;
     cut.kind = joint.kind;
-    cut.whole = joint.whole;
+    cut.fixed_side = joint.fixed_side;
     cuts.push_back(std::move(cut));
   }
   put_in_order(cuts, scene.slicing.order);
@@ -51,7 +51,8 @@ void add_outline(const Scene& scene, const ExcavationSpec& spec, const HalfSpace
     cut.kind = JointKind::construction;
     const std::string name = spec.name + " face " + std::to_string(f + 1);
     for (const JointSpec& joint : scene.joints)
-      if (joint.name == name) refuse(joint.subject, "name", "is that of a face of an excavation; choose another name");
+      if (joint.name == name)
+        refuse(joint.subject, "name", "is also the name of a face of an excavation; choose another name");
     model.joints.push_back({name, cut.plane, model.default_properties, true});
     cuts.push_back(std::move(cut));
   }
@@ -66,10 +67,10 @@ SlicingLimits limits_of(const Scene& scene) {
   return limits;
 }
 
-// Which body each part is of while nothing is excavated, and below which size pieces of it go that are left of it.
+// The body of each part before any excavation, and the size below which its remaining pieces are excavated.
 struct Origins {
-  std::vector<int> body;      // by part that is left
-  std::vector<double> least;  // by body, m: inscribed radius; 0 where it has lost nothing
+  std::vector<int> body;      // by remaining part
+  std::vector<double> least;  // by body, m: inscribed radius; 0 if it has lost nothing
 };
 
 template <int Dim>
@@ -77,7 +78,7 @@ Origins origins_of(const std::vector<Polytope<Dim>>& parts, const std::vector<Cu
   return {bodies_of<Dim>(parts, cuts, heal), std::vector<double>(parts.size(), 0)};
 }
 
-// follows what `excavated` takes out of these parts
+// updates it after `excavated` has removed some of these parts
 template <int Dim>
 void excavate(const std::vector<Polytope<Dim>>& parts, const HalfSpaces<Dim>& region, double least, Origins& origins) {
   std::vector<int> left;
@@ -98,7 +99,8 @@ bool excavated_by_stage(const Scene& scene, const std::string& name) {
 
 template <int Dim>
 std::vector<DomainBody<Dim>> cut_domain(const Scene& scene, Model<Dim>& model) {
-  // the cuts: the scene's joints, then what outlines excavations; what ends at these, or at others, behind them
+  // the cuts: the scene's joints, then the outlines of excavations; joints that end at these, or at others, come after
+  // them
   std::vector<Cut<Dim>> cuts = cuts_of<Dim>(scene, model);
   std::vector<HalfSpaces<Dim>> regions;
   std::vector<std::vector<int>> faces;
@@ -136,22 +138,23 @@ std::vector<DomainBody<Dim>> cut_domain(const Scene& scene, Model<Dim>& model) {
     std::vector<Polytope<Dim>> left = excavated<Dim>(in_a_stage ? parts : std::move(parts), regions[e]);
     const Subject& subject = spec.region.subject;
     if (left.size() == before)
-      refuse(
-          *subject.node, subject.path,
-          "takes out no block: no block's centroid lies inside; check its place against domain.box and domain.planes, "
-          "write outline = true to cut the blocks along it, or relax the limits of slicing that keep them whole");
+      refuse(*subject.node, subject.path,
+             "excavates no block: no block's centroid is inside; check its position against domain.box and "
+             "domain.planes, write outline = "
+             "true to cut the blocks along it, or relax the bounds of slicing that leave them uncut");
     if (left.empty())
-      refuse(*subject.node, subject.path, "takes out every block of the domain; check its size and its place");
+      refuse(*subject.node, subject.path, "excavates every block of the domain; check its size and position");
     if (!in_a_stage) parts = std::move(left);
   }
 
-  // what is held together is one body
+  // parts that are held together are one body
   const std::vector<int> body = bodies_of<Dim>(parts, cuts, heal);
   const std::vector<int> whole = boundary_parts<Dim>(parts, cuts);
   std::vector<DomainBody<Dim>> bodies(parts.empty() ? 0 : *std::max_element(body.begin(), body.end()) + 1);
   for (const int part : whole)
     bodies[body[part]].fixed = true;
-  // pieces that an outline left of blocks go, too; a block that lost nothing is whole, however small its parts
+  // small pieces that an outline leaves of blocks are excavated too; a block that lost nothing stays, however small its
+  // parts
   std::vector<char> stays(bodies.size(), false);
   for (std::size_t p = 0; p < parts.size(); ++p)
     if (bodies[body[p]].fixed || parts[p].inscribed_radius >= origins.least[origins.body[p]]) stays[body[p]] = true;

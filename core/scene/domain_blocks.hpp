@@ -1,4 +1,4 @@
-// The scene's domain, cut by its joints and excavations.
+// The scene's domain, cut by joints and excavations.
 #pragma once
 
 #include "core/model/model.hpp"
@@ -12,9 +12,9 @@ struct DomainBody {
   bool fixed = false;  // by a boundary joint
 };
 
-// Cuts by the model's joints, which are the scene's, and adds to them what outlines excavations; those that a stage
-// takes out are whole, and stand in Model::excavations. Throws SceneError on
-// outlines that are none, on excavations that take out nothing and on too many blocks.
+// Cuts by the model's joints, which are the scene's, and adds to them the outlines of excavations; the blocks of
+// excavations that a stage makes are not cut apart yet, and are listed in Model::excavations. Throws SceneError for
+// invalid outlines, for excavations that remove nothing and for too many blocks.
 template <int Dim>
 std::vector<DomainBody<Dim>> cut_domain(const Scene& scene, Model<Dim>& model);
 

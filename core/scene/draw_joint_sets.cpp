@@ -11,7 +11,7 @@
 namespace voussoir {
 namespace {
 
-// some 400 MB of joints, drawn in seconds; no slicing uses up as many
+// some 400 MB of joints, drawn in seconds; no slicing needs as many
 constexpr double most_joints = 1e6;
 
 template <int Dim>
@@ -20,12 +20,12 @@ void check_number(const JointSetSpec& spec, const Ball<Dim>& ball) {
   if (expected <= most_joints) return;
   const char* key = spec.set.spacing ? "spacing" : "intensity";
   refuse(spec.subject, key,
-         fmt::format("makes some {:.2g} joints that may reach the domain, more than {:.0g}; state a larger spacing, a "
+         fmt::format("makes about {:.2g} joints that may reach the domain, more than {:.0g}; state a larger spacing, a "
                      "smaller intensity, larger joints or a smaller domain (domain.box, domain.planes)",
                      expected, most_joints));
 }
 
-// the part of the domain that a set is confined to
+// the part of the domain to which a set is confined
 template <int Dim>
 Polytope<Dim> confined(const JointSetSpec& spec, const Polytope<Dim>& domain, const Vector<Dim>& origin) {
   if (!spec.within) return domain;
@@ -35,11 +35,11 @@ Polytope<Dim> confined(const JointSetSpec& spec, const Polytope<Dim>& domain, co
   BlockResult<Dim> part = make_block<Dim>(planes, std::vector<int>(planes.size(), no_joint));
   if (part.status != BlockStatus::ok)
     refuse(*spec.within->subject.node, spec.within->subject.path,
-           "has no part of the domain in it; check its place against domain.box and domain.planes");
+           "contains no part of the domain; check its position against domain.box and domain.planes");
   return std::move(part.part);
 }
 
-// its plane and its outline come out as those of the drawn joint, to the last bit
+// its plane and its outline are those of the drawn joint, to the last bit
 template <int Dim>
 JointSpec spec_of(const DrawnSet<Dim>& drawn, std::size_t j) {
   const DrawnJoint<Dim>& joint = drawn.joints[j];
@@ -76,7 +76,7 @@ Scene with_drawn_joints(const Scene& scene) {
       whole.joints.push_back(spec_of<Dim>(drawn, j));
       if (stated.contains(whole.joints.back().name))
         refuse(drawn.spec->subject, "name",
-               "makes a joint " + whole.joints.back().name +
+               "contains a joint " + whole.joints.back().name +
                    ", which is also the name of one of [[joints]]; rename the set");
     }
   return whole;

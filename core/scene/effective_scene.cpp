@@ -58,7 +58,7 @@ std::string toml_value(const Node& node) {
         text += (text.empty() ? "" : ", ") + key_text(member.key) + " = " + toml_value(member.value);
       return text.empty() ? "{}" : "{ " + text + " }";
     case Node::Kind::date:
-      break;  // no key of a scene takes one
+      break;  // no key of a scene has such a value
   }
   return "\"\"";
 }

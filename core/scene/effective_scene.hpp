@@ -7,10 +7,10 @@
 
 namespace voussoir {
 
-// TOML that reads back to the same tree. Keys are sorted, comments are gone.
+// TOML that reads back to the same tree. Keys are sorted, comments are dropped.
 std::string toml_text(const Node& scene);
 
-// one value as it stands after `key =`, tables and lists on one line: what an override takes
+// one value as written after `key =`, tables and lists on one line, in the form of an override
 std::string toml_value(const Node& node);
 
 }  // namespace voussoir

@@ -12,10 +12,12 @@
 namespace voussoir {
 namespace {
 
-// a point this near to a plane, over its distance from the middle of the domain, lies on it as far as coordinates tell
+// a point this near to a plane, relative to its distance from the middle of the domain, is on it within the accuracy of
+// coordinates
 constexpr double on_its_plane = 1e-9;
 
-// joints whose planes meet at less than this angle (rad) are parallel as far as angles of six digits tell
+// joints whose planes intersect at less than this angle (rad) are parallel within the accuracy of angles with six
+// digits
 constexpr double parallel = 1e-6;
 
 template <class Specs, class Name>
@@ -24,9 +26,9 @@ std::size_t place_of(const Specs& specs, const std::string& name, const Name& na
          specs.begin();
 }
 
-// what a name of ends_at stands for: a joint, or else an excavation
+// the meaning of a name in ends_at: a joint, or else an excavation
 struct Named {
-  std::size_t joint, excavation;  // as many as there are: none
+  std::size_t joint, excavation;  // equal to their number: none
 };
 
 Named named_by(const Scene& scene, const std::string& name) {
@@ -34,7 +36,7 @@ Named named_by(const Scene& scene, const std::string& name) {
           place_of(scene.excavations, name, [](const ExcavationSpec& spec) { return spec.name; })};
 }
 
-// throws what is wrong about a name
+// throws the error of a name
 void check_name(const Scene& scene, std::size_t joint, const std::string& name, const Named& named) {
   const JointSpec& spec = scene.joints[joint];
   const std::string shown = "'" + one_line(name, 60) + "'";
@@ -53,21 +55,22 @@ void check_name(const Scene& scene, std::size_t joint, const std::string& name, 
   if (named.joint == joint) refuse(spec.subject, "ends_at", shown + " is the joint itself; name another one");
   if (is_joint && named.joint > joint)
     refuse(spec.subject, "ends_at",
-           fmt::format("{} comes later, and a joint ends at what was there before it; {}", shown,
+           fmt::format("{} comes later, and a joint can only end at earlier ones; {}", shown,
                        scene.joints[named.joint].subject.path.starts_with("joint_sets")
                            ? "joints of sets are cut after those of [[joints]]"
                            : "state it after the one that it ends at"));
   if (is_excavation && !scene.excavations[named.excavation].outline)
     refuse(spec.subject, "ends_at",
-           fmt::format("{} is an excavation without outline, along whose faces nothing is cut; write outline = true "
+           fmt::format("{} is an excavation without an outline, so that its faces are no cuts; write outline = true "
                        "there",
                        shown));
 }
 
 [[noreturn]] void refuse_point(const JointSpec& spec, const std::string& name) {
   refuse(spec.subject, "point",
-         fmt::format("lies on '{}', which ends_at names, so that either side could be kept; move it along the joint to "
-                     "the side that the joint is on",
+         fmt::format("is on '{}', which ends_at names, so that either side could be kept; move it along the joint to "
+                     "the side on which the "
+                     "joint is",
                      one_line(name, 60)));
 }
 
@@ -84,7 +87,7 @@ HalfSpace<Dim> kept_side(const JointSpec& spec, const JointSpec& other, const Ve
   return distance < 0 ? plane : HalfSpace<Dim>{-plane.normal, -plane.offset};
 }
 
-// area (2-D: length) of a joint's plane inside the domain and a region, of which one face may be left out
+// area (2-D: length) of a joint's plane inside the domain and a region, one face of which may be left out
 template <int Dim>
 double section_of(const HalfSpace<Dim>& plane, Polytope<Dim> domain, const HalfSpaces<Dim>& region,
                   std::size_t left_out = std::numeric_limits<std::size_t>::max()) {
@@ -93,8 +96,8 @@ double section_of(const HalfSpace<Dim>& plane, Polytope<Dim> domain, const HalfS
   return measure_inside(plane, Outline<Dim>{}, domain);
 }
 
-// The face of a region that the point of a joint sees along the joint: of those that end its section, the one beyond
-// which the point lies farthest. Inside, all of them.
+// The face of a region that the point of a joint sees along the joint: of those that bound its section, the one beyond
+// which the point is farthest. Inside, all of them.
 template <int Dim>
 HalfSpaces<Dim> kept_of_region(const JointSpec& spec, const ExcavationSpec& excavation, const Polytope<Dim>& domain,
                                const Vector<Dim>& origin) {
@@ -121,7 +124,7 @@ HalfSpaces<Dim> kept_of_region(const JointSpec& spec, const ExcavationSpec& exca
   return {{-region[seen].normal, -region[seen].offset}};
 }
 
-// Each cut as soon as all that it is behind are made.
+// Each cut as soon as all cuts that must precede it are made.
 template <int Dim>
 void put_behind(std::vector<Cut<Dim>>& cuts, const std::map<int, std::vector<int>>& behind) {
   std::map<int, std::size_t> place;  // by joint
@@ -142,7 +145,7 @@ void put_behind(std::vector<Cut<Dim>>& cuts, const std::map<int, std::vector<int
       const std::size_t next = ready.back();
       ready.pop_back();
       order.push_back(next);
-      // what stands further on in the order is met there
+      // later entries of the order are handled there
       for (auto follower = followers[next].rbegin(); follower != followers[next].rend(); ++follower)
         if (--open[*follower] == 0 && *follower < i) ready.push_back(*follower);
     }

@@ -1,4 +1,4 @@
-// Where joints end at others that they name, or at the face of an excavation: `ends_at`.
+// Joints that end at others, which they name, or at the face of an excavation: `ends_at`.
 #pragma once
 
 #include <cstddef>
@@ -10,16 +10,17 @@
 
 namespace voussoir {
 
-// The half-spaces that a joint is confined to by what it ends at: of a joint the side on which its own point lies; of
-// an excavation the side of the face that its point sees, or the inside where its point lies there. `domain` is seen
-// from `origin`. Throws SceneError where what is named does not exist, is stated later, has no outline, is parallel or
-// is never met, and where the point lies on it.
+// The half-spaces to which a joint is confined by its ends: at a joint the side that contains its own point; at an
+// excavation the side of the face that its point sees, or the inside if its point is there. `domain` is seen from
+// `origin`. Throws SceneError if a named joint or excavation does not exist, is stated later, has no outline, is
+// parallel or is never met, or contains the point.
 template <int Dim>
 HalfSpaces<Dim> end_bounds(const Scene& scene, std::size_t joint, const Polytope<Dim>& domain,
                            const Vector<Dim>& origin);
 
-// Confines the cuts of joints that end at others, and puts each of them behind what it ends at, which must have parted
-// the rock there before; the order of the cuts stays otherwise. `faces` are the joints along each excavation's outline.
+// Confines the cuts of joints that end at others, and moves each of them after those at which it ends, which must have
+// cut the rock before; the order of the cuts is otherwise unchanged. `faces` are the joints along each excavation's
+// outline.
 template <int Dim>
 void end_cuts(const Scene& scene, const Polytope<Dim>& domain, const Vector<Dim>& origin,
               const std::vector<std::vector<int>>& faces, std::vector<Cut<Dim>>& cuts);

@@ -5,8 +5,8 @@
 namespace voussoir {
 namespace {
 
-// a corner of an outline lies in the joint's plane within this fraction of its distance from the joint's point: far
-// above the rounding of coordinates and angles of six digits, far below what anyone would state as out of the plane
+// a corner of an outline is in the joint's plane within this fraction of its distance from the joint's point: far above
+// the rounding of coordinates and angles of six digits, far below any intended offset from the plane
 constexpr double off_plane = 1e-4;
 
 std::vector<Vector<2>> corners_of(const JointSpec& joint, const Vector<3>& normal, const Outline<3>& outline,
@@ -17,14 +17,15 @@ std::vector<Vector<2>> corners_of(const JointSpec& joint, const Vector<3>& norma
     const Vector<3> corner = to_vector<3>(joint.outline.corners[i]) - origin - outline.centre;
     if (std::abs(normal.dot(corner)) > off_plane * corner.norm())
       refuse(list.items[i], key_path(joint.subject.path, "corners") + "." + std::to_string(i + 1),
-             "does not lie in the joint's plane; move the corner, or correct dip, dip_direction or point");
+             "is not in the joint's plane; move the corner, or correct dip, dip_direction or point");
     corners.push_back(outline.axes.transpose() * corner);
   }
   corners = counter_clockwise(std::move(corners));
   if (corners.empty())
     refuse(joint.subject, "corners",
            "are not the corners of a convex polygon in order; give at least three, one after the other around it, or "
-           "make two joints of it");
+           "divide the joint into "
+           "two");
   return corners;
 }
 

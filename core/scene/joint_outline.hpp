@@ -1,4 +1,4 @@
-// Where a stated joint ends.
+// The outline of a stated joint.
 #pragma once
 
 #include "core/geometry/outline.hpp"
@@ -6,8 +6,8 @@
 
 namespace voussoir {
 
-// Seen from `origin`; the normal is that of the joint's plane. SceneError where a polygon's corners lie beside the
-// plane or are those of no convex polygon.
+// Seen from `origin`; the normal is that of the joint's plane. SceneError if a polygon's corners are off the plane or
+// do not form a convex polygon.
 template <int Dim>
 Outline<Dim> outline_of(const JointSpec& joint, const Vector<Dim>& upward_normal, const Vector<Dim>& origin);
 

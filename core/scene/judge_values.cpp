@@ -16,27 +16,27 @@
 namespace voussoir {
 namespace {
 
-// What one key alone tells stands in the key table; these compare several.
+// Checks of single keys are in the key table; these compare several.
 
-// m: breadth of a free block. Smaller ones are grains, larger ones mountains
+// m: width of a free block. Smaller ones are grains, larger ones mountains
 constexpr double least_block = 0.01, most_block = 500;
 
-// largest extent of a block over the smallest breadth of one: blocks of a wall and of the hill it stands on
+// largest extent of a block over the smallest width of one: blocks of a wall and of the hill below it
 constexpr double widest_ratio = 300;
 
-// stiffness in shear over that across the joint: tests on rock joints give 0.01 to 1
+// shear over normal stiffness: tests on rock joints give 0.01 to 1
 constexpr double least_shear_fraction = 0.005;
 
-// a coordinate of less than this fraction of the scene is next to its zero; given in km, any coordinate is
+// a coordinate of less than this fraction of the scene is close to zero; if given in km, every coordinate is
 constexpr double small_fraction = 1e-3;
 
-// two gaps of a regular series differ by less, as a fraction of the larger
+// the gaps of a regular series differ by less, relative to the larger
 constexpr double series_tolerance = 5e-4;
 
-// a coordinate in radians, turned into degrees, is a whole number of them but for what its digits leave out, degrees
+// degrees: an angle given in radians, converted to degrees, is a whole number within this rounding
 constexpr double whole_degree = 0.002;
 
-// smaller blocks so far from the scene's centre have lost half of their digits
+// blocks that are smaller than this fraction of their distance from the scene's centre have lost half of their digits
 constexpr double lost_fraction = 1e-9;
 
 using Warnings = std::vector<std::string>;
@@ -60,7 +60,7 @@ bool is_numeric(const KeyRow& row) {
          row.type == KeyType::spin;
 }
 
-// a place in the scene, not a size
+// a position in the scene, not a size
 bool is_coordinate(const KeyRow& row) {
   return row.unit == "m" && (row.type == KeyType::vector || row.key == "offset" || row.key == "level");
 }
@@ -70,7 +70,7 @@ const Node* entry(const Node& node, std::size_t place) {
   return place < node.items.size() ? &node.items[place] : nullptr;
 }
 
-// any direction from 0 to 360 degrees is one; what gives radians away are their digits
+// any direction from 0 to 360 degrees is valid; radians are recognised by their digits
 bool is_radians_of_whole_degrees(double x) {
   const double degrees = to_degrees(x);
   return degrees > 1 && degrees <= 360 && std::abs(degrees - std::round(degrees)) < whole_degree;
@@ -79,7 +79,7 @@ bool is_radians_of_whole_degrees(double x) {
 struct TableJudge {
   double extent;  // of the scene, m
   Warnings& warnings;
-  const Node* list = nullptr;            // whose table this is, if of one
+  const Node* list = nullptr;            // the list that this table belongs to, if any
   std::vector<std::string_view> keys{};  // from that table to the value
 
   void value(const KeyRow& row, const Node& node, const std::string& path) {
@@ -93,7 +93,7 @@ struct TableJudge {
           complaint(node, path, "is " + text(to_degrees(size)) + " deg in radians; " + std::string(row.mistake)));
     if (is_coordinate(row) && has_small_entry(node))
       warnings.push_back(complaint(node, path,
-                                   "holds a coordinate that is next to nothing in a scene of " + text(extent) +
+                                   "contains a coordinate that is close to zero in a scene of " + text(extent) +
                                        " m; coordinates are in m, was it given in km?"));
   }
 
@@ -105,8 +105,8 @@ struct TableJudge {
     return false;
   }
 
-  // one of at least three equally spaced coordinates that the tables of a list have in this place: the first of joints
-  // at 0.05, 0.10, 0.15 m, …
+  // one of at least three equally spaced coordinates in the tables of a list: the first of joints at 0.05, 0.10, 0.15
+  // m, …
   bool in_series(double x, std::size_t place) const {
     std::vector<double> all;
     for (std::size_t i = 0; list && i < list->items.size(); ++i) {
@@ -116,7 +116,7 @@ struct TableJudge {
       if (const Node* number = node ? entry(*node, place) : nullptr; number && number->is_number())
         all.push_back(number->number);
     }
-    // a series of nothing but small ones may be in km throughout
+    // a series of only small ones may be in km throughout
     if (std::all_of(all.begin(), all.end(), [&](double other) { return other == 0 || is_small(other); })) return false;
     std::sort(all.begin(), all.end());
     all.erase(std::unique(all.begin(), all.end()), all.end());
@@ -157,7 +157,7 @@ void judge_gravity(const Scene& scene, Warnings& warnings) {
   for (std::size_t k = 0; k + 1 < scene.gravity->size(); ++k)
     aside = std::hypot(aside, (*scene.gravity)[k]);
   if (aside > down)
-    warnings.push_back(complaint(top, "gravity", "points more aside than down; the last entry is the vertical one"));
+    warnings.push_back(complaint(top, "gravity", "points more sideways than down; the last entry is the vertical one"));
 }
 
 void judge_properties(const PropertiesSpec& spec, Warnings& warnings) {
@@ -170,10 +170,10 @@ void judge_properties(const PropertiesSpec& spec, Warnings& warnings) {
   if (p.shear_stiffness < least_shear_fraction * p.normal_stiffness)
     warnings.push_back(
         complaint(spec.subject, "shear_stiffness",
-                  "is tiny beside" + other + ", 0.01 to 1 times it is usual; is the unit of one wrong?"));
+                  "is very small compared with" + other + ", 0.01 to 1 times it is usual; is the unit of one wrong?"));
 }
 
-// strengths and bonds count only together
+// strengths and bonds have an effect only together
 void judge_bonds(const Scene& scene, Warnings& warnings) {
   const bool made = std::any_of(scene.stages.begin(), scene.stages.end(),
                                 [](const StageSpec& stage) { return stage.plan.change.bond; });
@@ -184,12 +184,13 @@ void judge_bonds(const Scene& scene, Warnings& warnings) {
     if (p.tension * std::tan(p.friction) > p.cohesion)
       warnings.push_back(complaint(spec.subject, "tension",
                                    "exceeds cohesion / tan(friction_deg) = " + text(p.cohesion / std::tan(p.friction)) +
-                                       " Pa, beyond which a pulled joint has no strength in shear: it breaks there"));
+                                       " Pa, beyond which a joint in tension has no shear strength: it breaks there"));
     const bool of_lining = std::ranges::count(scene.linings, p.name, &LiningSpec::interface_properties) > 0;
     if (made || scene.stages.empty() || !p.laws.bond || of_lining) continue;
-    warnings.push_back(complaint(spec.subject, p.cohesion > 0 ? "cohesion" : "tension",
-                                 "counts only where joints are bonded, and no stage bonds any: write bond = true into "
-                                 "the stage from which it is to count"));
+    warnings.push_back(complaint(
+        spec.subject, p.cohesion > 0 ? "cohesion" : "tension",
+        "has an effect only if joints are bonded, and no stage bonds any: write bond = true in the stage from "
+        "which it should act"));
   }
   for (const StageSpec& stage : scene.stages)
     if (stage.plan.change.bond && !strong)
@@ -197,18 +198,19 @@ void judge_bonds(const Scene& scene, Warnings& warnings) {
           complaint(stage.subject, "bond", "bonds nothing: no joint_properties state tension or cohesion"));
 }
 
-// where nobody said which of several serves; the outer faces of one domain do not meet, those of blocks given directly
-// do
+// if it is not stated which of several applies; the outer faces of one domain do not meet, those of blocks given
+// directly do
 void judge_default(const Scene& scene, Warnings& warnings) {
   const auto is_default = [](const PropertiesSpec& p) { return p.properties.name == "default"; };
   const std::vector<PropertiesSpec>& all = scene.properties;
   if (all.size() < 2 || scene.blocks.empty() || std::any_of(all.begin(), all.end(), is_default)) return;
-  warnings.push_back(complaint(all.front().subject, "name",
-                               "serves where faces meet that no joint made (sides of the domain, walls, blocks given "
-                               "directly), because it is the first; name the joint_properties meant for them default"));
+  warnings.push_back(
+      complaint(all.front().subject, "name",
+                "applies to contacts of faces that no joint made (sides of the domain, walls, blocks given directly), "
+                "because it is the first; name the joint_properties meant for them default"));
 }
 
-// a block and the keys that shape it
+// a block and the keys of its shape
 template <int Dim>
 std::string described(const Model<Dim>& model, const Body<Dim>& body) {
   if (!body.name.empty())
@@ -244,15 +246,15 @@ void judge_sizes(const Scene& scene, const Model<Dim>& model, Warnings& warnings
                        (thinnest.name.empty() ? ", or is it a sliver (slicing.smallest_inscribed_radius)?" : "?"));
   for (const Body<Dim>& body : model.bodies)
     if (body.size < lost_fraction * body.reference.norm()) {
-      warnings.push_back(file + described(model, body) + " lies " + text(body.reference.norm()) +
-                         " m from the scene's centre, where its size of " + text(body.size) +
+      warnings.push_back(file + described(model, body) + " is " + text(body.reference.norm()) +
+                         " m from the scene's centre, so that its size of " + text(body.size) +
                          " m loses its digits; is a coordinate in the wrong unit?");
       break;
     }
 }
 
-// Diagonal of the box that holds every block; at most what the smallest block makes plausible, so that one coordinate
-// too large does not make all the others look small.
+// Diagonal of the box around all blocks, bounded by a multiple of the smallest block, so that one coordinate that is
+// too large does not make all others look small.
 template <int Dim>
 double extent_of(const Model<Dim>& model) {
   Vector<Dim> low = model.bodies.front().reference, high = low;
@@ -268,7 +270,7 @@ double extent_of(const Model<Dim>& model) {
   return std::min((high - low).norm(), widest_ratio * thinnest);
 }
 
-// a plane that bounds the domain holds some of its corners
+// a plane that bounds the domain contains some of its corners
 template <int Dim>
 void judge_domain(const Scene& scene, const Model<Dim>& model, Warnings& warnings) {
   if (!scene.domain || scene.domain->planes.empty()) return;
@@ -295,16 +297,17 @@ void judge_joints(const Scene& scene, const Model<Dim>& model, Warnings& warning
         if (joint != no_joint) cuts[joint] = true;
   for (std::size_t j = 0; j < scene.joints.size(); ++j)
     if (!cuts[j])
-      warnings.push_back(complaint(*scene.joints[j].subject.node, scene.joints[j].subject.path,
-                                   "cuts no block: it or its outline misses the domain, or its blocks would be smaller "
-                                   "than slicing.smallest_inscribed_radius or what it cut was excavated"));
+      warnings.push_back(
+          complaint(*scene.joints[j].subject.node, scene.joints[j].subject.path,
+                    "cuts no block: it or its outline misses the domain, or its blocks would be smaller than "
+                    "slicing.smallest_inscribed_radius, or the blocks that it cut were excavated"));
 }
 
-// numbers of potential particles that are legal but far from what is meant, or from what is tested
+// parameters of potential particles that are legal but far from usual or tested ones
 template <int Dim>
 void judge_particles(const Scene& scene, const Model<Dim>& model, Warnings& warnings) {
-  constexpr double sharpest = 1e-4;  // r over R: the contact's answers are tested down to it
-  constexpr double widest = 10;      // R over the least that encloses
+  constexpr double sharpest = 1e-4;  // r over R: contacts are tested down to it
+  constexpr double widest = 10;      // R over the smallest radius that encloses
   for (const BlockSpec& block : scene.blocks) {
     const ParticleSpec& spec = block.particle;
     if (block.shape != BlockShape::potential || *spec.sphericity == 1) continue;
@@ -312,20 +315,20 @@ void judge_particles(const Scene& scene, const Model<Dim>& model, Warnings& warn
     const PotentialShape<Dim>& shape = part.particle->shape;
     const double least = enclosing_radius<Dim>(shape.planes, shape.corner_radius, shape.centre);
     if (shape.corner_radius < sharpest * least)
-      warnings.push_back(complaint(block.subject, "corner_radius",
-                                   "is " + text(shape.corner_radius / least) +
-                                       " of the particle's radius: below 1e-4 rounding may leave contacts without an "
-                                       "answer; a block of half-spaces is sharp"));
+      warnings.push_back(complaint(
+          block.subject, "corner_radius",
+          "is " + text(shape.corner_radius / least) +
+              " of the particle's radius: below 1e-4 the contact solver may fail by rounding; for sharp edges use "
+              "a block of half-spaces"));
     if (shape.sphere_radius > widest * least)
-      warnings.push_back(
-          complaint(block.subject, "sphere_radius",
-                    "is " + text(shape.sphere_radius / least) +
-                        " times what encloses the particle: its sphere, and k with it, count for next to "
-                        "nothing; leave it out for the least"));
+      warnings.push_back(complaint(block.subject, "sphere_radius",
+                                   "is " + text(shape.sphere_radius / least) +
+                                       " times the smallest radius that encloses the particle: its sphere, and "
+                                       "therefore k, have almost no effect; leave it out for the smallest radius"));
   }
 }
 
-// how far all corners of all blocks lie below a surface, m: the least and the greatest depth
+// depths of the corners of all blocks below a surface, m: least and greatest
 template <int Dim>
 std::pair<double, double> depths_below(const std::vector<double>& numbers, const Model<Dim>& model) {
   std::vector<WaterStretch<Dim>> surface;
@@ -345,7 +348,7 @@ const char* surface_key(const WaterSurfaceSpec& surface) {
   return surface.level ? "level" : "table";
 }
 
-// a surface that lies far above everything
+// a surface that is far above all blocks
 template <int Dim>
 void judge_height(const Subject& subject, const WaterSurfaceSpec& surface, const std::vector<double>& numbers,
                   const Model<Dim>& model, Warnings& warnings) {
@@ -353,10 +356,10 @@ void judge_height(const Subject& subject, const WaterSurfaceSpec& surface, const
   const double least = depths_below(numbers, model).first;
   if (least > far_above * extent_of(model))
     warnings.push_back(complaint(subject, surface_key(surface),
-                                 "lies " + text(least) + " m above every block; elevations are in m, is it right?"));
+                                 "is " + text(least) + " m above every block; elevations are in m, is it right?"));
 }
 
-// water that wets nothing, or lies far above everything, or lifts blocks
+// water that wets nothing, is far above all blocks, or lifts blocks
 template <int Dim>
 void judge_water(const Scene& scene, const Prepared<Dim>& prepared, Warnings& warnings) {
   const Model<Dim>& model = prepared.model;
@@ -370,7 +373,7 @@ void judge_water(const Scene& scene, const Prepared<Dim>& prepared, Warnings& wa
     judge_height(spec.subject, spec.surface, water.values, model, warnings);
     if (!changes && depths_below(water.values, model).second <= 0)
       warnings.push_back(complaint(spec.subject, surface_key(spec.surface),
-                                   "lies below every block and wets none; elevations are in m, is it right?"));
+                                   "is below every block and wets none; elevations are in m, is it right?"));
   }
   for (std::size_t s = 0; s < scene.stages.size(); ++s)
     for (std::size_t k = 0; k < scene.stages[s].water.size(); ++k) {
@@ -378,8 +381,7 @@ void judge_water(const Scene& scene, const Prepared<Dim>& prepared, Warnings& wa
       const WaterChangeSpec& spec = scene.stages[s].water[k];
       if (!model.waters[plan.water].uniform) judge_height(spec.subject, spec.surface, plan.to, model, warnings);
     }
-  constexpr double in_balance =
-      1e-6;  // what floats where the scene has it weighs what it displaces, to rounded numbers
+  constexpr double in_balance = 1e-6;  // relative rounding of a floating block's weight and buoyancy
   const std::vector<Load<Dim>> loads = water_loads_at_reference(model);
   for (std::size_t b = 0; b < loads.size(); ++b) {
     const Body<Dim>& body = model.bodies[b];
@@ -403,12 +405,12 @@ void judge_factors(const StageSpec& stage, Warnings& warnings) {
       if (plan && !factor.times.empty() && factor.times.back() > plan->duration)
         warnings.push_back(complaint(
             spec.subject, "times_s",
-            "continues beyond duration_s (" + text(plan->duration) + "), when the stage ends; is the table in s?"));
+            "continues beyond duration_s (" + text(plan->duration) + "), the end of the stage; is the table in s?"));
     }
 }
 
-// Tables of mapped joints mean traces and faces of some metres: taken as endless they cut far more blocks than there
-// are.
+// Tables of mapped joints contain traces and faces of a few metres: as infinite joints they cut far more blocks than
+// there are.
 template <int Dim>
 void judge_endless(const Scene& scene, const Model<Dim>& model, Warnings& warnings) {
   constexpr std::size_t many = 10;  // blocks for each joint
@@ -432,7 +434,7 @@ std::string endless_joints(const Scene& scene, std::size_t blocks) {
   }
   if (count == 0) return {};
   return "all " + std::to_string(count) + " joints of '" + one_line(file, 60) +
-         "' are endless, because it has no column shape with length and width (in the plane length); they cut " +
+         "' are infinite, because it has no column shape with length and width (in 2-D length); they cut " +
          std::to_string(blocks) + " blocks";
 }
 
@@ -452,7 +454,7 @@ std::vector<bool> properties_of_faces(const Model<Dim>& model) {
     for (const Polytope<Dim>& part : body.parts)
       for (const int joint : part.joints)
         if (joint != no_joint) used[model.joints[joint].properties] = by_joint = true;
-    // the outer faces of blocks that joints cut meet nothing; a block given directly has no others
+    // the outer faces of blocks cut by joints do not meet other faces; a block given directly has only outer faces
     if (!by_joint && !used.empty()) used[model.default_properties] = true;
   }
   return used;

@@ -1,5 +1,5 @@
-// What in a scene's stated values looks like a mistake of unit or sign. Nothing here is an error: each warning is one
-// line with file, line, key and value.
+// Stated values of a scene that look like a mistake of unit or sign. None of them is an error: each warning is one line
+// with file, line, key and value.
 #pragma once
 
 #include <cstddef>
@@ -11,22 +11,22 @@
 
 namespace voussoir {
 
-// Every value outside the usual range of its key (scene/keys.hpp); then what several values tell together: the
+// Every value outside the usual range of its key (scene/keys.hpp); then checks of several values together: the
 // direction of gravity, swapped stiffnesses, sizes of blocks, coordinates next to zero, planes and joints that miss the
 // domain.
 template <int Dim>
 std::vector<std::string> judge_values(const Scene& scene, const Prepared<Dim>& prepared);
 
-// "all 60 joints of 'joints.csv' are endless …; they cut 9096 blocks": where a table of joints states no size. Empty
-// for other scenes, and for ones in which no joint ends.
+// "all 60 joints of 'joints.csv' are infinite …; they cut 9096 blocks", if a table of joints states no size. Empty for
+// other scenes, and if infinite joints are intended.
 std::string endless_joints(const Scene& scene, std::size_t blocks);
 
-// m: inscribed radius of the largest part. A block that construction joints hold together may have thin ones and be
-// no sliver.
+// m: inscribed radius of the largest part. A block held together by construction joints may have thin parts without
+// being a sliver.
 template <int Dim>
 double thickest_part(const Body<Dim>& body);
 
-// for each of the model's properties whether a face that may meet another has them
+// for each of the model's properties, whether a face that may meet another has them
 template <int Dim>
 std::vector<bool> properties_of_faces(const Model<Dim>& model);
 

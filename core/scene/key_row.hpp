@@ -1,4 +1,4 @@
-// One key of a scene: what the table of keys (keys.hpp) says of it.
+// One key of a scene: its row in the table of keys (keys.hpp).
 #pragma once
 
 #include <functional>
@@ -36,17 +36,17 @@ struct Range {
   double high = std::numeric_limits<double>::infinity();
   bool above_low = false;   // low itself is refused
   bool below_high = false;  // high itself is refused
-  bool or_zero = false;     // zero lies in it, although it lies below low
+  bool or_zero = false;     // zero is in it, although it is below low
 
   bool holds(double x) const;
 };
 
-// the key means something only where another key of its table has this value, or one of several: "a|b"
+// the key applies only if another key of its table has this value, or one of several: "a|b"
 struct Condition {
   std::string_view key, value;
 };
 
-// groups of keys a table may hold
+// groups of keys that a table may contain
 using Groups = std::vector<std::string_view>;
 
 // The member of a plain struct, its owner, that holds the value of a key; made by keys/members.hpp.
@@ -54,8 +54,8 @@ struct KeyMember {
   const std::type_info* owner = nullptr;
   KeyType type = KeyType::number;
   std::function<void(const Node& value, void* owner)> take;  // a checked value
-  std::function<std::string(const void* owner)> text;        // the value as TOML; empty: it holds none
-  std::string default_value{};                               // the same of an owner that nothing is read into
+  std::function<std::string(const void* owner)> text;        // the value as TOML; empty: none
+  std::string default_value{};                               // the text of a default-constructed owner
   std::vector<std::string_view> choices{};
   Groups holds{};
 };
@@ -63,28 +63,28 @@ struct KeyMember {
 struct KeyRow {
   std::string_view table{};  // the group of keys it belongs to, of which it is a row; "" is the top of the file
   std::string_view key{};
-  // Where the value goes, one for each struct that may hold it: type, choices, default and a table's keys follow from
-  // it. None where code takes the value by hand: then the row states them.
+  // The members that receive the value, one for each struct that may hold it: type, choices, default and a table's keys
+  // follow from it. None if code reads the value by hand: then the row states them.
   std::vector<KeyMember> members{};
   KeyType type = KeyType::number;
   std::string_view unit{};
-  Range range{};                 // anything else is refused; of vectors, each entry
-  Range plausible{};             // anything else is legal but more likely a mistake: a warning; of vectors, the length
+  Range range{};      // anything else is refused; of vectors, each entry
+  Range plausible{};  // a value outside is legal but probably a mistake, and gives a warning; of vectors, the length
   std::string default_value{};   // as TOML; empty: none
   std::string_view example{};    // a value as TOML
-  bool required = false;         // where its condition holds
-  bool no_default = false;       // what its member holds at first is no value that a scene could leave out
-  Condition when{}, and_when{};  // both must hold where both are stated
+  bool required = false;         // if its condition holds
+  bool no_default = false;       // the initial value of its member is not a default
+  Condition when{}, and_when{};  // both must hold if both are stated
   std::vector<std::string_view> choices{};
   Groups holds{};  // table, tables: the groups of keys inside
   std::string_view meaning{};
-  std::string_view repair{};   // what to do about a value out of range; may be empty
-  std::string_view breaks{};   // what goes wrong with a badly chosen value; may be empty
-  std::string_view mistake{};  // the likely one where a value is not plausible, as a question; may be empty
+  std::string_view repair{};   // repair of a value out of range; may be empty
+  std::string_view breaks{};   // consequence of a badly chosen value; may be empty
+  std::string_view mistake{};  // the likely mistake if a value is not plausible, as a question; may be empty
 };
 
-// Takes what a checked table states into the members of `owner`, of this type, that the rows of a group name. What it
-// does not state stays as it is.
+// Reads a checked table into the members of `owner`, of this type, that the rows of a group name. Keys that it does not
+// state leave their members unchanged.
 void read_keys(const Node& table, std::string_view group, const std::type_info& type, void* owner);
 
 template <class Owner>

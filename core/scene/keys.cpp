@@ -7,7 +7,7 @@
 namespace voussoir {
 namespace {
 
-// what its member says about a row
+// completes a row from its member
 KeyRow completed(KeyRow row) {
   if (row.members.empty()) return row;
   const KeyMember& member = row.members.front();
@@ -21,20 +21,20 @@ KeyRow completed(KeyRow row) {
 std::vector<KeyRow> all_rows() {
   using namespace keys;
   std::vector<KeyTable> tables{
-      top_keys(),         domain_keys(),   box_keys(),      domain_plane_keys(),   joint_keys(),
-      excavation_keys(),  region_keys(),   cylinder_keys(), joint_property_keys(), block_keys(),
-      block_plane_keys(), copies_keys(),   label_keys(),    selector_keys(),       restrain_keys(),
-      motion_keys(),      accuracy_keys(), contact_keys(),  damping_keys(),        time_keys(),
-      equilibrium_keys(), slicing_keys(),  stage_keys(),    stage_run_keys(),      stage_reduce_keys(),
-      stage_change_keys()};
+      top_keys(),          domain_keys(),       box_keys(),      domain_plane_keys(),   joint_keys(),
+      excavation_keys(),   region_keys(),       cylinder_keys(), joint_property_keys(), block_keys(),
+      block_plane_keys(),  copies_keys(),       label_keys(),    selector_keys(),       restrain_keys(),
+      motion_keys(),       accuracy_keys(),     contact_keys(),  damping_keys(),        time_keys(),
+      equilibrium_keys(),  slicing_keys(),      stage_keys(),    stage_run_keys(),      stage_reduce_keys(),
+      stage_change_keys(), stage_statics_keys()};
   for (KeyTable& table : stage_load_keys())
     tables.push_back(std::move(table));
   for (KeyTable& table : water_keys())
     tables.push_back(std::move(table));
   for (KeyTable& table : support_keys())
     tables.push_back(std::move(table));
-  for (KeyTable& table : std::vector<KeyTable>{let_off_keys(), stage_friction_keys(), move_keys(), monitor_keys(),
-                                               output_keys(), joint_set_keys()})
+  for (KeyTable& table : std::vector<KeyTable>{excavation_forces_keys(), stage_friction_keys(), move_keys(),
+                                               monitor_keys(), output_keys(), joint_set_keys()})
     tables.push_back(std::move(table));
   std::vector<KeyRow> all;
   for (const KeyTable& table : tables)
@@ -57,7 +57,7 @@ std::span<const KeyRow> key_rows(std::string_view group) {
     std::map<std::string_view, std::span<const KeyRow>> found;
     for (const KeyRow& row : key_rows()) {
       std::span<const KeyRow>& rows = found[row.table];
-      rows = {rows.empty() ? &row : rows.data(), rows.size() + 1};  // they stand together
+      rows = {rows.empty() ? &row : rows.data(), rows.size() + 1};  // rows of one key are contiguous
     }
     return found;
   }();

@@ -1,5 +1,4 @@
-// The one table of every key a scene may hold, its rows in keys/. The reader refuses what it does not allow; the
-// documentation prints it.
+// The table of all keys of a scene, its rows in keys/. The reader refuses everything else; the documentation prints it.
 #pragma once
 
 #include <span>
@@ -18,7 +17,7 @@ std::span<const KeyRow> key_rows(std::string_view group);
 const KeyRow* find_row(const Groups& groups, std::string_view key);
 std::vector<std::string> keys_of(const Groups& groups);
 
-// whether the key means something in this table, judged by the value of the key its row's condition names
+// whether the key applies in this table, by the value of the key that its row's condition names
 bool key_applies(const Node& table, const Groups& groups, const KeyRow& row);
 
 // "be greater than 0 and at most 1", "lie between 0 and 90 deg"
@@ -27,7 +26,7 @@ std::string range_text(const KeyRow& row);
 // "500 to 8000 kg/m³", "0 or 1.6 to 90 deg", "at most 100 m/s"; empty when everything is plausible
 std::string plausible_text(const KeyRow& row);
 
-// Holds every value of a tree against the table; throws SceneError at the first that does not fit.
+// Checks every value of a tree against the table; throws SceneError at the first that does not fit.
 void check_keys(const Node& scene);
 
 // 2 or 3, checked

@@ -1,4 +1,4 @@
-// The key table: its defaults, its examples and its documentation agree with what is read.
+// The key table: its defaults, examples and documentation agree with the reader.
 #include "core/scene/keys.hpp"
 
 #include <gtest/gtest.h>
@@ -21,8 +21,8 @@ Scene parse(const std::string& text, const std::vector<std::string>& overrides =
   return parse_scene(text, "scene.toml", overrides);
 }
 
-// What rows of the key table read in a struct of a scene holds, by table and key as TOML: one value after the other
-// where a scene has several such structs.
+// The values that rows of the key table have read into a struct, by table and key as TOML: one value after the other if
+// a scene has several such structs.
 using Values = std::map<std::string, std::string>;
 
 template <class Owner>
@@ -53,8 +53,9 @@ void add_stage(Values& values, const StagePlan& stage) {
     add(values, "stage", reduce->factor);
   }
   if (stage.damping) add(values, "damping", *stage.damping);
+  if (stage.statics) add(values, "stage", *stage.statics);
   add(values, "stage", stage.change);
-  if (stage.let_off) add(values, "let_off", *stage.let_off);
+  if (stage.excavation_forces) add(values, "excavation_forces", *stage.excavation_forces);
   for (const FrictionPlan& friction : stage.change.friction_of)
     add(values, "friction", friction);
   for (const MovePlan& move : stage.change.move) {
@@ -71,10 +72,11 @@ void add_stage(Values& values, const StagePlan& stage) {
   }
 }
 
-// the structs of a scene that keys are read into
+// the structs of a scene into which keys are read
 Values values_of(const Scene& s) {
   Values values;
   add(values, "", s);
+  add(values, "", s.settings.statics);
   add(values, "contact", s.settings.contact);
   add(values, "damping", s.settings.damping);
   add(values, "time", s.settings.time);
@@ -164,7 +166,7 @@ TEST(Keys, HaveTheDefaultsThatTheyShow) {
   for (const KeyRow& row : key_rows()) {
     for (const KeyMember& member : row.members)
       EXPECT_EQ(member.default_value, row.members.front().default_value) << row.key;
-    // stated in the scene, for without it the tunnel takes out no block
+    // stated in the scene, because without it the tunnel excavates no block
     if (row.default_value.empty() || (row.table == "excavations" && row.key == "outline")) continue;
     const every_key::Home& home = every_key::home(row, row.default_value);
     const std::string text = home.address + "=" + row.default_value;
@@ -172,15 +174,15 @@ TEST(Keys, HaveTheDefaultsThatTheyShow) {
   }
 }
 
-// A stated value reaches its member and no other, and reads back from the scene's text. Of some keys the example needs
-// others beside it, and is refused.
+// A stated value reaches only its own member, and reads back from the scene's text. The examples of some keys need
+// other keys, and are refused.
 TEST(Keys, AreReadIntoTheirMembers) {
   int read = 0;
   for (const KeyRow& row : key_rows()) {
     const Scene plain = parse(scene_of(row));
     const Values before = values_of(plain);
     if (row.members.empty() || row.type == KeyType::table || row.example == row.default_value) continue;
-    if (row.table == "copies") continue;  // a scene that has been read holds the copies alone (repeat_test.cpp)
+    if (row.table == "copies") continue;  // a scene that has been read has only the copies (repeat_test.cpp)
     const std::string key = key_path(std::string(row.table), row.key);
     const std::string text = address(row) + "=" + std::string(row.example);
     ASSERT_TRUE(before.contains(key)) << text;
@@ -188,7 +190,7 @@ TEST(Keys, AreReadIntoTheirMembers) {
       const Scene scene = parse(scene_of(row), {text});
       ++read;
       EXPECT_EQ(canonical_text(parse(toml_text(*scene.tree))), canonical_text(scene)) << text;
-      if (canonical_text(scene) == canonical_text(plain)) {  // the scene states just that
+      if (canonical_text(scene) == canonical_text(plain)) {  // the scene states this value already
         EXPECT_NE(before.at(key).find(row.example), std::string::npos) << text << "\n" << before.at(key);
         continue;
       }
@@ -207,14 +209,14 @@ TEST(Keys, HaveExamplesThatAreAccepted) {
       continue;
     ASSERT_FALSE(row.example.empty()) << row.key;
     const std::string text = address(row) + "=" + std::string(row.example);
-    // what else must fit together is judged after types and ranges, with its own words
+    // consistency is checked after types and ranges, with its own messages
     try {
       parse(scene_of(row), {text});
     } catch (const SceneError& error) {
       const std::string message = error.what();
-      EXPECT_TRUE(message.find("must exceed min") != std::string::npos || message.find("beside") != std::string::npos ||
-                  message.find("only one of") != std::string::npos ||
-                  message.find("applies only where") != std::string::npos ||
+      EXPECT_TRUE(message.find("must exceed min") != std::string::npos ||
+                  message.find("is stated ") != std::string::npos || message.find("only one of") != std::string::npos ||
+                  message.find("applies only if") != std::string::npos ||
                   message.find("is missing") != std::string::npos)
           << text << "\n"
           << message;
@@ -238,7 +240,7 @@ TEST(Keys, AreDocumentedEachOnce) {
   }
 }
 
-TEST(Documentation, HoldsASceneThatRuns) {
+TEST(Documentation, ContainsASceneThatRuns) {
   const std::string text = scene_documentation();
   const std::size_t begin = text.find("```toml\n") + 8;
   const Scene scene = parse(text.substr(begin, text.find("```", begin) - begin));

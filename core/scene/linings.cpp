@@ -22,8 +22,9 @@ const ExcavationSpec& excavation_of(const Scene& scene, const LiningSpec& spec) 
     }
     if (!excavation.outline)
       refuse(spec.subject, "excavation",
-             "is not cut along its outline, so that there is no face to cast a lining against; write outline = true "
-             "in the excavation");
+             "is not cut along its outline, so that there is no face against which a lining could be cast; write "
+             "outline = true in the "
+             "excavation");
     return excavation;
   }
   refuse(spec.subject, "excavation",
@@ -39,12 +40,12 @@ int interface_of(const Model<Dim>& model, const LiningSpec& spec) {
     names.push_back(properties.name);
     if (properties.name != spec.interface_properties) continue;
     if (properties.constant_stiffness)
-      refuse(spec.subject, "joint_properties",
-             "has constant_stiffness, and a lining's interface needs stiffness per area; give it properties of its "
-             "own");
+      refuse(
+          spec.subject, "joint_properties",
+          "has constant_stiffness, but a lining's interface needs stiffness per area; give it properties of its own");
     if (properties.laws.depends_on_stress())
       refuse(spec.subject, "joint_properties",
-             "has a stiffness that depends on stress, and a lining's interface needs a constant one; give it "
+             "has a stiffness that depends on stress, but a lining's interface needs a constant one; give it "
              "properties of its own");
     return static_cast<int>(p);
   }
@@ -81,7 +82,7 @@ Lining lining_of(const Scene& scene, const LiningSpec& spec, const Model<2>& mod
   const BlockResult<2> outline = make_block<2>(region, std::vector<int>(region.size(), no_joint));
   if (outline.status != BlockStatus::ok)
     refuse(spec.subject, "excavation",
-           "is no closed outline that a lining could follow; bound it on all sides, by a cylinder, a box or planes");
+           "has no closed outline that a lining could follow; bound it on all sides, by a cylinder, a box or planes");
   Lining lining = make_lining(spec.properties, sides_of(outline.part), outline.part.mass.centroid, turns_of(spec),
                               !spec.to.has_value());
   lining.interface_properties = interface_of(model, spec);
@@ -94,17 +95,17 @@ LiningSpec read_lining(const Subject& item) {
   read_keys(*item.node, "linings", spec);
   read_keys(*item.node, "linings", spec.properties);
   if (spec.to && !spec.from)
-    refuse(item, "to_deg", "from_deg is missing: a lining that is no ring needs both its ends; add it");
+    refuse(item, "to_deg", "from_deg is missing: a lining that is not a ring needs both its ends; add it");
   if (spec.to && !(*spec.to > *spec.from && *spec.to - *spec.from < full_turn))
     refuse(item, "to_deg",
-           "must lie beyond from_deg (" + value_text(*item.node->find("from_deg")) +
+           "must be beyond from_deg (" + value_text(*item.node->find("from_deg")) +
                "), counter-clockwise, by less than 360; for a ring leave to_deg out");
   const LiningProperties& p = spec.properties;
   if (p.compressive_strength.has_value() != p.tensile_strength.has_value()) {
     const bool first = p.compressive_strength.has_value();
     refuse(item, first ? "compressive_strength" : "tensile_strength",
            std::string(first ? "tensile_strength" : "compressive_strength") +
-               " is missing: the use of capacity needs both; add it");
+               " is missing: the utilisation needs both strengths; add it");
   }
   return spec;
 }
@@ -114,7 +115,7 @@ LiningSpec read_lining(const Subject& item) {
 void read_linings(const Subject& top, Scene& scene) {
   for (const Subject& item : children(top, "linings")) {
     if (scene.dimension == 3)
-      refuse(item, "name", "applies only where dimension = 2: linings are beams of the plane; remove [[linings]]");
+      refuse(item, "name", "applies only if dimension = 2: linings are plane beams; remove [[linings]]");
     scene.linings.push_back(read_lining(item));
   }
 }

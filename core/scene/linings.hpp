@@ -1,4 +1,4 @@
-// [[linings]]: read, checked, and laid along their outlines.
+// [[linings]]: reading, checks and positions along the outlines.
 #pragma once
 
 #include "core/scene/scene_spec.hpp"
@@ -8,7 +8,7 @@ namespace voussoir {
 // Throws SceneError.
 void read_linings(const Subject& top, Scene& scene);
 
-// Model::linings, whatever the order in which the scene states them; the model has its origin and its joint properties.
+// Model::linings, independent of their order in the scene; the model's origin and joint properties are set.
 // Throws SceneError.
 template <int Dim>
 void add_linings(const Scene& scene, Model<Dim>& model);

@@ -64,7 +64,7 @@ void turn_direction(Node* direction, const RigidMove<Dim>& move) {
   if (direction && move.turns) *direction = list_of(move.turn * vector_of<Dim>(*direction), direction->place);
 }
 
-// ---- turns
+// ---- rotations
 
 // cosine and sine, exact at multiples of 90 degrees
 std::pair<double, double> cosine_and_sine(double degrees) {
@@ -102,7 +102,7 @@ Matrix<3> turn_of<3>(const CopiesSpec& spec, double degrees) {
 
 // ---- blocks
 
-// a box that no longer lies along the axes
+// a box that is no longer aligned with the axes
 template <int Dim>
 Node planes_of_box(const Node& box, const RigidMove<Dim>& move) {
   Node planes;
@@ -147,7 +147,7 @@ Node corners_of(const Node& joint, const Vector<3>& normal, const RigidMove<Dim>
   return corners;
 }
 
-// what an outline in space becomes; in the plane a trace stays one
+// an outline in 3-D; in 2-D a trace remains a trace
 void move_outline(Node& joint, const std::string& path, const Vector<3>& normal, const Vector<3>& upward,
                   const RigidMove<3>& move) {
   Node* shape = joint.find("shape");
@@ -163,10 +163,10 @@ void move_outline(Node& joint, const std::string& path, const Vector<3>& normal,
     constexpr double rounding = 1e-9;
     const Matrix<2> between = plane_axes(upward).transpose() * move.turn * plane_axes(normal);
     if (std::abs(between(0, 1)) > rounding)
-      refuse(
-          {&joint, path}, "shape",
-          "its axes lie along strike and dip, from which this turn takes them; write shape = \"polygon\" and corners, "
-          "or repeat it by shift alone");
+      refuse({&joint, path}, "shape",
+             "its axes are along strike and dip, and would not be after this rotation; write shape = \"polygon\" and "
+             "corners, or repeat it by "
+             "shift only");
   }
 }
 
@@ -177,14 +177,14 @@ Vector<Dim> stated_normal(const PlaneSpec& plane) {
   return to_half_space<Dim>(plane, Vector<Dim>::Zero()).normal;
 }
 
-// of a joint that turned over, what lies below lies above
+// if a joint is turned upside down, the side below it becomes the side above
 void swap_sides(Node& joint) {
-  if (Node* whole = joint.find("whole")) whole->text = whole->text == "below" ? "above" : "below";
+  if (Node* fixed = joint.find("fixed_side")) fixed->text = fixed->text == "below" ? "above" : "below";
 }
 
 // ---- bolts
 
-// Angles of rays count from the horizontal, which a turn may take from there.
+// Angles of rays are measured from the horizontal, which a rotation may tilt.
 template <int Dim>
 double degrees_gained(const Node&, const RigidMove<Dim>& move) {
   return move.degrees;
@@ -259,7 +259,7 @@ void move_joint(Node& joint, const std::string& path, const RigidMove<Dim>& move
   move_outline(joint, path, before, after, move);
   move_point<Dim>(joint.find("point"), move);
   if (!move.turns) return;
-  // dip and dip direction would round
+  // dip and dip direction would be rounded
   const Place place = joint.find("point")->place;
   forget(joint, "dip");
   forget(joint, "dip_direction");

@@ -1,4 +1,4 @@
-// Tables of a scene that state blocks, joints or bolts, as they read once these are moved: what [[repeat]] makes.
+// Tables of a scene that state blocks, joints or bolts, displaced and rotated: the copies of [[repeat]].
 #pragma once
 
 #include <string>
@@ -13,18 +13,18 @@ template <int Dim>
 struct RigidMove {
   bool turns = false;
   Matrix<Dim> turn = Matrix<Dim>::Identity();
-  double degrees = 0;                                                    // 2-D: of the turn, counter-clockwise
+  double degrees = 0;                                                    // 2-D: of the rotation, counter-clockwise
   Vector<Dim> about = Vector<Dim>::Zero(), shift = Vector<Dim>::Zero();  // m
 
   Vector<Dim> operator()(const Vector<Dim>& point) const;
 };
 
-// From the stated one to a copy `times` steps on. Turns by multiples of 90 degrees are exact.
+// From the stated one to the copy after `times` steps. Rotations by multiples of 90 degrees are exact.
 template <int Dim>
 RigidMove<Dim> move_of(const CopiesSpec& spec, int times);
 
-// Each moves what a checked table states: places, directions, velocities. Throws SceneError where the keys of the table
-// cannot say what came of it; `path` is the table's address.
+// Each moves the positions, directions and velocities of a checked table. Throws SceneError if the keys of the table
+// cannot describe the result; `path` is the table's address.
 template <int Dim>
 void move_block(Node& block, const RigidMove<Dim>& move);
 template <int Dim>

@@ -181,7 +181,7 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
   std::string best;
   std::size_t least = std::max<std::size_t>(2, word.size() / 3) + 1;
   for (const std::string& candidate : candidates) {
-    // a word cut short is as good as one letter wrong, e.g. friction for friction_deg
+    // a shortened word counts as one wrong letter, e.g. friction for friction_deg
     const bool begins = word.size() >= 3 && candidate.starts_with(word);
     const std::size_t distance = begins ? 1 : edit_distance(word.substr(0, 200), candidate);
     if (distance < least && distance < std::max(word.size(), candidate.size())) least = distance, best = candidate;

@@ -1,4 +1,4 @@
-// The tree of a scene file: what the text says and where, before any meaning is read into it.
+// The tree of a scene file: its values and their places, before they are interpreted.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,7 @@
 
 namespace voussoir {
 
-// Where a value was written. An override, that of the file which it changes, has no line.
+// The place of a value. An override has the file that it changes, but no line.
 struct Place {
   std::shared_ptr<const std::string> source;
   int line = 0;
@@ -34,7 +34,7 @@ struct Node {
   std::vector<Member> members;  // of a table, sorted by key
 
   bool is_number() const { return kind == Kind::integer || kind == Kind::number; }
-  bool is_list_of_tables() const;  // of one at least
+  bool is_list_of_tables() const;  // of at least one table
   const Node* find(std::string_view key) const;
   Node* find(std::string_view key);
   Node& set(std::string_view key, Node value);
@@ -45,17 +45,17 @@ struct Member {
   Node value;
 };
 
-// A table of the scene and its address as `--set` would write it, e.g. joints.A; empty for the whole scene.
+// A table of the scene and its address in the form of `--set`, e.g. joints.A; empty for the whole scene.
 struct Subject {
   const Node* node = nullptr;
   std::string path;
 };
 
-// a table inside a table, or the tables of a list, with their addresses; none where the file states none
+// a table inside a table, or the tables of a list, with their addresses; none if the file states none
 std::optional<Subject> child(const Subject& table, std::string_view key);
 std::vector<Subject> children(const Subject& table, std::string_view key);
 
-// empty where it states none
+// empty if it states none
 std::string name_of(const Node& table);
 
 // joints.A for a named table, joints.2 (counted from 1) for one without a name
@@ -66,7 +66,7 @@ std::string key_path(const std::string& table_path, std::string_view key);
 std::string value_text(const Node& node);
 std::string place_text(const Place& place);
 
-// "place: path = value: rule"; a key that is absent is reported at its table's line as missing
+// "place: path = value: rule"; an absent key is reported as missing at its table's line
 std::string complaint(const Node& node, const std::string& path, const std::string& rule);
 std::string complaint(const Subject& table, std::string_view key, const std::string& rule);
 
@@ -77,7 +77,7 @@ std::string complaint(const Subject& table, std::string_view key, const std::str
 [[noreturn]] void refuse(const Node& node, const std::string& path, const std::string& rule);
 [[noreturn]] void refuse(const Subject& table, std::string_view key, const std::string& rule);
 
-// Refuses the first text or key of the tree that is no plain text (text/plain_text.hpp); `path` is the tree's address.
+// Refuses the first text or key of the tree that is not plain text (text/plain_text.hpp); `path` is the tree's address.
 void require_plain_text(const Node& node, const std::string& path);
 
 // the name most like a mistyped one, or an empty text when none is near

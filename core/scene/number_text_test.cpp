@@ -1,4 +1,4 @@
-// How numbers and texts may be written: whatever the locale, to the last digit, and nothing half understood.
+// Notation of numbers and texts: independent of the locale, exact to the last digit, and never read in part.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ const std::string head =
     "dimension = 2\ndensity = 2000\n[[blocks]]\nname = \"a\"\nbox = { min = [0, 0], max = [1, 1] }\n";
 const std::string tail = "[[stage]]\nname = \"s\"\nkind = \"settle\"\n";
 
-// a scene that states a number, or what is wrong with it
+// a scene that states a number, or the error message
 std::string with_number(const std::string& text) {
   return head + "velocity = [0, " + text + "]\n" + tail;
 }
@@ -29,7 +29,7 @@ std::optional<double> number(const std::string& text) {
   }
 }
 
-// decimal commas and grouped thousands in every stream, and in C where such a locale is installed
+// decimal commas and grouped thousands in every stream, and in C if such a locale is installed
 class CommaLocale {
   struct Comma : std::numpunct<char> {
     char do_decimal_point() const override { return ','; }
@@ -108,7 +108,7 @@ TEST(Numbers, AreReadOrRefusedWhateverTheLocale) {
   }
 }
 
-// what is written with seventeen digits reads back to the same bits, as a number and in the canonical text
+// a number with seventeen digits reads back to the same bits, as a number and in the canonical text
 TEST(Numbers, KeepTheirBits) {
   const CommaLocale locale;
   double x = 0.7;
@@ -125,7 +125,7 @@ TEST(Numbers, KeepTheirBits) {
   EXPECT_NE(canonical_text(parse_scene(with_number("0.5"), "s")).find("0.5"), std::string::npos);
 }
 
-TEST(Texts, MayCarryABomAndWindowsLineEnds) {
+TEST(Texts, MayHaveABomAndWindowsLineEnds) {
   const std::string good = with_number("1");
   const std::string canonical = canonical_text(parse_scene(good, "scene.toml"));
   EXPECT_EQ(canonical_text(parse_scene("\xEF\xBB\xBF" + good, "scene.toml")), canonical);

@@ -1,8 +1,12 @@
 #include "core/scene/overrides.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <charconv>
 
 #include "core/scene/keys.hpp"
+#include "core/scene/renamed_keys.hpp"
 #include "core/scene/toml_text.hpp"
 
 namespace voussoir {
@@ -46,24 +50,28 @@ Node& find_item(Node* list, const std::string& name, const std::string& path, co
   fail(place, key_path(path, name), "no table of this name; " + suggestion(name, names));
 }
 
-// The table that holds the path's last key, made where the file does not state it.
+// The table that holds the path's last key, created if the file does not state it.
 struct Target {
   Node* table;
+  std::string path, keys;  // of the table: its address, and the same without the names of a list's tables
   std::string key;
 };
 
 Target find_target(Node& scene, const std::vector<std::string>& segments, const Place& place) {
   Node* table = &scene;
   Groups groups{""};
-  std::string path;
+  std::string path, keys;
   for (std::size_t i = 0;; ++i) {
     if (table->kind != Node::Kind::table) fail(place, path, "the file states no table here; correct the file first");
     const KeyRow* row = find_row(groups, segments[i]);
+    const std::string holder = path;
     path = key_path(path, segments[i]);
     if (!row) fail(place, path, "no such key; " + suggestion(segments[i], keys_of(groups)));
     if (row->table.empty() && (row->key == "base" || row->key == "joints_file" || row->key == "blocks_file"))
-      fail(place, path, "cannot be set, because overrides change the scene laid over its files; write it in a file");
-    if (i + 1 == segments.size()) return {table, segments[i]};
+      fail(place, path,
+           "cannot be set, because overrides apply to the scene after its files have been read; write it in a file");
+    if (i + 1 == segments.size()) return {table, holder, keys, segments[i]};
+    keys = key_path(keys, segments[i]);
 
     Node* next = table->find(row->key);
     if (row->type == KeyType::table || row->type == KeyType::surface) {
@@ -79,7 +87,7 @@ Target find_target(Node& scene, const std::vector<std::string>& segments, const 
       if (i + 1 == segments.size())
         fail(place, path, "this is a table; name one of its keys: " + listed(keys_of(row->holds)));
     } else {
-      fail(place, path, "this is a value, it has no keys; write " + path + "=…");
+      fail(place, path, "this is a value and has no keys; write " + path + "=…");
     }
     groups = row->holds;
   }
@@ -87,13 +95,26 @@ Target find_target(Node& scene, const std::vector<std::string>& segments, const 
 
 }  // namespace
 
-void apply_override(Node& scene, const std::string& text, const std::string& file) {
+void apply_override(Node& scene, const std::string& text, const std::string& file, std::vector<std::string>& renamed) {
   const Place place{std::make_shared<const std::string>(file), 0,
                     std::make_shared<const std::string>(one_line(text, 120))};
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos) fail(place, trimmed(text), "has no '='; write for example --set joints.A.dip=65");
-  const Target target = find_target(scene, segments_of(std::string_view(text).substr(0, equals)), place);
-  target.table->set(target.key, parse_toml_value(trimmed(std::string_view(text).substr(equals + 1)), place));
+  const std::vector<std::string> stated = segments_of(std::string_view(text).substr(0, equals));
+  const std::vector<std::string> segments = with_present_names(stated);
+  if (segments != stated)
+    renamed.push_back(
+        fmt::format("{}: {} is now {}", place_text(place), fmt::join(stated, "."), fmt::join(segments, ".")));
+  const Target target = find_target(scene, segments, place);
+
+  // of a table, some keys may now belong beside it: it replaces the one that was there, and they what was beside it
+  Node changed;
+  changed.place = place;
+  changed.set(target.key, parse_toml_value(trimmed(std::string_view(text).substr(equals + 1)), place));
+  take_present_names(changed, target.keys, target.path, renamed);
+  std::erase_if(target.table->members, [&](const Member& member) { return member.key == target.key; });
+  for (Member& member : changed.members)
+    target.table->set(member.key, std::move(member.value));
 }
 
 }  // namespace voussoir

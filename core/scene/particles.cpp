@@ -33,7 +33,7 @@ BlockResult<Dim> block_of(const HalfSpaces<Dim>& planes) {
   return make_block<Dim>(planes, std::vector<int>(planes.size(), no_joint));
 }
 
-// the centroid of the planes moved out by r; the origin where they make no block
+// the centroid of the planes moved outwards by r; the origin if they do not form a block
 template <int Dim>
 Vector<Dim> middle_of(HalfSpaces<Dim> planes, double corner_radius) {
   for (HalfSpace<Dim>& plane : planes)
@@ -42,7 +42,7 @@ Vector<Dim> middle_of(HalfSpaces<Dim> planes, double corner_radius) {
   return block.status == BlockStatus::ok ? block.part.mass.centroid : Vector<Dim>(Vector<Dim>::Zero());
 }
 
-// the key that a problem is about
+// the key that caused a problem
 std::string key_of(const ShapeVerdict& verdict) {
   switch (verdict.problem) {
     case ShapeProblem::corner_radius:
@@ -72,7 +72,7 @@ PotentialShape<Dim> shape_of(const BlockSpec& block, const HalfSpaces<Dim>& plan
     shape.sphere_radius = *stated.sphere_radius;
   } else {
     const double least = enclosing_radius<Dim>(shape.planes, shape.corner_radius, shape.centre);
-    shape.sphere_radius = std::isfinite(least) && least > 0 ? least : 1;  // what makes none is told by the judgement
+    shape.sphere_radius = std::isfinite(least) && least > 0 ? least : 1;  // invalid values are reported by the check
   }
   const ShapeVerdict verdict = check_shape<Dim>(shape);
   if (verdict.ok()) return shape;
@@ -81,7 +81,7 @@ PotentialShape<Dim> shape_of(const BlockSpec& block, const HalfSpaces<Dim>& plan
   refuse(block.subject, place, describe<Dim>(verdict, shape));
 }
 
-// A block that encloses the particle: where it ends along its planes and along the axes.
+// A block that encloses the particle, bounded along its planes and along the axes.
 template <int Dim>
 BlockResult<Dim> enclosing_block(const PotentialShape<Dim>& shape) {
   const PlacedPotential<Dim> own = placed<Dim>(shape);
@@ -115,7 +115,8 @@ void check_particle_keys(const BlockSpec& block) {
   const Subject& table = block.subject;
   const ParticleSpec& stated = block.particle;
   if (table.node->find("vertices"))
-    refuse(table, "vertices", "states no potential particle; give its planes, or box, r inside its faces");
+    refuse(table, "vertices",
+           "cannot define a potential particle; give its planes, or a box, at a distance r inside its faces");
   const bool has_planes = table.node->find("planes") || table.node->find("box");
   if (*stated.sphericity < 1) {
     if (!has_planes)
@@ -139,12 +140,12 @@ Polytope<Dim> make_particle_part(const BlockSpec& block, HalfSpaces<Dim> planes,
   const PotentialShape<Dim> shape = shape_of<Dim>(block, planes, origin);
   BlockResult<Dim> enclosing = enclosing_block<Dim>(shape);
   if (enclosing.status != BlockStatus::ok)
-    refuse(
-        *block.subject.node, block.subject.path,
-        enclosing.status == BlockStatus::far
-            ? "the particle lies so far from the middle of the scene that its coordinates round by more than 1e-6 of "
-              "its size; bring the solids together, or make it larger"
-            : "the particle is thinner than 1e-8 of its length; make corner_radius larger");
+    refuse(*block.subject.node, block.subject.path,
+           enclosing.status == BlockStatus::far
+               ? "the particle is so far from the middle of the scene that its coordinates are rounded by more than "
+                 "1e-6 of its size; move "
+                 "the solids together, or make it larger"
+               : "the particle is thinner than 1e-8 of its length; make corner_radius larger");
   Polytope<Dim>& part = enclosing.part;
   part.particle =
       std::make_shared<const Particle<Dim>>(make_particle<Dim>(seen_from<Dim>(shape, Vector<Dim>(part.centre))));

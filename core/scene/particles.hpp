@@ -1,4 +1,4 @@
-// Blocks that are potential particles, from what a scene states of them.
+// Blocks that are potential particles, from their scene tables.
 #pragma once
 
 #include "core/model/model.hpp"
@@ -6,11 +6,11 @@
 
 namespace voussoir {
 
-// what the table of one block must state together
+// keys that the table of one block must state together
 void check_particle_keys(const BlockSpec& block);
 
-// The part that a block of shape = "potential" is, seen from `origin`, its mass and drawing left out; `planes` of any
-// length. Throws SceneError where the numbers make no particle.
+// The part of a block of shape = "potential", seen from `origin`, without mass and drawing; `planes` of any length.
+// Throws SceneError if the numbers do not define a particle.
 template <int Dim>
 Polytope<Dim> make_particle_part(const BlockSpec& block, HalfSpaces<Dim> planes, const Vector<Dim>& origin);
 
@@ -18,7 +18,7 @@ Polytope<Dim> make_particle_part(const BlockSpec& block, HalfSpaces<Dim> planes,
 template <int Dim>
 Polytope<Dim> finish_particle(const BlockSpec& block, Polytope<Dim> part);
 
-// Gives the parts of half-spaces of a model with particles what they are to these.
+// Gives each half-space part of a model with particles an inner particle, for contacts with these.
 template <int Dim>
 void add_inner_particles(const ContactSettings& settings, Model<Dim>& model);
 

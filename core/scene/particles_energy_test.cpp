@@ -20,8 +20,8 @@ constexpr double corner_radius = 0.1;          // m, of both bodies
 constexpr double depth = 0.1 * corner_radius;  // of the overlap, about
 constexpr double size = 1, stiffness = 1e7;    // m, N/m
 
-// A tilted corner, of an edge that is not right-angled, over a fixed floor: a particle, or a block of half-spaces.
-// Without friction a contact is its normal force alone.
+// A tilted corner with an edge that is not right-angled, above a fixed floor: a particle, or a block of half-spaces.
+// Without friction a contact has only its normal force.
 template <int Dim>
 std::string scene_of(const char* normal, bool half_spaces) {
   Matrix<Dim> turn;
@@ -55,14 +55,14 @@ std::string scene_of(const char* normal, bool half_spaces) {
   return text + "]\n[[stage]]\nname = \"drive\"\nkind = \"run\"\nduration_s = 1\n";
 }
 
-// The body that is put where a test wants it, at rest, and what a step finds there.
+// The body, placed by a test with zero velocity, and the forces of a step there.
 template <int Dim>
 class Driven {
  public:
   Driven(const char* normal, bool half_spaces)
       : scene_(prepare<Dim>(parse_scene(scene_of<Dim>(normal, half_spaces), "scene.toml", {}))),
         body_(scene_.model.bodies.front().fixed ? 1 : 0) {
-    double touching = -3, apart = 0;  // m, down from where the scene has it
+    double touching = -3, apart = 0;  // m, downwards from its position in the scene
     for (int i = 0; i < 60; ++i) {
       const double middle = (touching + apart) / 2;
       put(Vector<Dim>::Unit(Dim - 1) * middle, Spin<Dim>::Zero());
@@ -71,7 +71,7 @@ class Driven {
     down_ = touching - depth;
   }
 
-  // from where its corner lies `depth` in the floor: moved, then turned about its centroid
+  // from the position with its corner `depth` in the floor: moved, then turned about its centroid
   void put_near(const Vector<Dim>& moved, const Spin<Dim>& turn) {
     put(down_ * Vector<Dim>::Unit(Dim - 1) + moved, turn);
   }
@@ -106,9 +106,9 @@ Vector<Dim> vector_of(double x, double y, double z) {
     return {x, z};
 }
 
-// Central differences over all freedoms. The energy is k δ²/2 of an overlap that changes over lengths of r: what the
-// third derivative leaves is (h/r)² of the force, or of the moment an arm of 1 m times that. δ is right to the rounding
-// of coordinates of some metres, which the difference divides by 2 h.
+// Central differences over all degrees of freedom. The energy is k δ²/2 of an overlap that varies over lengths of r:
+// the error from the third derivative is (h/r)² of the force, and for the moment an arm of 1 m times that. δ has the
+// rounding error of coordinates of a few metres, which the difference divides by 2 h.
 template <int Dim>
 void expect_the_slope_of_the_energy(bool half_spaces) {
   constexpr double h = 1e-5 * corner_radius;
@@ -134,7 +134,7 @@ void expect_the_slope_of_the_energy(bool half_spaces) {
   }
 }
 
-TEST(ParticlesEnergy, ForceAndMomentAreTheSlopeOfWhatTheSpringsHold) {
+TEST(ParticlesEnergy, ForceAndMomentAreTheGradientOfTheSpringEnergy) {
   for (const bool half_spaces : {false, true}) {
     expect_the_slope_of_the_energy<2>(half_spaces);
     expect_the_slope_of_the_energy<3>(half_spaces);
@@ -145,8 +145,8 @@ struct Work {
   double net = 0, gross = 0;  // J
 };
 
-// Once around an ellipse of places and a swing of turns about one axis, whose rate is that of the angle. The same
-// planes count all the way: equal steps around a smooth closed path sum up its work to rounding.
+// Once around an ellipse of positions with an oscillating rotation about one axis of the same period. The same planes
+// are active along the whole path, so that equal steps around the smooth closed path integrate its work to rounding.
 template <int Dim>
 Work around(const char* normal, bool half_spaces) {
   constexpr int steps = 200;
@@ -170,7 +170,7 @@ Work around(const char* normal, bool half_spaces) {
 TEST(ParticlesEnergy, ADrivenPairDoesNoWorkAroundAClosedPath) {
   for (const bool half_spaces : {false, true}) {
     const Work plane = around<2>("multipliers", half_spaces), space = around<3>("multipliers", half_spaces);
-    // rounding of coordinates of a metre over an overlap of 1e-2 m, 2e-14 of each term
+    // rounding of coordinates of 1 m over an overlap of 1e-2 m, 2e-14 of each term
     EXPECT_LE(std::abs(plane.net), 1e-12 * plane.gross);
     EXPECT_LE(std::abs(space.net), 1e-12 * space.gross);
     EXPECT_GE(std::abs(around<3>("potential", half_spaces).net), 1e-3 * space.gross);

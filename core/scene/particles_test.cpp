@@ -1,5 +1,5 @@
-// Potential particles in scenes: closed forms of rest and motion, beside blocks of half-spaces too, and the same bits
-// whatever the threads, the order of input and interruptions.
+// Potential particles in scenes: closed forms of equilibrium and motion, also together with blocks of half-spaces, and
+// identical bits for any threads, order of input and interruptions.
 #include "core/scene/particles.hpp"
 
 #include <fmt/format.h>
@@ -46,7 +46,7 @@ int body_named(const Model<Dim>& model, const std::string& name) {
   return select<Dim>(model, {.names = {name}, .above = {}, .below = {}, .inside = {}}).front();
 }
 
-// m, where the centre of a particle's sphere stands; its body's centroid is off it by what its mass is
+// m: position of the centre of a particle's sphere; its body's centroid differs by the mass properties' error
 template <int Dim>
 Vector<Dim> place(const Ran<Dim>& run, const std::string& name) {
   const int b = body_named(run.scene.model, name);
@@ -65,9 +65,9 @@ const std::string in_the_plane = "dimension = 2\ngravity = [0, -9.81]\ndensity =
 
 // ---- closed forms ---------------------------------------------------------------------------------------------------
 
-// Half-spaces, or a particle whose upper face is flat at k = 0: an overlap of m g / k either way. Rest is where forces
-// balance to 1e-6.
-TEST(Particles, ABallRestsOnAPlaneAsDeepAsItsWeightPresses) {
+// Half-spaces, or a particle whose upper face is flat at k = 0: an overlap of m g / k in both cases. In equilibrium the
+// forces balance to 1e-6.
+TEST(Particles, ABallInEquilibriumOnAPlaneHasTheOverlapOfItsWeight) {
   const double radius = 0.1, mass = density * 4 / 3 * std::numbers::pi * radius * radius * radius;
   for (const char* floor : {"box = { min = [-1, -1, -0.5], max = [1, 1, 0] }",
                             "shape = \"potential\"\nsphericity = 0\ncorner_radius = 0.1\n"
@@ -84,10 +84,10 @@ TEST(Particles, ABallRestsOnAPlaneAsDeepAsItsWeightPresses) {
   }
 }
 
-// The spring of a contact in a stage of kind run with all defaults: the ball begins at rest with half its overlap at
-// rest, so that it stays in contact. Leapfrog's cosine is exact but for its frequency, which is too high by (ω dt)² /
-// 24: a phase of that times ω t, of next order too.
-TEST(Particles, ABallSwingsOnAPlaneWithThePeriodOfItsSpring) {
+// The spring of a contact in a stage of kind run with all defaults: the ball starts with zero velocity and half its
+// static overlap, so that it stays in contact. Leapfrog's cosine is exact except for its frequency, which is too high
+// by (ω dt)² / 24: a phase error of that times ω t, plus the next order.
+TEST(Particles, ABallOscillatesOnAPlaneWithThePeriodOfItsSpring) {
   const double radius = 0.1, mass = density * std::numbers::pi * radius * radius, rest = mass * g / stiffness;
   const double period = 2 * std::numbers::pi * std::sqrt(mass / stiffness), omega = 2 * std::numbers::pi / period;
   const std::string text = fmt::format(
@@ -110,8 +110,8 @@ TEST(Particles, ABallSwingsOnAPlaneWithThePeriodOfItsSpring) {
     EXPECT_NEAR(row[moved], -rest / 2 * (1 - std::cos(omega * row[time])), 1.2 * phase * rest / 2) << row[time];
 }
 
-// A cube of small r: along its axis f = (1 - k) s² / r² + k (a + s)² / R² - 1, which ends it at a + s. It rests flat on
-// half-spaces, whose faces their inner particle shares whatever its r.
+// A cube of small r: along its axis f = (1 - k) s² / r² + k (a + s)² / R² - 1, so that it ends at a + s. It is flat on
+// half-spaces, whose inner particle has the same faces for any r.
 TEST(Particles, ACubeSettlesOnABlockOfHalfSpacesToItsOverlap) {
   constexpr double a = 0.099, r = 0.001, k = 0.02, sphere = 0.2;
   const double c = (1 - k) / (r * r), s = k / (sphere * sphere);
@@ -133,8 +133,8 @@ TEST(Particles, ACubeSettlesOnABlockOfHalfSpacesToItsOverlap) {
   }
 }
 
-// Newton's method finds the same rest: its stiffness is of differences of the contact.
-TEST(Particles, NewtonFindsTheRestOfAStack) {
+// Newton's method finds the same equilibrium: its stiffness comes from differences of the contact force.
+TEST(Particles, NewtonFindsTheEquilibriumOfAStack) {
   std::string text =
       in_space + "[[blocks]]\nname = \"floor\"\nfixed = true\nbox = { min = [-1, -1, -0.5], max = [1, 1, 0] }\n";
   for (int i = 0; i < 3; ++i)
@@ -143,17 +143,17 @@ TEST(Particles, NewtonFindsTheRestOfAStack) {
         "box = {{ min = [{}, -0.09, {}], max = [{}, 0.09, {}] }}\n",
         i, -0.09 + 0.01 * i, 0.2 * i + 0.01, 0.09 + 0.01 * i, 0.2 * i + 0.19);
   text += "[[stage]]\nname = \"settle\"\nkind = \"settle\"\n";
-  const Ran<3> relaxed = whole_run<3>(text), by_newton = whole_run<3>(text, {"damping.statics=\"newton\""});
+  const Ran<3> relaxed = whole_run<3>(text), by_newton = whole_run<3>(text, {"statics=\"newton\""});
   EXPECT_GT(by_newton.progress.state.counters.static_iterations, 0);
   EXPECT_EQ(by_newton.progress.state.counters.static_fallbacks, 0);
   for (const char* name : {"cube0", "cube1", "cube2"})
     EXPECT_NEAR(place(relaxed, name)[2], place(by_newton, name)[2], 1e-8) << name;
 }
 
-// ---- what a part keeps beside its particle --------------------------------------------------------------------------
+// ---- other data of a part with a particle --------------------------------------------------------------------------
 
 // an edge at right angles recedes by (1 - sqrt(1/2)) r / sin 45°, a face not at all
-TEST(Particles, AnInnerParticleSharesItsPartsFaces) {
+TEST(Particles, AnInnerParticleHasTheFacesOfItsPart) {
   const Polytope<2> part = shapes::block<2>(shapes::box<2>({-1, -0.5}, {3, 0.5}));
   const Particle<2> inner = inner_particle<2>(part, 0.1);
   const double r = 0.1 * 0.5;
@@ -176,8 +176,8 @@ Polytope<Dim> part_of(const std::string& keys) {
   return prepared.model.bodies.front().parts.front();
 }
 
-// One part is moved up to the other by what was found free, along the line of centres and along others: they do not
-// touch; between spheres that is all there is.
+// One part is moved towards the other by the distance that was found free, along the line of centres and along others:
+// they do not touch; between spheres it is the full distance.
 template <int Dim>
 void expect_free_way(const Polytope<Dim>& a, const Polytope<Dim>& b, const Vector<Dim>& offset, bool exact) {
   Pair<Dim> pair{&a, &b, Matrix<Dim>::Identity(), Matrix<Dim>::Identity(), offset, QueryLevel::overlap};
@@ -199,11 +199,11 @@ void expect_free_way(const Polytope<Dim>& a, const Polytope<Dim>& b, const Vecto
     EXPECT_NE(find().status, ContactStatus::touching);
   }
   if (!exact) return;
-  // what rounding may have done to f, some 64 ulp a part, is taken off
+  // the rounding error of f, about 64 ulp per part, is subtracted
   EXPECT_NEAR(way, offset.norm() - a.particle->shape.sphere_radius - b.particle->shape.sphere_radius, 1e-13);
 }
 
-TEST(Particles, HaveAWayInWhichTheyStayApart) {
+TEST(Particles, HaveADistanceOverWhichTheyStayApart) {
   const Polytope<3> ball = part_of<3>("sphericity = 1\nsphere_radius = 1\ncentre = [0, 0, 0]\n");
   const Polytope<3> cube =
       part_of<3>("sphericity = 0.1\ncorner_radius = 0.1\nbox = { min = [-1, -1, -1], max = [1, 1, 1] }\n");
@@ -215,7 +215,7 @@ TEST(Particles, HaveAWayInWhichTheyStayApart) {
   expect_free_way<2>(square, square, Vector<2>(2.1, 0.4), false);
 }
 
-// no point of the body reaches farther along any direction than the drawing's points and its error
+// no point of the body is farther along any direction than the drawing's points plus its error
 template <int Dim>
 void expect_drawn(const Polytope<Dim>& part) {
   const PotentialDrawing<Dim>& drawing = part.particle->drawing;
@@ -250,7 +250,7 @@ TEST(Particles, AreDrawnWithinTheStatedError) {
 
 // ---- the same bits --------------------------------------------------------------------------------------------------
 
-// a ball, cubes, a tetrahedron and a block of half-spaces fall on one another and on a floor
+// a ball, cubes, a tetrahedron and a block of half-spaces fall onto one another and onto a floor
 std::string heap(bool reversed = false) {
   std::vector<std::string> blocks{
       "name = \"floor\"\nfixed = true\nbox = { min = [-1, -1, -0.5], max = [1, 1, 0] }\n",
@@ -269,7 +269,7 @@ std::string heap(bool reversed = false) {
   return text + "[[stage]]\nname = \"fall\"\nkind = \"run\"\nduration_s = 0.2\n";
 }
 
-// all that is left at the end but for the clock
+// the complete final state, except the clock
 TEST(Particles, KeepTheirBitsOverThreadsOrderAndInterruptions) {
   const Ran<3> run = whole_run<3>(heap());
   const Counters& counters = run.progress.state.counters;
@@ -294,7 +294,7 @@ TEST(Particles, KeepTheirBitsOverThreadsOrderAndInterruptions) {
   EXPECT_TRUE(end_of(progress) == expected);
 }
 
-TEST(Particles, AskForNoMemoryWhileTheirNeighboursStay) {
+TEST(Particles, AllocateNoMemoryWhileTheirNeighboursStay) {
   Prepared<3> scene = prepare<3>(parse_scene(heap(), "scene.toml", {"contact.skin=20"}));
   for (int i = 0; i < 400; ++i)
     step(scene.model, scene.settings, scene.state);
@@ -308,7 +308,7 @@ TEST(Particles, AskForNoMemoryWhileTheirNeighboursStay) {
 }
 
 // a wider skin lists more neighbours and changes nothing
-TEST(Particles, KeepTheirMotionWhateverTheSkin) {
+TEST(Particles, MoveTheSameForAnySkin) {
   const Ran<3> one = whole_run<3>(heap()), other = whole_run<3>(heap(), {"contact.skin=0.7"});
   for (std::size_t b = 0; b < one.progress.state.bodies.motions.size(); ++b)
     EXPECT_TRUE(one.progress.state.bodies.motions[b].displacement ==

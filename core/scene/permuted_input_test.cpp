@@ -24,7 +24,7 @@ std::string read(const std::string& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-// A scene cut at its top-level tables, each with the tables below it; what stands before the first comes first.
+// A scene divided at its top-level tables, each with its subtables; the lines before the first table come first.
 std::vector<std::string> tables_of(const std::string& text) {
   std::vector<std::string> tables{""};
   std::istringstream lines(text);
@@ -36,7 +36,7 @@ std::vector<std::string> tables_of(const std::string& text) {
   return tables;
 }
 
-// the tables of lists that have one a line, in another order
+// lists with one table per line, in another order
 std::string with_lists_permuted(const std::string& text, Random& random) {
   std::string result;
   std::vector<std::string> list;
@@ -59,7 +59,7 @@ std::string with_lists_permuted(const std::string& text, Random& random) {
   return result;
 }
 
-// the same tables in another order; stages follow one another in time and keep theirs
+// the same tables in another order; stages keep their order in time
 std::string permuted(const std::string& text, Random& random) {
   std::vector<std::string> tables = tables_of(text);
   std::vector<std::string> rest(tables.begin() + 1, tables.end());

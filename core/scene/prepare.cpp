@@ -43,7 +43,7 @@ int index_of(const std::vector<std::string>& names, const std::string& name) {
   return at == names.end() ? -1 : static_cast<int>(at - names.begin());
 }
 
-// the properties a joint states; else the only table, or the one named default
+// the properties that a joint states; else the only table, or the one named default
 int properties_of(const Scene& scene, const JointSpec& joint) {
   const std::vector<std::string> names = property_names(scene);
   if (names.empty())
@@ -130,7 +130,7 @@ void check_blocks(const Scene& scene, const Model<Dim>& model) {
            "[[joint_properties]] with name, normal_stiffness, shear_stiffness and friction_deg");
 }
 
-// The bodies a selector of the scene names, its names checked first.
+// The bodies that a selector of the scene names, its names checked first.
 template <int Dim>
 std::vector<int> chosen(const Model<Dim>& model, const SelectorSpec& spec) {
   std::vector<std::string> joints, bodies;
@@ -164,7 +164,7 @@ std::vector<int> chosen_some(const Scene& scene, const Model<Dim>& model, const 
   return bodies;
 }
 
-// what is fixed now may yet be released or moved, or line an opening
+// a body that is fixed now may later be released or moved, or line an opening
 bool loosens(const Scene& scene) {
   return !scene.linings.empty() || std::any_of(scene.stages.begin(), scene.stages.end(), [](const StageSpec& s) {
     return !s.plan.change.release.empty() || !s.plan.change.move.empty();
@@ -195,7 +195,7 @@ void add_supports(const Scene& scene, Model<Dim>& model) {
          rule + "choose fewer blocks, or check that the joints cut the domain");
 }
 
-// a velocity needs freedoms to move in
+// a velocity needs degrees of freedom
 template <int Dim>
 void set_motion(const Subject& subject, const MotionSpec& spec, const Body<Dim>& body, Motion<Dim>& motion) {
   const auto check = [&](const char* key, const std::vector<double>& numbers, const auto& free) {
@@ -229,7 +229,7 @@ State<Dim> moving_state(const Scene& scene, const Model<Dim>& model) {
   return state;
 }
 
-// m: how far a point (model coordinates) lies outside of a body, at least; at most 0 in it
+// m: lower bound of the distance of a point (model coordinates) from a body; at most 0 inside
 template <int Dim>
 double outside_by(const Body<Dim>& body, const Vector<Dim>& point) {
   double least = std::numeric_limits<double>::infinity();
@@ -243,10 +243,10 @@ double outside_by(const Body<Dim>& body, const Vector<Dim>& point) {
   return least;
 }
 
-// a force acts on the block that its point lies in or on
+// the point of a force must be in or on its block
 template <int Dim>
 void check_point(const Subject& force, const Model<Dim>& model, const std::vector<int>& bodies) {
-  constexpr double on_face = 1e-6;  // of the block's size: coordinates are written with so many digits
+  constexpr double on_face = 1e-6;  // of the block's size: coordinates are written with this many digits
   ForcePlan plan;
   read_keys(*force.node, "force", plan);
   if (plan.point.empty()) return;
@@ -254,13 +254,13 @@ void check_point(const Subject& force, const Model<Dim>& model, const std::vecto
     const Body<Dim>& body = model.bodies[b];
     const double outside = outside_by<Dim>(body, Eigen::Map<const Vector<Dim>>(plan.point.data()) - model.origin);
     if (outside > on_face * body.radius)
-      refuse(
-          force, "point",
-          fmt::format("lies at least {:.3g} m outside of {}, which the force acts on; move the point into the block, "
-                      "choose the block it lies in (for example inside = the point), or leave it out for the centroid",
-                      outside,
-                      body.name.empty() ? fmt::format("block {} ({})", b, title_of(model, static_cast<int>(b)))
-                                        : "block '" + body.name + "'"));
+      refuse(force, "point",
+             fmt::format("is at least {:.3g} m outside of {}, on which the force acts; move the point into the block, "
+                         "choose the block that "
+                         "contains it (for example inside = the point), or leave it out for the centroid",
+                         outside,
+                         body.name.empty() ? fmt::format("block {} ({})", b, title_of(model, static_cast<int>(b)))
+                                           : "block '" + body.name + "'"));
   }
 }
 
@@ -285,8 +285,9 @@ std::vector<StagePlan> checked_stages(const Scene& scene, const Model<Dim>& mode
     for (const Subject& item : children(stage.subject, "friction"))
       if (const std::string& name = item.node->find("name")->text; index_of(names, name) < 0)
         refuse(item, "name",
-               names.empty() ? "there are no joint_properties to give a friction angle to; add [[joint_properties]]"
-                             : "no joint_properties of this name; " + suggestion(name, names));
+               names.empty()
+                   ? "there are no joint_properties that could have a friction angle; add [[joint_properties]]"
+                   : "no joint_properties of this name; " + suggestion(name, names));
     if (const auto* reduce = std::get_if<ReducePlan>(&stage.plan.plan)) {
       if (names.empty())
         refuse(*stage.subject.node, stage.subject.path, "there is no strength to reduce; add [[joint_properties]]");
@@ -313,8 +314,7 @@ int joint_of(const Model<Dim>& model, const MonitorSpec& spec) {
     for (const Polytope<Dim>& part : body.parts)
       if (std::find(part.joints.begin(), part.joints.end(), index) != part.joints.end()) return index;
   refuse(spec.body.subject, "joint",
-         "the joint cuts no block, so it has no contacts to follow; move it into the domain or "
-         "remove the monitor");
+         "the joint cuts no block and has no contacts to monitor; move it into the domain or remove the monitor");
 }
 
 int water_of(const Scene& scene, const MonitorSpec& spec) {
@@ -345,7 +345,7 @@ int lining_of(const MonitorSpec& spec, const Model<Dim>& model) {
   return index;
 }
 
-// of the nodes next to the angles that are stated, or of all
+// of the nodes nearest to the stated angles, or of all
 template <int Dim>
 void add_lining_monitors(const MonitorSpec& spec, const Model<Dim>& model, std::vector<Monitor>& monitors) {
   Monitor monitor{spec.name, spec.quantities.front(), lining_of(spec, model)};
@@ -357,7 +357,7 @@ void add_lining_monitors(const MonitorSpec& spec, const Model<Dim>& model, std::
   }
 }
 
-// the blocks that a monitor follows
+// the blocks of a monitor
 template <int Dim>
 std::vector<int> bodies_of(const Scene& scene, const Model<Dim>& model, const MonitorSpec& spec) {
   const std::vector<int> bodies = chosen_some<Dim>(scene, model, spec.body);
@@ -370,7 +370,8 @@ std::vector<int> bodies_of(const Scene& scene, const Model<Dim>& model, const Mo
   return bodies;
 }
 
-// The stage from whose end a monitor counts; -1: from the start. Where a stage starts the one before it has ended.
+// The stage from whose end a monitor measures; -1: from the start of the run. The start of a stage is the end of the
+// one before it.
 int since_of(const Scene& scene, const MonitorSpec& spec) {
   if (spec.since.empty() && spec.since_start.empty()) return -1;
   std::vector<std::string> names;
@@ -384,7 +385,7 @@ int since_of(const Scene& scene, const MonitorSpec& spec) {
   if (from_start) return index - 1;
   if (index + 1 == static_cast<int>(names.size()))
     refuse(spec.body.subject, key,
-           "is the last stage, after whose end nothing moves; name one before it, or write since_start instead");
+           "is the last stage, and nothing moves after its end; name an earlier one, or write since_start instead");
   return index;
 }
 
@@ -431,7 +432,7 @@ Prepared<Dim> prepare(const Scene& scene) {
   prepared.output = scene.output;
   prepared.joint_sets = joint_sets_of(scene);
 
-  // the solids, numbered whatever the order they were stated in
+  // the solids, in an order that does not depend on that of the statements
   model.origin = find_origin<Dim>(scene);
   if (scene.gravity) model.gravity = to_vector<Dim>(*scene.gravity);
   add_joints<Dim>(scene, model);
@@ -444,7 +445,7 @@ Prepared<Dim> prepare(const Scene& scene) {
   check_beside_particles<Dim>(scene, model);
   add_inner_particles<Dim>(scene.settings.contact, model);
 
-  // what the scene says about them by selectors, and the water on them
+  // statements about them by selectors, and the water on them
   add_waters<Dim>(scene, model);
   for (const SceneSupport& row : scene_supports)
     row.add_to(scene, model);

@@ -9,11 +9,11 @@ namespace {
 
 void check_intensity(const Subject& item, const JointSet& set) {
   if (set.spacing && set.intensity)
-    refuse(item, "intensity", "stands beside spacing; one follows from the other, remove one");
+    refuse(item, "intensity", "is stated together with spacing; one follows from the other, remove one");
   if (!set.spacing && !set.intensity)
     refuse(item, "spacing", "a set needs spacing or intensity; write for example spacing = 2 (m)");
   if (set.intensity && item.node->find("persistence"))
-    refuse(item, "persistence", "belongs to spacing: intensity already counts the joints alone; remove it");
+    refuse(item, "persistence", "applies to spacing only: intensity already measures the actual joint area; remove it");
 }
 
 JointSet read_set(const Subject& item, int dimension) {
@@ -25,13 +25,15 @@ JointSet read_set(const Subject& item, int dimension) {
   check_intensity(item, set);
   if (!set.point.empty() && set.scatter != Scatter::none)
     refuse(item, "point",
-           "stands beside scatter: a joint of random orientation passes through no stated point; remove one of them");
+           "is stated together with scatter: a joint of random orientation does not pass through a stated point; "
+           "remove one of them");
 
   if (dimension == 2) {
     if (set.scatter == Scatter::fisher)
-      refuse(item, "scatter", "Fisher's law is one of directions in space but dimension = 2; write \"normal\"");
+      refuse(item, "scatter",
+             "Fisher's law is a distribution of directions in 3-D but dimension = 2; write \"normal\"");
     for (const char* key : {"shape", "elongation", "dip_direction_deviation_deg"})
-      if (item.node->find(key)) refuse(item, key, "means nothing where dimension = 2: joints are traces; remove it");
+      if (item.node->find(key)) refuse(item, key, "has no meaning if dimension = 2: joints are traces; remove it");
   }
   return set;
 }

@@ -11,7 +11,7 @@
 namespace voussoir {
 namespace {
 
-// angles in files are rounded to some digits, a normal beside them is exact
+// angles in files are rounded to a few digits, a normal stated with them is exact
 constexpr double same_plane = 1e-4;  // rad
 
 // the normal as stated, turned up
@@ -20,7 +20,7 @@ std::vector<double> upward_normal(const Subject& subject, const PlaneSpec& plane
   const double square = squared_length(normal);
   if (!is_unit(square))
     refuse(subject, "normal",
-           fmt::format("must have length 1, has {:.6g}; divide it by its length", std::sqrt(square)));
+           fmt::format("must have length 1, but has {:.6g}; divide it by its length", std::sqrt(square)));
   if (normal.back() < 0)
     for (double& x : normal)
       x = -x;
@@ -31,7 +31,7 @@ std::vector<double> upward_normal(const Subject& subject, const PlaneSpec& plane
   for (std::size_t k = 0; k < normal.size(); ++k)
     cosine += normal[k] * (normal.size() == 3 ? in_space[k] : in_plane[k]);
   if (!(1 - std::abs(cosine) <= same_plane * same_plane))
-    refuse(subject, "normal", "is that of another plane than dip and dip_direction state; remove one of them");
+    refuse(subject, "normal", "does not agree with dip and dip_direction; remove one of them");
   return normal;
 }
 

@@ -1,11 +1,11 @@
-// A plane as joints, joint sets, domains and excavations state it.
+// Planes of joints, joint sets, domains and excavations.
 #pragma once
 
 #include "core/scene/scene_spec.hpp"
 
 namespace voussoir {
 
-// `group`: of the keys that state it
+// `group`: the group of the plane's keys
 PlaneSpec read_plane(const Subject& subject, std::string_view group, int dimension);
 
 }  // namespace voussoir

@@ -1,4 +1,4 @@
-// From a checked tree to plain structs: units and what one table must state together.
+// From a checked tree to plain structs: units, and keys that one table must state together.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,26 +28,26 @@ namespace {
 
 void check_laws(const Subject& item, const JointProperties& p) {
   if (p.constant_stiffness && !p.laws.is_plain())
-    refuse(
-        item, "constant_stiffness",
-        "knows no stress, on which every other law depends; remove it and give the stiffness per area, or remove the "
-        "laws, tension and cohesion");
+    refuse(item, "constant_stiffness",
+           "has no stress, on which all other laws depend; remove it and give the stiffness per area, or remove the "
+           "laws, tension and "
+           "cohesion");
   if (p.laws.normal == StiffnessLaw::power && p.tension > 0)
     refuse(item, "tension", "a power law has no stiffness without stress; use the linear or the constant law");
   if (p.laws.friction == FrictionLaw::softening && p.softening_drop > std::tan(p.friction))
     refuse(item, "softening_drop",
-           fmt::format("exceeds the friction coefficient tan(friction_deg) = {:.4g} that there is to lose",
+           fmt::format("exceeds the friction coefficient tan(friction_deg) = {:.4g}, which is all that can be lost",
                        std::tan(p.friction)));
 }
 
-// why a joint of these properties cannot be carried as a whole
+// why a joint of these properties cannot have an integrated face contact
 std::string why_by_points(const JointProperties& p) {
-  if (p.constant_stiffness) return "has constant_stiffness, which knows no area";
-  if (p.laws.bond) return "has tension or cohesion, which a joint loses point by point";
-  return "has a law that depends on stress or slip, which differ from point to point";
+  if (p.constant_stiffness) return "has constant_stiffness, which is independent of the area";
+  if (p.laws.bond) return "has tension or cohesion, which is lost point by point";
+  return "has a law that depends on stress or slip, which vary over the face";
 }
 
-// contact.face = "integrated" against what else the scene says
+// contact.face = "integrated" against the rest of the scene
 void check_face(const Subject& scene, const ContactSettings& contact, const std::vector<PropertiesSpec>& properties) {
   if (contact.face != ContactFace::integrated) return;
   const Subject table = *child(scene, "contact");
@@ -57,18 +57,20 @@ void check_face(const Subject& scene, const ContactSettings& contact, const std:
            fmt::format("would change nothing: {} {}; give a joint constant stiffnesses in Pa/m without strength, or "
                        "leave face out",
                        properties.front().subject.path, why_by_points(properties.front().properties)));
-  if (std::ranges::any_of(properties, by_points)) return;  // what the keys below choose serves those
+  if (std::ranges::any_of(properties, by_points)) return;  // the keys below apply to those
   const auto unused = [&](bool stated, const char* key, const char* what) {
     if (stated)
-      refuse(table, key,
-             fmt::format("chooses {} where a contact acts at a point; with face = \"integrated\" every joint of this "
-                         "scene is carried as a whole, leave one of the two out",
-                         what));
+      refuse(
+          table, key,
+          fmt::format(
+              "chooses {} of contacts that act at a point; with face = \"integrated\" every joint of this scene has an "
+              "integrated face contact, leave one of the two out",
+              what));
   };
   const ContactSettings usual;
-  unused(contact.normal != usual.normal, "normal", "direction and depth");
-  unused(contact.point != usual.point, "point", "the place");
-  unused(contact.overlap != usual.overlap, "overlap", "how the depth is found");
+  unused(contact.normal != usual.normal, "normal", "normal and overlap");
+  unused(contact.point != usual.point, "point", "the contact point");
+  unused(contact.overlap != usual.overlap, "overlap", "the search for the overlap");
 }
 
 std::vector<PropertiesSpec> read_properties(const Subject& scene) {
@@ -90,11 +92,11 @@ BlockPlaneSpec read_block_plane(const Subject& subject) {
   double square = 0;
   for (const double x : plane.normal)
     square += x * x;
-  constexpr double least_square = 1e-24;  // shorter ones are a slip of the pen, and their inverse would overflow
+  constexpr double least_square = 1e-24;  // shorter ones are mistakes, and their inverse would overflow
   if (!(square > least_square))
     refuse(subject, "normal", "must not be zero; give the direction that points out of the block");
   if (plane.offset && plane.point)
-    refuse(subject, "offset", "stands beside point; a plane needs only one of the two, remove one");
+    refuse(subject, "offset", "is stated together with point; a plane needs only one of the two, remove one");
   if (!plane.offset && !plane.point)
     refuse(subject, "offset", "a plane needs an offset or a point; write for example offset = 1 or point = [0, 0, 1]");
   return plane;
@@ -123,7 +125,7 @@ std::vector<BlockSpec> read_blocks(const Subject& scene) {
           refuse(item, key, "a block takes only one of vertices, planes and box; remove the others");
     if (!block.part_of.empty())
       for (const char* key : {"density", "velocity", "angular_velocity", "fixed"})
-        if (item.node->find(key)) refuse(item, key, "belongs to the block that this one is part_of; state it there");
+        if (item.node->find(key)) refuse(item, key, "is a property of the block that part_of names; state it there");
     blocks.push_back(std::move(block));
   }
   return blocks;
@@ -152,42 +154,44 @@ std::vector<InitialVelocitySpec> read_initial_velocity(const Subject& scene) {
   return all;
 }
 
-// Overrides of [[repeat]] come first, since they say which copies there are, and those of copies once they are made.
-void override_and_repeat(Node& tree, const std::vector<std::string>& overrides, const std::string& source) {
+// Overrides of [[repeat]] come first, since they determine the copies, and those of copies once these are made.
+void override_and_repeat(Node& tree, const std::vector<std::string>& overrides, const std::string& source,
+                         std::vector<std::string>& renamed) {
   std::vector<std::string> of_tables, of_copies;
   for (const std::string& text : overrides)
     if (text.starts_with("repeat"))
-      apply_override(tree, text, source);
+      apply_override(tree, text, source, renamed);
     else
       of_tables.push_back(text);
   for (const std::string& text : of_tables)
     if (addresses_copy(tree, text))
       of_copies.push_back(text);
     else
-      apply_override(tree, text, source);
+      apply_override(tree, text, source, renamed);
   repeat_tables(tree);
   for (const std::string& text : of_copies)
-    apply_override(tree, text, source);
+    apply_override(tree, text, source, renamed);
 }
 
 }  // namespace
 
 Scene read_tree(Node stated, const std::string& name, const std::vector<std::string>& overrides) {
   const std::string file = one_line(name, 1000);
-  // the tree: laid over its base, overridden, repeats carried out, held against the key table
+  // the tree: merged over its base, overridden, copies made, checked against the key table
   Scene scene;
   FilesRead read;
   const auto tree =
       std::make_shared<Node>(with_base(std::move(stated), std::filesystem::path(name).parent_path(), read));
-  override_and_repeat(*tree, overrides, file);
+  override_and_repeat(*tree, overrides, file, read.renamed);
   const std::vector<std::string> from_level = apply_accuracy_level(*tree);
   check_keys(*tree);
   accuracy_target(*tree);
 
-  // from here on every value has the right type and lies in its range
+  // from here on every value has the right type and is in its range
   scene.file = file;
   scene.files = std::move(read.files);
   scene.remarks = std::move(read.remarks);
+  scene.renamed = std::move(read.renamed);
   scene.tree = tree;
   scene.from_level = from_level;
   const Subject top{tree.get(), ""};
@@ -204,7 +208,7 @@ Scene read_tree(Node stated, const std::string& name, const std::vector<std::str
   check_face(top, scene.settings.contact, scene.properties);
   scene.excavations = read_excavations(top, scene.dimension);
   const double rock_weight = scene.density && scene.gravity ? *scene.density * std::abs(scene.gravity->back()) : 0;
-  scene.stages = read_stages(top, scene.dimension, scene.settings.damping, rock_weight);
+  scene.stages = read_stages(top, scene.dimension, scene.settings, rock_weight);
   check_divided_strength(scene.properties, scene.stages);
   scene.waters = read_waters(top, scene.dimension);
   read_water_changes(scene.waters, scene.stages, scene.dimension);

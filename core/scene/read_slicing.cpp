@@ -20,8 +20,8 @@ OutlineSpec read_outline(const Subject& item, int dimension) {
   const Node* shape = item.node->find("shape");
   if (shape && shape->text != "infinite" && (shape->text == "trace") != (dimension == 2))
     refuse(item, "shape",
-           dimension == 2 ? "has no place in a plane because dimension = 2; write shape = \"trace\" and its length"
-                          : "belongs to a plane but dimension = 3; write \"rectangle\", \"ellipse\" or \"polygon\"");
+           dimension == 2 ? "cannot be in a plane because dimension = 2; write shape = \"trace\" and its length"
+                          : "is for 2-D but dimension = 3; write \"rectangle\", \"ellipse\" or \"polygon\"");
   OutlineSpec outline;
   read_keys(*item.node, "joints", outline);
   return outline;
@@ -32,7 +32,7 @@ CylinderSpec read_cylinder(const Subject& subject, int dimension) {
   cylinder.subject = subject;
   read_keys(*subject.node, "cylinder", cylinder);
   if (dimension == 2 && !cylinder.to.empty())
-    refuse(subject, "to", "a circle has only a centre because dimension = 2; remove it");
+    refuse(subject, "to", "the region is a circle with a centre only because dimension = 2; remove it");
   if (dimension == 3 && (cylinder.to.empty() || cylinder.to == cylinder.from))
     refuse(subject, "to", "a tunnel needs the other end of its axis; write for example to = [0, 10, 0]");
   return cylinder;
@@ -73,7 +73,8 @@ std::vector<JointSpec> read_joints(const Subject& scene, int dimension) {
     joint.outline = read_outline(item, dimension);
     if (const auto within = child(item, "within")) joint.within = read_region(*within, dimension);
     if (!joint.ends_at.empty() && joint.kind == JointKind::boundary)
-      refuse(item, "ends_at", "stands beside kind = \"boundary\", whose whole side has no end; remove one of the two");
+      refuse(item, "ends_at",
+             "is stated together with kind = \"boundary\", but a boundary joint does not end; remove one of the two");
     joints.push_back(std::move(joint));
   }
   return joints;

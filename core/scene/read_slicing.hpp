@@ -1,4 +1,4 @@
-// Reads what becomes blocks by cutting: domain, joints and excavations.
+// Reads the input of slicing: domain, joints and excavations.
 #pragma once
 
 #include "core/scene/scene_spec.hpp"

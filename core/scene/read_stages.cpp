@@ -31,7 +31,8 @@ Selector read_choice(const Subject& table) {
 void check_factor(const Subject& table, const ReducePlan& plan) {
   if (plan.method == ReductionMethod::rate || plan.method == ReductionMethod::two_rates)
     refuse(table, "method",
-           "how late a rate finds failure is known for a friction angle, not for a factor of safety; write method = "
+           "the delay of failure at a finite rate is known for a friction angle, not for a factor of safety; write "
+           "method = "
            "\"bisection\" or \"steps\", or leave out search = \"factor\"");
   if (!(plan.factor.from < plan.factor.to))
     refuse(table, "from_factor",
@@ -53,7 +54,7 @@ void read_plan(const Subject& table, ReducePlan& plan) {
                "); a quarter of it is a good choice");
 }
 
-// A ramp to a stated gravity begins at the one the stages before have left, one to full gravity at none.
+// A ramp to a stated gravity starts from that of the stages before, a ramp to full gravity from zero.
 void chain_gravity(std::vector<StageSpec>& stages) {
   double acting = 0;
   for (StageSpec& stage : stages) {
@@ -79,8 +80,8 @@ bool states(const Subject& subject, std::string_view table, std::string_view key
   return found && found->node->find(key);
 }
 
-// A stage of kind run shows the true motion: what damps it, and how long its steps are, is otherwise for those to say
-// who state it.
+// A stage of kind run computes the true motion: without local damping and with the time step of undamped motion, unless
+// these are stated.
 void free_runs(const Subject& scene, const DampingSettings& damping, std::vector<StageSpec>& stages) {
   for (StageSpec& stage : stages) {
     if (!std::holds_alternative<RunPlan>(stage.plan.plan)) continue;
@@ -100,7 +101,7 @@ void read_plan(const Subject& table, SettlePlan& plan) {
     refuse(table, "gravity_ramp_s",
            "must be less than time_limit_s (" +
                (limit ? value_text(*limit) : "by default " + find_row({"stage"}, "time_limit_s")->default_value) +
-               "): rest needs full gravity; shorten the ramp or raise the limit");
+               "): equilibrium needs full gravity; shorten the ramp or raise the limit");
   }
 }
 
@@ -110,8 +111,9 @@ void read_plan(const Subject& table, RunPlan& plan) {
   if (plan.gravity.ramp > plan.duration)
     refuse(table, "gravity_ramp_s",
            "must be at most duration_s (" + value_text(*table.node->find("duration_s")) +
-               "): the stage would end before gravity has grown; shorten the ramp or lengthen the stage, state "
-               "gravity_to = 0 for a stage without gravity");
+               "): the stage would end before gravity has reached its full value; shorten the ramp or lengthen the "
+               "stage; for a stage "
+               "without gravity state gravity_to = 0");
 }
 
 TimeFactor read_factor(const Subject& table) {
@@ -119,16 +121,17 @@ TimeFactor read_factor(const Subject& table) {
   read_keys(*table.node, "factor", factor);
   if (factor.times.size() != factor.factors.size())
     refuse(table, factor.times.size() < factor.factors.size() ? "times_s" : "factors",
-           "stands beside " + std::to_string(std::max(factor.times.size(), factor.factors.size())) +
-               " entries of the other; times_s and factors need as many entries as each other");
+           "does not match the " + std::to_string(std::max(factor.times.size(), factor.factors.size())) +
+               " entries of the other; times_s "
+               "and factors need the same number of entries");
   if (std::adjacent_find(factor.times.begin(), factor.times.end(), std::greater_equal<>()) != factor.times.end())
-    refuse(table, "times_s", "must ascend; put the times in order, each once, with their factors");
+    refuse(table, "times_s", "must be ascending; put the times in order, each once, with their factors");
   if (factor.phase != 0 && factor.frequency == 0)
-    refuse(table, "phase_deg", "stands beside no frequency_hz; state the frequency or remove the phase");
+    refuse(table, "phase_deg", "is stated without frequency_hz; state the frequency or remove the phase");
   return factor;
 }
 
-// a velocity that is prescribed, where, and in which direction
+// the velocity of a prescribed motion and its directions
 MovePlan read_move(const Subject& table, const Selector& bodies) {
   const MotionSpec motion = read_motion(table);
   if (!motion.velocity && !motion.angular_velocity)
@@ -139,7 +142,7 @@ MovePlan read_move(const Subject& table, const Selector& bodies) {
   plan.angular_velocity = motion.angular_velocity.value_or(std::vector<double>());
   read_keys(*table.node, "move", plan);
   if (table.node->find("translation") && !motion.velocity)
-    refuse(table, "translation", "stands beside no velocity; state the velocity or remove the directions");
+    refuse(table, "translation", "is stated without a velocity; state the velocity or remove the directions");
   for (std::size_t k = 0; k < plan.velocity.size(); ++k)
     if (plan.velocity[k] != 0 && !plan.translation[k])
       refuse(table, "velocity",
@@ -157,8 +160,7 @@ InSituPlan read_in_situ(const Subject& table, int dimension, double rock_weight)
   if (!(*plan.unit_weight > 0))
     refuse(table, "unit_weight",
            "is needed: the scene states no density, or no gravity; write for example 26e3 (N/m³)");
-  if (dimension == 2 && plan.k0_y)
-    refuse(table, "k0_y", "needs dimension = 3; in the plane k0 is the only one, remove it");
+  if (dimension == 2 && plan.k0_y) refuse(table, "k0_y", "needs dimension = 3; in 2-D k0 is the only ratio, remove it");
   return plan;
 }
 
@@ -191,25 +193,25 @@ ForcePlan read_force(const Subject& table, const Selector& bodies, const RunPlan
   plan.factor = read_factor(table);
   for (const char* key : {"times_s", "frequency_hz"})
     if (!run && table.node->find(key))
-      refuse(
-          table, key,
-          "a factor of time needs a stage of kind run: on the way to rest time means nothing; state the force alone, "
-          "or grow it in a stage of kind run before");
+      refuse(table, key,
+             "a time factor needs a stage of kind run: time has no meaning in the search for equilibrium; state the "
+             "force only, or increase "
+             "it in a stage of kind run before");
   if (run) plan.last_factor = value_at(plan.factor, run->duration);
   return plan;
 }
 
-LetOffPlan read_let_off(const Subject& table, const std::variant<SettlePlan, RunPlan, ReducePlan>& stage) {
-  LetOffPlan plan;
-  read_keys(*table.node, "let_off", plan);
+ExcavationForcesPlan read_excavation_forces(const Subject& table,
+                                            const std::variant<SettlePlan, RunPlan, ReducePlan>& stage) {
+  ExcavationForcesPlan plan;
+  read_keys(*table.node, "excavation_forces", plan);
   if (const auto* run = std::get_if<RunPlan>(&stage)) {
     if (!table.node->find("duration_s")) plan.duration = run->duration;
     if (plan.duration > run->duration)
-      refuse(
-          table, "duration_s",
-          fmt::format("must be at most the stage's duration_s ({:g}): the stage would end before its share is reached; "
-                      "shorten it, or leave it out for the whole stage",
-                      run->duration));
+      refuse(table, "duration_s",
+             fmt::format("must be at most the stage's duration_s ({:g}): the stage would end before they have fallen; "
+                         "shorten it, or leave it out for the whole stage",
+                         run->duration));
   } else if (!table.node->find("duration_s")) {
     refuse(table, "duration_s",
            "is needed in a stage of kind settle, whose time is not known before; write for example duration_s = 1, as "
@@ -217,30 +219,36 @@ LetOffPlan read_let_off(const Subject& table, const std::variant<SettlePlan, Run
   } else if (const auto* settle = std::get_if<SettlePlan>(&stage); settle && plan.duration >= settle->time_limit) {
     refuse(table, "duration_s",
            fmt::format(
-               "must be less than time_limit_s ({:g}): rest needs the share to be reached; shorten it or raise the "
+               "must be less than time_limit_s ({:g}): equilibrium needs them to have fallen; shorten it or raise the "
                "limit",
                settle->time_limit));
   }
   return plan;
 }
 
-StageSpec read_stage(const Subject& table, const DampingSettings& damping, int dimension, double rock_weight) {
+StageSpec read_stage(const Subject& table, const Settings& settings, int dimension, double rock_weight) {
   StageSpec stage;
   stage.subject = table;
   read_keys(*table.node, "stage", stage.plan);
   read_keys(*table.node, "stage", stage.plan.change);
   std::visit([&](auto& plan) { read_plan(table, plan); }, stage.plan.plan);
   if (const auto own = child(table, "damping")) {
-    stage.plan.damping = damping;
+    stage.plan.damping = settings.damping;
     read_keys(*own->node, "damping", *stage.plan.damping);
   }
+  if (table.node->find("statics") || table.node->find("static_increments")) {
+    stage.plan.statics = settings.statics;
+    read_keys(*table.node, "stage", *stage.plan.statics);
+  }
   if (const auto* reduce = std::get_if<ReducePlan>(&stage.plan.plan);
-      reduce && stage.plan.damping.value_or(damping).statics == Statics::newton &&
+      reduce && stage.plan.statics.value_or(settings.statics).method == Statics::newton &&
       (reduce->method == ReductionMethod::rate || reduce->method == ReductionMethod::two_rates))
     refuse(table, "method",
-           "a rate is a motion, which Newton's method does not know; write method = \"bisection\" or \"steps\", or "
-           "damping = { statics = \"adaptive\" } in this stage");
-  if (const auto item = child(table, "let_off")) stage.plan.let_off = read_let_off(*item, stage.plan.plan);
+           "a reduction at a rate is a motion, which Newton's method does not compute; write method = \"bisection\" or "
+           "\"steps\", or "
+           "statics = \"adaptive\" in this stage");
+  if (const auto item = child(table, "excavation_forces"))
+    stage.plan.excavation_forces = read_excavation_forces(*item, stage.plan.plan);
   Change& change = stage.plan.change;
   const auto read_chosen = [&](const char* key, const auto& add) {
     for (const SelectorSpec& spec : stage.chosen[key] = read_selectors(table, key))
@@ -267,17 +275,18 @@ StageSpec read_stage(const Subject& table, const DampingSettings& damping, int d
 void check_angles_and_since(const Subject& table, const MonitorSpec& monitor) {
   const bool angles = table.node->find("angles_deg") != nullptr;
   if (!monitor.excavation.empty() && monitor.angles.empty())
-    refuse(table, "angles_deg", "says where the wall is followed; write for example angles_deg = [90] for the crown");
+    refuse(table, "angles_deg", "gives the points of the wall; write for example angles_deg = [90] for the crown");
   if (monitor.excavation.empty() && monitor.lining.empty() && angles)
     refuse(table, "angles_deg",
-           "tells points of an opening's wall, or of a lining; write excavation or lining = its name, or remove it");
+           "gives points of an opening's wall, or of a lining; write excavation or lining = its name, or remove it");
   if (!monitor.since.empty() && !monitor.since_start.empty())
-    refuse(table, "since_start", "stands beside since; a monitor counts from one moment, remove one of the two");
+    refuse(table, "since_start",
+           "is stated together with since; a monitor measures from one instant, remove one of the two");
   const char* const since = monitor.since.empty() ? "since_start" : "since";
   for (const Monitored& followed : monitor.quantities)
     if (table.node->find(since) && !counts_from_stage(followed.quantity))
       refuse(table, since,
-             fmt::format("{} is no motion that could be counted from a stage on; follow it in a monitor of its own, "
+             fmt::format("{} is not a motion that could be measured from a stage on; state it in a monitor of its own, "
                          "or remove {}",
                          followed.word, since));
 }
@@ -288,7 +297,7 @@ MonitorSpec read_monitor(const Subject& table) {
   monitor.body.subject = table;
   monitor.body.selector = read_choice(table);
 
-  // what each quantity is followed on, and the key that names it
+  // the object of each quantity, and the key that names it
   const auto key_of = [](const Monitored& followed) -> std::string_view {
     const bool of_joint = followed.quantity == Quantity::contact_force || followed.quantity == Quantity::whole_bonds;
     if (followed.quantity == Quantity::bolt_force) return "bolts";
@@ -300,7 +309,7 @@ MonitorSpec read_monitor(const Subject& table) {
   for (const std::string_view key : {"joint", "water", "bolts", "lining", "excavation"}) {
     if (!table.node->find(key)) continue;
     if (!stated.empty())
-      refuse(table, key, fmt::format("stands beside {}; a monitor follows one of the two, remove one", stated));
+      refuse(table, key, fmt::format("is stated together with {}; a monitor has one of the two, remove one", stated));
     stated = key;
   }
   for (const Monitored& followed : monitor.quantities) {
@@ -308,30 +317,29 @@ MonitorSpec read_monitor(const Subject& table) {
     if (wanted == stated) continue;
     if (!wanted.empty())
       refuse(table, wanted,
-             fmt::format("{} is followed on {}; write for example {} = \"A\"", followed.word,
+             fmt::format("{} is a quantity of {}; write for example {} = \"A\"", followed.word,
                          wanted == "bolts"        ? "bolts"
                          : wanted == "excavation" ? "an excavation"
                                                   : fmt::format("a {}", wanted),
                          wanted));
-    refuse(
-        table, "quantities",
-        stated == "joint"
-            ? "a monitor of a joint follows contact_force only, and whole_bonds; follow a block in a monitor of its own"
-        : stated == "water"  ? "a monitor of a water follows its level only; follow a block in a monitor of its own"
-        : stated == "lining" ? "a monitor of a lining follows lining_force only; follow a block in a monitor of its own"
-        : stated == "bolts"  ? "a monitor of bolts follows bolt_force only; follow a block in a monitor of its own"
-                            : "a monitor of an excavation follows its convergence only; follow a block in a monitor of "
-                              "its own");
+    refuse(table, "quantities",
+           stated == "joint"
+               ? "a monitor of a joint has contact_force and whole_bonds only; state a block in a monitor of its own"
+           : stated == "water"  ? "a monitor of a water has its level only; state a block in a monitor of its own"
+           : stated == "lining" ? "a monitor of a lining has lining_force only; state a block in a monitor of its own"
+           : stated == "bolts"
+               ? "a monitor of bolts has bolt_force only; state a block in a monitor of its own"
+               : "a monitor of an excavation has its convergence only; state a block in a monitor of its own");
   }
   if (!stated.empty() && chooses(monitor.body.selector))
     refuse(table, stated,
-           fmt::format("stands beside a choice of blocks; a monitor follows either {} or a block, remove one",
+           fmt::format("is stated together with a choice of blocks; a monitor is of either {} or a block, remove one",
                        stated == "bolts"        ? "bolts"
                        : stated == "excavation" ? "an excavation"
                                                 : fmt::format("a {}", stated)));
   check_angles_and_since(table, monitor);
   if (!stated.empty() && stated != "excavation" && monitor.over != Aggregate::one)
-    refuse(table, "over", "tells of blocks, and this monitor follows none; remove it");
+    refuse(table, "over", "applies to blocks, and this monitor has none; remove it");
   if (stated.empty() && !chooses(monitor.body.selector))
     refuse(table, "above",
            "the monitor must choose one block by bodies, above, below, inside, side or box; write for example "
@@ -366,24 +374,26 @@ MotionSpec read_motion(const Subject& table) {
 Settings read_settings(const Subject& scene) {
   Settings settings;
   read_keys(*scene.node, "", settings);
+  read_keys(*scene.node, "", settings.statics);
   const ContactSettings& contact = settings.contact;
   if (settings.time.step && states(scene, "time", "fraction"))
-    refuse(*child(scene, "time"), "fraction",
-           "stands beside step_s, which is the time step whatever the stability limit; remove one of the two");
+    refuse(
+        *child(scene, "time"), "fraction",
+        "is stated together with step_s, which is the time step whatever the stability limit; remove one of the two");
   if (contact.normal == ContactNormal::multipliers && contact.overlap == OverlapSearch::bracketing)
     refuse(*child(scene, "contact"), "overlap",
-           "searches along the potential's normal; with normal = \"multipliers\" the overlap is the linear program's "
-           "value, leave it out");
+           "searches along the potential's normal; with normal = \"multipliers\" the overlap is the value of the "
+           "linear program, leave it "
+           "out");
   return settings;
 }
 
-std::vector<StageSpec> read_stages(const Subject& scene, int dimension, const DampingSettings& damping,
-                                   double rock_weight) {
+std::vector<StageSpec> read_stages(const Subject& scene, int dimension, const Settings& settings, double rock_weight) {
   std::vector<StageSpec> stages;
   for (const Subject& item : children(scene, "stage"))
-    stages.push_back(read_stage(item, damping, dimension, rock_weight));
+    stages.push_back(read_stage(item, settings, dimension, rock_weight));
   chain_gravity(stages);
-  free_runs(scene, damping, stages);
+  free_runs(scene, settings.damping, stages);
   return stages;
 }
 

@@ -1,4 +1,4 @@
-// The parts of a scene that say what happens: selectors, motions, settings, stages, monitors.
+// Reads the parts of a scene that control the run: selectors, motions, settings, stages, monitors.
 #pragma once
 
 #include <vector>
@@ -11,9 +11,8 @@ SelectorSpec read_selector(const Subject& table);
 std::vector<SelectorSpec> read_selectors(const Subject& table, std::string_view key);
 MotionSpec read_motion(const Subject& table);
 Settings read_settings(const Subject& scene);
-std::vector<StageSpec> read_stages(const Subject& scene, int dimension, const DampingSettings& damping,
-                                   double rock_weight);
-// refuses a scene without any: blocks may be cut without, nothing else can be asked of it
+std::vector<StageSpec> read_stages(const Subject& scene, int dimension, const Settings& settings, double rock_weight);
+// refuses a scene without stages: such a scene can only be sliced
 void require_stages(const Scene& scene);
 std::vector<MonitorSpec> read_monitors(const Subject& scene);
 

@@ -16,14 +16,15 @@ bool is_table(const WaterSurfaceSpec& surface) {
   return !surface.table.empty() || surface.plane;
 }
 
-// exactly one of what may be stated
+// exactly one of level, table and pressure
 void check_one_surface(const Subject& table) {
   const char* first = nullptr;
   for (const char* key : {"level", "table", "pressure"}) {
     if (!table.node->find(key)) continue;
     if (first)
       refuse(table, key,
-             fmt::format("stands beside {}; a water takes only one of level, table and pressure, remove one", first));
+             fmt::format("is stated together with {}; a water takes only one of level, table and pressure, remove one",
+                         first));
     first = key;
   }
   if (!first)
@@ -33,12 +34,13 @@ void check_one_surface(const Subject& table) {
 
 void check_points(const Subject& table, const std::vector<std::vector<double>>& points) {
   if (points.size() < 2)
-    refuse(table, "table", "needs at least two points (x, h); write level = the elevation where the water is level");
+    refuse(table, "table",
+           "needs at least two points (x, h); for a horizontal water level write level = its elevation");
   for (std::size_t k = 1; k < points.size(); ++k)
     if (!(points[k][0] > points[k - 1][0]))
       refuse(table, "table",
-             fmt::format("must have points of ascending x, and point {} at x = {:g} does not lie beyond x = {:g}; put "
-                         "them in order, each x once",
+             fmt::format("must have points of ascending x, but point {} at x = {:g} is not beyond x = {:g}; put them "
+                         "in order, each x once",
                          k + 1, points[k][0], points[k - 1][0]));
 }
 
@@ -64,7 +66,7 @@ std::vector<double> numbers_of(const PlaneSpec& plane) {
   return {plane.point[2] - along_x * plane.point[0] - along_y * plane.point[1], along_x, along_y};
 }
 
-// The numbers that a surface states; a level takes the points of the numbers before, or of a table that is to come.
+// The numbers that a surface states; a level takes the points of the previous numbers, or of a later table.
 std::vector<double> numbers_of(const WaterSurfaceSpec& surface, std::vector<double> like, int dimension) {
   if (surface.pressure) return {*surface.pressure};
   if (surface.plane) return numbers_of(*surface.plane);
@@ -81,7 +83,7 @@ std::vector<double> numbers_of(const WaterSurfaceSpec& surface, std::vector<doub
   return numbers;
 }
 
-// of heights or of the pressure
+// largest change of the heights or of the pressure
 double largest_change(const std::vector<double>& from, const std::vector<double>& to, bool uniform, int dimension) {
   double largest = 0;
   for (std::size_t k = 0; k < from.size(); ++k)
@@ -89,20 +91,22 @@ double largest_change(const std::vector<double>& from, const std::vector<double>
   return largest;
 }
 
-// s: how long the change takes
+// s: duration of the change
 double time_of(const WaterChangeSpec& change, const WaterSpec& water, const WaterPlan& plan, int dimension) {
   if (change.duration && change.rate)
-    refuse(change.subject, "rate", "stands beside duration_s; a change takes only one of the two, remove one");
+    refuse(change.subject, "rate",
+           "is stated together with duration_s; a change takes only one of the two, remove one");
   if (change.duration) return *change.duration;
   if (!change.rate)
     refuse(change.subject, "duration_s",
-           "a water that changes needs its time: write duration_s, or rate; where the stage comes to rest by "
-           "relaxation it is the time of its ramp, as of gravity_ramp_s");
+           "a change of water needs a duration: write duration_s, or rate; in a settle stage by relaxation it is the "
+           "duration of a ramp, "
+           "like gravity_ramp_s");
   const bool tilts =
       dimension == 3 && plan.from.size() == 3 && (plan.from[1] != plan.to[1] || plan.from[2] != plan.to[2]);
   if (tilts)
     refuse(change.subject, "rate",
-           "has no meaning where the water's plane changes its dip, since no two places then rise alike; write "
+           "has no meaning if the water table changes its dip, since the rise then differs from place to place; write "
            "duration_s");
   return largest_change(plan.from, plan.to, water.surface.pressure.has_value(), dimension) / *change.rate;
 }
@@ -116,8 +120,9 @@ void check_stage(const WaterChangeSpec& change, const StagePlan& stage, double t
                        time, run->duration));
   if (const auto* settle = std::get_if<SettlePlan>(&stage.plan); settle && time >= settle->time_limit)
     refuse(change.subject, key,
-           fmt::format("makes the change last {:g} s, which must be less than time_limit_s ({:g}): rest needs a water "
-                       "that stands; shorten the change or raise the limit",
+           fmt::format("makes the change last {:g} s, which must be less than time_limit_s ({:g}): equilibrium needs "
+                       "constant water; "
+                       "shorten the change or raise the limit",
                        time, settle->time_limit));
 }
 
@@ -133,9 +138,11 @@ WaterPlan plan_of(const WaterChangeSpec& change, const WaterSpec& water, int num
                : "the water has a level or a table; state the level or the table that it changes to");
   WaterPlan plan{.water = number, .from = now, .to = numbers_of(change.surface, now, dimension)};
   if (plan.to.size() != now.size())
-    refuse(change.subject, "table",
-           fmt::format("has {} points, but the water has {}; state as many, since each point changes to its new place",
-                       plan.to.size() / 2, now.size() / 2));
+    refuse(
+        change.subject, "table",
+        fmt::format(
+            "has {} points, but the water has {}; state the same number, since each point changes to its new position",
+            plan.to.size() / 2, now.size() / 2));
   return plan;
 }
 
@@ -148,7 +155,7 @@ int find_water(const std::vector<WaterSpec>& waters, const WaterChangeSpec& chan
   refuse(change.subject, "name", "no water of this name; " + suggestion(change.name, names));
 }
 
-// the first table that a water has in any stage: a level before it has its points
+// the first table of a water in any stage: earlier levels take its points
 std::vector<double> first_table(const WaterSpec& water, const std::vector<StageSpec>& stages, int dimension) {
   for (const StageSpec& stage : stages)
     for (const WaterChangeSpec& change : stage.water)
@@ -166,7 +173,7 @@ std::vector<WaterSpec> read_waters(const Subject& scene, int dimension) {
     read_keys(*item.node, "water", water);
     water.surface = read_surface(item, dimension);
     if (water.surface.pressure && item.node->find("unit_weight"))
-      refuse(item, "unit_weight", "stands beside a pressure, which is the same at every depth; remove one");
+      refuse(item, "unit_weight", "is stated together with a pressure, which is constant over the depth; remove one");
     waters.push_back(std::move(water));
   }
   return waters;

@@ -1,4 +1,4 @@
-// What a scene says about water: what it is before the first stage, and how it changes.
+// Reads a scene's water: its state before the first stage, and its changes.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@ namespace voussoir {
 
 std::vector<WaterSpec> read_waters(const Subject& scene, int dimension);
 
-// The changes that the stages state, one after the other: each begins where the last one ended. A level that later
+// The changes that the stages state, one after the other: each starts from the end of the last one. A level that later
 // becomes a table has its points from the start, a table that becomes a level keeps them.
 void read_water_changes(std::vector<WaterSpec>& waters, std::vector<StageSpec>& stages, int dimension);
 

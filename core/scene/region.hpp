@@ -1,4 +1,4 @@
-// The half-spaces of a convex region that a scene states.
+// The half-spaces of a convex region of a scene.
 #pragma once
 
 #include "core/geometry/half_space.hpp"

@@ -15,7 +15,7 @@
 namespace voussoir {
 namespace {
 
-// values of the tables that are made, some 200 bytes each: more are a mistake in a count
+// values in the copied tables, about 200 bytes each: more are a mistake in a count
 constexpr std::size_t most_values = 500'000;
 
 using Names = std::vector<std::string>;
@@ -43,10 +43,11 @@ std::string copy_name(const std::string& name, int k) {
   return fmt::format("{}-{}", name, k + 1);
 }
 
-// What the names of a list stand for as one [[repeat]] after the other is carried out: themselves, then their copies.
+// The meaning of the names of a list while one [[repeat]] after the other is carried out: themselves, then their
+// copies.
 class Naming {
  public:
-  // the tables that these names stand for now
+  // the tables that these names mean now
   NameSet take(const Names& stated) {
     NameSet chosen;
     for (const std::string& name : stated) {
@@ -80,7 +81,7 @@ class Naming {
   std::map<std::string, Names> standing_;
 };
 
-// The names of the copies of a list, before anything is checked: what is not as it should be makes none.
+// The names of the copies of a list, before any check: invalid tables give none.
 NameSet copies_to_come(const Node& scene, const RepeatedList& list) {
   Naming naming;
   const Node* repeats = scene.find("repeat");
@@ -110,20 +111,20 @@ void check_spec(const Subject& item, const CopiesSpec& spec, int dimension) {
            item.node->find("shift")      ? "shift"
            : item.node->find("turn_deg") ? "turn_deg"
                                          : "shift",
-           "all copies would lie in one place; write a shift that is not zero, or turn_deg");
+           "all copies would coincide; write a shift that is not zero, or turn_deg");
   if (dimension == 2 && !spec.axis.empty())
-    refuse(item, "axis", "stands across the plane because dimension = 2; remove it");
+    refuse(item, "axis", "is perpendicular to the plane because dimension = 2; remove it");
   if (spec.turn == 0)
     for (const char* key : {"about", "axis"})
       if (item.node->find(key))
-        refuse(item, key, "stands beside no turn; write for example turn_deg = 12, or remove it");
+        refuse(item, key, "is stated without a rotation; write for example turn_deg = 12, or remove it");
   if (spec.turn == 0) return;
   if (spec.about.empty())
     refuse(item, "about",
-           dimension == 2 ? "the turn needs its centre; write for example about = [0, 0]"
-                          : "the turn needs a point of its axis; write for example about = [0, 0, 0]");
+           dimension == 2 ? "the rotation needs its centre; write for example about = [0, 0]"
+                          : "the rotation needs a point of its axis; write for example about = [0, 0, 0]");
   if (dimension == 3 && std::ranges::all_of(spec.axis, is_zero))
-    refuse(item, "axis", "the turn needs its direction; write for example axis = [0, 1, 0]");
+    refuse(item, "axis", "the rotation needs the direction of its axis; write for example axis = [0, 1, 0]");
 }
 
 std::size_t values_in(const Node& node) {
@@ -143,7 +144,7 @@ void move_table(Node& table, std::string_view list, const std::string& path, con
   if (list == "bolts") move_bolt<Dim>(table, move);
 }
 
-// what names a table that is repeated beside it names that one's copy
+// a name of a table that is repeated with it becomes the name of that table's copy
 void follow(Node& text, const NameSet& chosen, int k) {
   if (text.kind == Node::Kind::text && chosen.contains(text.text)) text.text = copy_name(text.text, k);
 }
@@ -186,11 +187,11 @@ void repeat_list(const Subject& item, const CopiesSpec& spec, const RepeatedList
     }
     made += values_in(table) * static_cast<std::size_t>(spec.count);
     if (made > most_values)
-      refuse(item, "count", fmt::format("makes more than {} values of copies; lower it", most_values));
+      refuse(item, "count", fmt::format("makes more than {} values in copies; lower it", most_values));
     for (int k = 0; k < spec.count; ++k) {
       if (taken.contains(copy_name(name, k)))
         refuse(item, list.key,
-               fmt::format("makes a copy '{}', which is the name of one of [[{}]] already; rename that one",
+               fmt::format("makes a copy '{}', but one of [[{}]] already has this name; rename that one",
                            one_line(copy_name(name, k), 60), list.key));
       all.push_back(copy_of(table, list, spec, chosen, k, dimension));
     }
@@ -199,7 +200,7 @@ void repeat_list(const Subject& item, const CopiesSpec& spec, const RepeatedList
   naming.repeat(chosen, spec.count);
 }
 
-// takes the tables of these names out of a list
+// removes the tables of these names from a list
 std::vector<Node> taken_out(Node* list, const NameSet& names) {
   std::vector<Node> out, left;
   if (!list || list->kind != Node::Kind::list || names.empty()) return out;
@@ -228,7 +229,7 @@ bool addresses_copy(const Node& scene, const std::string& override_text) {
 
 void repeat_tables(Node& scene) {
   if (!scene.find("repeat")) return;
-  // what changes a copy is no whole table: it waits until the copies are there
+  // a table that changes a copy is incomplete: it is applied when the copies exist
   std::array<std::vector<Node>, repeated_lists.size()> changes;
   for (std::size_t i = 0; i < repeated_lists.size(); ++i)
     changes[i] = taken_out(scene.find(repeated_lists[i].key), copies_to_come(scene, repeated_lists[i]));

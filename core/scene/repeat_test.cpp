@@ -1,4 +1,4 @@
-// [[repeat]]: copies of blocks, joints and bolts hold against what is stated one by one.
+// [[repeat]]: copies of blocks, joints and bolts equal those stated one by one.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -40,7 +40,7 @@ std::vector<std::string> block_names(const Scene& scene) {
 }
 
 using Names = std::vector<std::string>;
-constexpr double rounding = 1e-14;  // coordinates are some metres, and a few are added up
+constexpr double rounding = 1e-14;  // sums of a few coordinates of some metres
 
 template <int Dim>
 const Body<Dim>& body(const Prepared<Dim>& prepared, const std::string& name) {
@@ -56,7 +56,7 @@ Vector<Dim> centroid(const Prepared<Dim>& prepared, const std::string& name) {
 
 const std::string stone = "[[blocks]]\nname = \"stone\"\nbox = { min = [0, 0], max = [2, 1] }\nvelocity = [1, 0]\n";
 
-TEST(Repeat, ShiftsAndTurnsBlocksInThePlane) {
+TEST(Repeat, ShiftsAndRotatesBlocksInThePlane) {
   const Prepared<2> prepared = prepare<2>(parse(
       2, stone + "[[repeat]]\nblocks = [\"stone\"]\ncount = 4\nshift = [10, 3]\nturn_deg = 90\nabout = [1, 1]\n"));
   ASSERT_EQ(prepared.model.bodies.size(), 4u);
@@ -78,8 +78,8 @@ TEST(Repeat, ShiftsAndTurnsBlocksInThePlane) {
   }
 }
 
-// three ways to state one body, turned about an oblique axis: the same copies, and the turn is a turn
-TEST(Repeat, TurnsBlocksOfEveryShapeInSpace) {
+// three statements of one body, rotated about an oblique axis: the same copies, and the rotation is a rotation
+TEST(Repeat, RotatesBlocksOfEveryShapeInThreeDimensions) {
   const std::string repeat =
       "[[repeat]]\nblocks = [\"box\", \"planes\", \"vertices\"]\ncount = 3\nshift = [0, 0, 5]\nturn_deg = 37\n"
       "about = [0.3, 0.2, 0.1]\naxis = [1, 2, 2]\n";
@@ -114,7 +114,7 @@ vertices = [[1, 0, 0], [2, 0, 0], [1, 1, 0], [2, 1, 0], [1, 0, 0.5], [2, 0, 0.5]
   }
 }
 
-TEST(Repeat, TurnsJointsWithTheirOutlinesAndSides) {
+TEST(Repeat, RotatesJointsWithTheirOutlinesAndSides) {
   const std::string joint = R"(
 [domain]
 box = { min = [-9, -9, -9], max = [9, 9, 9] }
@@ -147,13 +147,14 @@ width = 2
   }
   EXPECT_EQ(prepare<3>(scene).model.joints.size(), 5u);
 
-  // over the top: what lay below lies above
+  // turned upside down: the side below becomes the side above
   const std::string boundary =
       "[domain]\nbox = { min = [-1, -1], max = [1, 1] }\n[[joints]]\nname = \"A\"\ndip = 30\ndip_direction = 90\n"
-      "point = [0, 0.5]\nkind = \"boundary\"\nwhole = \"above\"\n[[repeat]]\njoints = [\"A\"]\ncount = 2\nturn_deg = "
+      "point = [0, 0.5]\nkind = \"boundary\"\nfixed_side = \"above\"\n[[repeat]]\njoints = [\"A\"]\ncount = "
+      "2\nturn_deg = "
       "180\nabout = [0, 0]\n";
   const Scene flat = parse(2, boundary);
-  EXPECT_EQ(flat.joints[1].whole, JointSide::below);
+  EXPECT_EQ(flat.joints[1].fixed_side, JointSide::below);
   EXPECT_NEAR(flat.joints[1].plane.point[1], -0.5, rounding);
   int fixed = 0;
   for (const Body<2>& b : prepare<2>(flat).model.bodies)
@@ -161,7 +162,7 @@ width = 2
   EXPECT_EQ(fixed, 2);
 }
 
-TEST(Repeat, TurnsBoltsAndTheirFans) {
+TEST(Repeat, RotatesBoltsAndTheirFans) {
   const std::string bolts = R"(
 [domain]
 box = { min = [-9, -9, -9], max = [9, 9, 9] }
@@ -194,9 +195,9 @@ axis = [0, 0, 1]
   EXPECT_EQ(fan.fan->centre, (std::vector<double>{-1, 0, 0}));
   EXPECT_EQ(fan.fan->axis, (std::vector<double>{-1, 0, 0}));
   EXPECT_EQ(fan.repeat[0].step, (std::vector<double>{-2, 0, 0}));
-  // right and up turn with the axis, since it stays level
+  // right and up rotate with the axis, since it stays horizontal
   EXPECT_NEAR(fan.fan->from, std::numbers::pi / 4, rounding);
-  // about its own axis the rays turn
+  // about its own axis the rays rotate
   const Scene rolled = parse(3, bolts, {"repeat.1.axis=[0, 1, 0]", "repeat.1.turn_deg=-30"});
   EXPECT_NEAR(std::abs(rolled.bolts[3].fan->from - rolled.bolts[2].fan->from), std::numbers::pi / 6, rounding);
   EXPECT_NEAR(rolled.bolts[3].fan->to - rolled.bolts[3].fan->from, std::numbers::pi / 2, rounding);
@@ -232,7 +233,7 @@ shift = [0.5, 1]
   EXPECT_NEAR(body(prepared, "brick-3-2").mass, 5000, 1e-9);
   EXPECT_NEAR(centroid(prepared, "brick-3-2")[0] - centroid(prepared, "brick-1-1")[0], 8.5, 20 * rounding);
 
-  // overrides: of what is repeated, of how often, of one copy, of its number among all
+  // overrides: of the repeated table, of the count, of one copy, of its number in the list
   EXPECT_EQ(parse(2, wall, {"repeat.courses.count=3"}).blocks.size(), 19u);
   EXPECT_NEAR(body(prepare<2>(parse(2, wall, {"blocks.brick.box.max=[2, 2]"})), "brick-2-1").mass, 9000, 1e-9);
   const Prepared<2> heavy = prepare<2>(parse(2, wall, {"blocks.brick-2-1.density=3000"}));
@@ -253,7 +254,7 @@ TEST(Repeat, ATableOfACopysNameChangesIt) {
   EXPECT_EQ(scene.blocks[1].box->min, (std::vector<double>{3, 0}));
   EXPECT_EQ(scene.blocks[2].density, std::nullopt);
 
-  // so a scene over a base can change what is repeated, how, and a single copy
+  // a scene with a base can therefore change the repeated table, the repetition and a single copy
   const std::filesystem::path folder =
       std::filesystem::temp_directory_path() / ("voussoir_repeat_" + std::to_string(getpid()));
   std::filesystem::create_directory(folder);
@@ -270,7 +271,7 @@ TEST(Repeat, ATableOfACopysNameChangesIt) {
   EXPECT_EQ(over.blocks[3].density, 3000);
 }
 
-TEST(Repeat, JointsThatEndAtOneThatGoesAlongFollow) {
+TEST(Repeat, EndsOfJointsFollowTheCopiedJoint) {
   // steps: a riser at each tread's end
   const std::string steps = R"(
 [domain]
@@ -297,7 +298,7 @@ shift = [1, 1]
   EXPECT_EQ(prepare<2>(scene).model.bodies.size(), 1u + 2 + 3 + 4);
 }
 
-TEST(Repeat, WhatCannotBeRepeatedIsSaid) {
+TEST(Repeat, ImpossibleRepeatsAreRefused) {
   const std::string block = "[[blocks]]\nname = \"stone\"\nbox = { min = [0, 0, 0], max = [2, 1, 1] }\n";
   const auto repeat = [](const std::string& keys) { return "[[repeat]]\n" + keys + "\n"; };
   const std::string two = "blocks = [\"stone\"]\ncount = 2\n";
@@ -313,15 +314,15 @@ TEST(Repeat, WhatCannotBeRepeatedIsSaid) {
       {repeat("blocks = [\"stone\"]\ncount = 1\nshift = [1, 0, 0]"), "repeat.1.count", "between 2 and 10000"},
       {repeat("blocks = [\"stone\"]\ncount = nan\nshift = [1, 0, 0]"), "repeat.1.count", "finite number"},
       {repeat("blocks = [\"stone\"]\ncount = 2.5\nshift = [1, 0, 0]"), "repeat.1.count", "whole number"},
-      {repeat(two), "repeat.1.shift", "in one place"},
-      {repeat(two + "shift = [0, 0, 0]"), "repeat.1.shift", "in one place"},
+      {repeat(two), "repeat.1.shift", "would coincide"},
+      {repeat(two + "shift = [0, 0, 0]"), "repeat.1.shift", "would coincide"},
       {repeat(two + "shift = [1, 0]"), "repeat.1.shift", "3 numbers"},
       {repeat(two + "turn_deg = 10"), "repeat.1.about", "is missing"},
       {repeat(two + "turn_deg = 10\nabout = [0, 0, 0]"), "repeat.1.axis", "is missing"},
       {repeat(two + "turn_deg = 10\nabout = [0, 0, 0]\naxis = [0, 0, 0]"), "repeat.1.axis", "direction"},
       {repeat(two + "turn_deg = 400\nabout = [0, 0, 0]\naxis = [0, 0, 1]"), "repeat.1.turn_deg", "360"},
-      {repeat(two + "shift = [1, 0, 0]\naxis = [0, 0, 1]"), "repeat.1.axis", "no turn"},
-      {repeat(two + "shift = [1, 0, 0]\nabout = [0, 0, 1]"), "repeat.1.about", "no turn"},
+      {repeat(two + "shift = [1, 0, 0]\naxis = [0, 0, 1]"), "repeat.1.axis", "without a rotation"},
+      {repeat(two + "shift = [1, 0, 0]\nabout = [0, 0, 1]"), "repeat.1.about", "without a rotation"},
       {repeat(two + "shift = [1, 0, 0]\nstep = 3"), "repeat.1.step", "no such key"},
       {repeat(two + "shift = [3, 0, 0]") + repeat("blocks = [\"stone-1\"]\ncount = 2\nshift = [0, 3, 0]") +
            block.substr(0, 10) + "\nname = \"stone-1-2\"\nbox = { min = [9, 0, 0], max = [10, 1, 1] }\ndensity = 0\n",
@@ -337,7 +338,7 @@ TEST(Repeat, WhatCannotBeRepeatedIsSaid) {
       {"[[repeat]]\nblocks = [\"stone\"]\ncount = 2\nshift = [3, 0, 0]\n[[repeat]]\nblocks = [\"stone\"]\ncount = "
        "2\nshift = [0, 3, 0]\n"
        "[[blocks]]\nname = \"stone-2\"\nbox = { min = [9, 0, 0], max = [10, 1, 1] }\n",
-       "repeat.1.blocks", "which is the name of one of [[blocks]] already"},
+       "repeat.1.blocks", "but one of [[blocks]] already has this name"},
   };
   for (const Case& c : cases)
     try {
@@ -353,8 +354,8 @@ TEST(Repeat, WhatCannotBeRepeatedIsSaid) {
   EXPECT_NO_THROW(parse_scene(head(3) + block + repeat(two + "shift = [3, 0, 0]"), "scene.toml", {}));
 }
 
-// what the results keep is the scene with its copies: it reads back to the same
-TEST(Repeat, IsGoneFromWhatIsRun) {
+// the results contain the scene with its copies, which reads back to the same scene
+TEST(Repeat, IsAbsentFromTheScenesRun) {
   const Scene scene = parse(2, stone + "[[repeat]]\nblocks = [\"stone\"]\ncount = 3\nturn_deg = 25\nabout = [9, 9]\n");
   EXPECT_EQ(scene.tree->find("repeat"), nullptr);
   EXPECT_EQ(scene.tree->find("blocks")->items.size(), 3u);

@@ -1,4 +1,4 @@
-// From a scene file to what a simulation takes, and the texts that a scene has besides.
+// From a scene file to the input of a simulation, and texts made from a scene.
 #pragma once
 
 #include <filesystem>
@@ -15,24 +15,25 @@ namespace voussoir {
 // cannot be read).
 Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 
-// the same for a text; `name` stands for the file in errors
+// the same for a text; `name` replaces the file in errors
 Scene parse_scene(std::string_view text, const std::string& name, const std::vector<std::string>& overrides = {});
 
-// The same for a tree from elsewhere than a text, whose values say where they were stated. Files that it names lie in
-// the folder of `name`, or where the program stands.
+// The same for a tree that does not come from a text, whose values know their places. Files that it names are in the
+// folder of `name`, or in the working directory.
 Scene read_tree(Node tree, const std::string& name, const std::vector<std::string>& overrides = {});
 
-// Cuts the domain, builds bodies, assigns properties, resolves selectors and monitors. Throws SceneError where the
-// scene makes no sense. Dim must be scene.dimension.
+// Cuts the domain, builds bodies, assigns properties, resolves selectors and monitors. Throws SceneError if the scene
+// is inconsistent. Dim must be scene.dimension.
 template <int Dim>
 Prepared<Dim> prepare(const Scene& scene);
 
 // The effective scene as canonical text, to be hashed: independent of comments, layout, the order of keys, how numbers
-// are written, and of whether a value came from the file or an override. Defaults that are not stated do not appear.
+// are written, of earlier or present names of keys, and of whether a value came from the file or an override. Unstated
+// defaults do not appear.
 std::string canonical_text(const Scene& scene);
 std::string canonical_text(const Node& part);
 
-// every key, its meaning, unit, range and default, in markdown, from the table the reader checks with
+// every key, its meaning, unit, range and default, in markdown, from the table that the reader uses
 std::string scene_documentation();
 
 }  // namespace voussoir

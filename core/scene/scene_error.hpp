@@ -1,4 +1,4 @@
-// What is wrong with a scene, in one line: file, line, key, the value found, what is allowed, the repair.
+// An error of a scene, in one line: file, line, key, the value found, the allowed values, the repair.
 #pragma once
 
 #include <stdexcept>
@@ -11,7 +11,7 @@ struct SceneError : std::runtime_error {
   explicit SceneError(const std::string& message, std::string in_file = {}, int at_line = 0, std::string of_key = {})
       : std::runtime_error(message), file(std::move(in_file)), line(at_line), key(std::move(of_key)) {}
 
-  // what the message says besides, where it says it
+  // parts of the message, if it has them
   std::string file;
   int line = 0;     // 0: none
   std::string key;  // its address, e.g. joints.A.dip

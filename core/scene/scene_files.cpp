@@ -18,7 +18,7 @@ bool is_below(const fs::path& file, const fs::path& folder) {
   return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
 }
 
-// a file of joints or blocks, and how its tree is made
+// a file of joints or blocks, and its tree
 struct FileTree {
   std::shared_ptr<const std::string> name;
   int dimension;
@@ -120,9 +120,9 @@ Node block_tables(const std::string& bytes, const FileTree& source, const Node& 
   std::transform(kind.begin(), kind.end(), kind.begin(), [](unsigned char c) { return std::tolower(c); });
   if (kind == ".csv") return tables_of_planes(bytes, source);
   if (kind != ".stl" && kind != ".obj")
-    refuse(stated, "blocks_file", "must end in .csv (planes of blocks), .stl or .obj, which tells how it is read");
+    refuse(stated, "blocks_file", "must end in .csv (planes of blocks), .stl or .obj, which determines the format");
   if (source.dimension == 2)
-    refuse(stated, "blocks_file", "STL and OBJ hold blocks in space but dimension = 2; give a table of planes (.csv)");
+    refuse(stated, "blocks_file", "STL and OBJ contain 3-D blocks but dimension = 2; give a table of planes (.csv)");
   return tables_of_meshes(kind == ".stl" ? read_stl(bytes) : read_obj(bytes), source, remarks);
 }
 
@@ -156,13 +156,13 @@ fs::path file_beside(const Node& stated, std::string_view key_view, const fs::pa
   if (stated.kind != Node::Kind::text) refuse(stated, key, "must be the name of a file in quotes");
   const fs::path relative = stated.text;
   const bool escapes = relative.is_absolute() || std::find(relative.begin(), relative.end(), "..") != relative.end();
-  if (escapes) refuse(stated, key, "must lie in the scene's own folder: give its name without .. or a leading /");
+  if (escapes) refuse(stated, key, "must be in the scene's own folder: give its name without .. or a leading /");
   std::error_code error;
   if (text_fault(stated.text) || !fs::is_regular_file(folder / relative, error))
-    refuse(stated, key, "there is no such file beside the scene");
+    refuse(stated, key, "there is no such file in the scene's folder");
   const fs::path file = fs::canonical(folder / relative, error);
   if (error || !is_below(file, fs::canonical(folder.empty() ? "." : folder, error)))
-    refuse(stated, key, "is a link that leaves the scene's own folder; copy the file beside the scene");
+    refuse(stated, key, "is a link that leads out of the scene's own folder; copy the file into that folder");
   return file;
 }
 

@@ -1,5 +1,5 @@
 // Files of joints and blocks that a scene names: read as the tables that the scene could have stated itself, so that
-// checks, overrides, the scene's fingerprint and a resumed run know no difference.
+// checks, overrides, the scene's hash and a resumed run treat both alike.
 #pragma once
 
 #include <filesystem>
@@ -10,13 +10,14 @@
 
 namespace voussoir {
 
-// What was read besides the scene's own text: every file, and what its user should know of them (file, line, text).
+// Files that were read besides the scene's own text, and remarks on them for the user (file, line, text).
 struct FilesRead {
   std::vector<std::filesystem::path> files;
   std::vector<std::string> remarks;
+  std::vector<std::string> renamed{};  // keys that were stated under an earlier name (core/scene/renamed_keys.hpp)
 };
 
-// The file that a scene names under a key: a regular file in its folder, wherever links point. SceneError otherwise.
+// The file that a scene names under a key: a regular file in its folder, links resolved. SceneError otherwise.
 std::filesystem::path file_beside(const Node& stated, std::string_view key, const std::filesystem::path& folder);
 
 // [[joints]] of `joints_file` (CSV) and [[blocks]] of `blocks_file` (CSV of planes, STL, OBJ); every value has its

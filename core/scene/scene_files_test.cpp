@@ -88,7 +88,7 @@ TEST_F(SceneFiles, PersistentSetsCutTheDomain) {
     mass += body.mass;
   EXPECT_NEAR(mass, 2600 * 1000, 2600 * 1000 * 1e-12);
   EXPECT_EQ(model.joints.front().name, "bedding-1");
-  // one more set, or another order, changes no joint of the others; another seed of its own all of them
+  // one more set, or another order, changes no joint of the others; another seed changes all joints of its set
   const auto joints_of = [&](const std::string& text, const std::string& set,
                              const std::vector<std::string>& more = {}) {
     std::vector<double> offsets;
@@ -132,7 +132,7 @@ void SceneFiles::return_from_table(const std::string& text) const {
   expect_equal(read.model, drawn.model);
 }
 
-// what a report writes as joints.csv makes the same blocks to the last bit
+// the joints.csv of a report gives the same blocks to the last bit
 TEST_F(SceneFiles, DrawnJointsReturnFromTheirTableBitForBit) {
   return_from_table(base_3d + three_sets);
   return_from_table(base_3d +
@@ -153,13 +153,13 @@ TEST_F(SceneFiles, JointsOfATableAreJointsOfTheScene) {
   EXPECT_NEAR(model.joints[0].plane.offset, -1, 1e-15);
   EXPECT_EQ(model.bodies.size(), 6u);
   EXPECT_EQ(prepare<3>(parse(text, {"joints.A.point=[5, 5, 20]"})).model.bodies.size(), 2u);
-  // the file's content is part of the scene's fingerprint
+  // the file's content is part of the scene's hash
   const std::string before = canonical_text(parse(text));
   write("joints.csv", "name,dip_deg,dip_direction_deg,x_m,y_m,z_m\nA,0,,5,5,5.5\n,90,90,5,5,5\n");
   EXPECT_NE(canonical_text(parse(text)), before);
 }
 
-TEST_F(SceneFiles, MistakesAreToldWithTheirPlace) {
+TEST_F(SceneFiles, MistakesAreReportedWithTheirPlace) {
   const std::string text = "joints_file = \"joints.csv\"\n" + base_3d;
   const auto refused = [&](const std::string& csv, const std::string& part) {
     write("joints.csv", csv);
@@ -172,7 +172,8 @@ TEST_F(SceneFiles, MistakesAreToldWithTheirPlace) {
   refused(head + "A,40,90,0,zero,0,,,,\n", "joints.csv:2:11: y_m = 'zero'");
   refused(head + "A,40,90,0,0,0,,ellipse,2e13,1\n", "joints.csv:2: joints.A.length = 2e+13");
   refused("dip_deg,normal_x,normal_y,normal_z,x_m,y_m,z_m\n10,0,0,1,0,0,0\n", "dip_direction is missing");
-  refused("dip_deg,dip_direction_deg,normal_x,normal_y,normal_z,x_m,y_m,z_m\n10,0,0,0,1,0,0,0\n", "of another plane");
+  refused("dip_deg,dip_direction_deg,normal_x,normal_y,normal_z,x_m,y_m,z_m\n10,0,0,0,1,0,0,0\n",
+          "does not agree with dip");
   expect_refused("joints_file = \"none.csv\"\n" + base_3d, "no such file");
   expect_refused("joints_file = \"../joints.csv\"\n" + base_3d, "own folder");
   expect_refused(base_3d, "cannot be set", {"joints_file=joints.csv"});
@@ -240,11 +241,11 @@ TEST_F(SceneFiles, JointSetsAreChecked) {
     expect_refused(base_3d + "[[joint_sets]]\nname = \"A\"\ndip = 30\ndip_direction = 90\n" + keys, part);
   };
   refused("", "needs spacing or intensity");
-  refused("spacing = 1\nintensity = 1\n", "stands beside spacing");
-  refused("intensity = 1\nsize = \"constant\"\nsize_mean = 1\npersistence = 0.5\n", "belongs to spacing");
+  refused("spacing = 1\nintensity = 1\n", "is stated together with spacing");
+  refused("intensity = 1\nsize = \"constant\"\nsize_mean = 1\npersistence = 0.5\n", "applies to spacing only");
   refused("spacing = 1e-7\n", "more than 1e+06");
   refused("spacing = 1\nsize = \"lognormal\"\nsize_mean = 1\n", "size_deviation is missing");
-  refused("spacing = 1\nsize_mean = 1\n", "applies only where size");
+  refused("spacing = 1\nsize_mean = 1\n", "applies only if size");
   refused("spacing = 1\nscatter = \"fisher\"\n", "fisher_constant is missing");
   refused("spacing = 1\nproperties = \"clay\"\n", "no joint_properties of this name");
   refused("spacing = 1\n[[joints]]\nname = \"A-2\"\ndip = 0\npoint = [0, 0, 1]\n", "rename the set");

@@ -1,4 +1,4 @@
-// What a scene file states, in SI units and radians; nothing is derived here.
+// The statements of a scene file, in SI units and radians; nothing is derived here.
 #pragma once
 
 #include <array>
@@ -19,13 +19,13 @@
 
 namespace voussoir {
 
-// `subject` is where the file states a thing, so that a later error can name line, key and value. Vectors have as many
-// entries as the scene has dimensions; coordinates are the file's.
+// `subject` is the place of a statement in the file, so that a later error can name line, key and value. Vectors have
+// as many entries as the scene has dimensions; coordinates are the file's.
 
 struct PlaneSpec {
   double dip = 0, dip_direction = 0;  // rad
   std::vector<double> point;          // m
-  std::vector<double> normal;         // upward, unit: the plane to the last bit where it is stated; or empty
+  std::vector<double> normal;         // upward, unit: the plane to the last bit if stated; or empty
 };
 
 struct BoxSpec {
@@ -45,22 +45,22 @@ struct DomainSpec {
   std::vector<DomainPlaneSpec> planes;
 };
 
-// how far a joint reaches in its plane, about the plane's point
+// extent of a joint in its plane, about the plane's point
 struct OutlineSpec {
   OutlineForm shape = OutlineForm::none;     // 2-D: a trace is a rectangle
   double length = 0, width = 0;              // m: along the strike (2-D: of the trace), down the dip
   std::vector<std::vector<double>> corners;  // m, of a polygon, in space
 };
 
-// a tunnel or, in 2-D, a circle: a prism whose sides touch it from outside
+// a tunnel or, in 2-D, a circle: a circumscribed prism
 struct CylinderSpec {
   Subject subject;
-  std::vector<double> from, to;  // m; 2-D: the centre alone
+  std::vector<double> from, to;  // m; 2-D: only the centre
   double radius = 0;             // m
   int sides = 24;
 };
 
-// convex; of box and cylinder at most one
+// convex; at most one of box and cylinder
 struct RegionSpec {
   Subject subject;
   std::optional<BoxSpec> box;
@@ -74,32 +74,32 @@ struct JointSpec {
   PlaneSpec plane;
   std::optional<std::string> properties;
   OutlineSpec outline;
-  std::string set;  // joints of one name are a set; or empty
+  std::string set;  // joints with the same name form a set; or empty
   JointKind kind = JointKind::rock;
-  JointSide whole = JointSide::none;
-  std::optional<RegionSpec> within;  // the subdomain that it is confined to
+  JointSide fixed_side = JointSide::none;
+  std::optional<RegionSpec> within;  // the subdomain to which it is confined
   std::vector<std::string> ends_at;  // joints stated before it, and excavations
 };
 
-// what is taken out before anything else happens
+// excavated before the first stage or by a stage
 struct ExcavationSpec {
   std::string name;
   RegionSpec region;
   bool outline = false;                  // construction joints along its faces
-  std::optional<double> smallest_piece;  // m: inscribed radius; of what it leaves of blocks
+  std::optional<double> smallest_piece;  // m: inscribed radius of the remaining pieces of blocks
 };
 
 enum class JointEnds {
   extended,  // at the faces of the blocks that the joint meets
-  healed,    // likewise, and blocks that it does not wholly separate are joined again
-  ignored    // nowhere: every joint is persistent
+  healed,    // likewise, and blocks that it does not separate completely are joined again
+  ignored    // not at all: every joint is persistent
 };
 
 struct SlicingSpec {
   CuttingOrder order = CuttingOrder::by_size;
   JointEnds ends = JointEnds::extended;
   double smallest_inscribed_radius = 0;  // m
-  double largest_aspect_ratio = 0;       // of the box along the axes; 0: any
+  double largest_aspect_ratio = 0;       // of the box along the axes; 0: no bound
   int most_blocks = 1'000'000;
 };
 
@@ -129,7 +129,7 @@ struct MotionSpec {
 
 enum class BlockShape { half_spaces, potential };
 
-// a potential particle (core/potential/shape.hpp), as far as it is stated
+// the stated values of a potential particle (core/potential/shape.hpp)
 struct ParticleSpec {
   std::optional<double> corner_radius, sphericity, sphere_radius;  // r, m; k; R, m
   std::optional<std::vector<double>> centre;                       // c, m
@@ -144,7 +144,7 @@ struct BlockSpec {
   std::vector<std::vector<double>> vertices;  // m; exactly one of these three is stated
   std::vector<BlockPlaneSpec> planes;
   std::optional<BoxSpec> box;
-  std::string part_of;            // another block, of whose body this is a further part; or empty
+  std::string part_of;            // another block, to whose body this part belongs; or empty
   std::optional<double> density;  // kg/m³
   MotionSpec motion;
   bool fixed = false;
@@ -163,8 +163,8 @@ struct WaterSpec {
   double unit_weight = 9810;              // N/m³
   std::vector<std::string> faces{"all"};  // "all", "outer", joints or joint sets
   WaterSurfaceSpec surface;
-  std::vector<double> numbers;  // of the surface (core/load/water.hpp, the file's coordinates), or the pressure; as
-                                // many as every change of the water needs
+  std::vector<double> numbers;  // of the surface (core/load/water.hpp, the file's coordinates), or the pressure; enough
+                                // for every change of the water
 };
 
 // a change of a water within a stage
@@ -177,7 +177,7 @@ struct WaterChangeSpec {
 
 // bolts on rays
 struct FanSpec {
-  std::vector<double> centre, axis;      // m; 3-D: the rays stand across it
+  std::vector<double> centre, axis;      // m; 3-D: perpendicular to the rays
   double from = 0, to = 0, spacing = 0;  // rad
   double start = 0, length = 0;          // m
 };
@@ -222,9 +222,9 @@ struct InitialVelocitySpec {
 struct StageSpec {
   Subject subject;
   StagePlan plan;
-  std::vector<WaterChangeSpec> water;                                    // their numbers are in plan.water
-  std::map<std::string, std::vector<SelectorSpec>, std::less<>> chosen;  // the selectors of plan.change by their key,
-                                                                         // in its order, with their places
+  std::vector<WaterChangeSpec> water;  // their numbers are in plan.water
+  std::map<std::string, std::vector<SelectorSpec>, std::less<>>
+      chosen;  // the selectors of plan.change by key, in its order, with their places
 
   const std::vector<SelectorSpec>& chosen_by(std::string_view key) const {
     static const std::vector<SelectorSpec> none;
@@ -238,12 +238,12 @@ struct MonitorSpec {
   std::string name, joint, water, bolts, lining;
   std::string excavation;          // of convergence
   std::vector<double> angles;      // deg, of convergence and lining_force
-  std::string since, since_start;  // a stage from whose end, or start, it counts; empty: from the start
+  std::string since, since_start;  // a stage from whose end, or start, it measures; empty: from the start of the run
   Aggregate over{};
   std::vector<Monitored> quantities;
 };
 
-// [[repeat]]; a scene that has been read holds the copies alone
+// [[repeat]]; a scene that has been read has only the copies
 struct CopiesSpec {
   std::vector<std::string> blocks, joints, bolts;
   int count = 0;
@@ -273,10 +273,12 @@ struct Scene {
   std::vector<StageSpec> stages;
   std::vector<MonitorSpec> monitors;
   OutputPlan output;
-  std::vector<std::string> from_level;       // what accuracy.level set: "key = value"
-  std::vector<std::filesystem::path> files;  // that were read: the scene's own, if it is one, and whatever it names
-  std::vector<std::string> remarks;          // what the user should know of these files, one line each
-  std::shared_ptr<const Node> tree;          // the effective file, overrides applied; subjects point into it
+  std::vector<std::string> from_level;  // what accuracy.level set: "key = value"
+  std::vector<std::string> renamed;     // keys under an earlier name: "scene.toml:7: … is now …"
+  std::vector<std::filesystem::path>
+      files;                         // that were read: the scene's own, if it is a file, and those that it names
+  std::vector<std::string> remarks;  // remarks on these files for the user, one line each
+  std::shared_ptr<const Node> tree;  // the effective file, overrides applied; subjects point into it
 };
 
 }  // namespace voussoir

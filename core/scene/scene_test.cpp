@@ -1,4 +1,4 @@
-// Good scenes: what is read, what is prepared, how --set changes it, what looks implausible.
+// Valid scenes: reading, preparation, changes by --set, implausible values.
 #include "core/scene/scene.hpp"
 
 #include <gtest/gtest.h>
@@ -75,7 +75,7 @@ Scene parse(const std::string& text, const std::vector<std::string>& overrides =
   return parse_scene(text, "scene.toml", overrides);
 }
 
-TEST(ReadScene, TakesWhatIsStatedInRadians) {
+TEST(ReadScene, ConvertsStatedAnglesToRadians) {
   const Scene s = parse(wedge);
   EXPECT_EQ(s.title, "Sliding wedge");
   EXPECT_EQ(s.dimension, 3);
@@ -95,13 +95,13 @@ TEST(ReadScene, TakesWhatIsStatedInRadians) {
   EXPECT_EQ(s.fix.at(1).subject.path, "fix.other side");
 }
 
-TEST(ReadScene, DampingOfAStageTakesTheRestFromTheScene) {
+TEST(ReadScene, DampingOfAStageIsCompletedFromTheScene) {
   const Scene s = parse(wedge, {"stage.settle.damping.viscous_ratio=0.1"});
   EXPECT_EQ(s.stages[0].plan.damping->local, 0.5);
   EXPECT_EQ(s.stages[0].plan.damping->viscous_ratio, 0.1);
 }
 
-TEST(ReadScene, GravityGoesOnFromWhereAStageLeftIt) {
+TEST(ReadScene, GravityContinuesFromThePreviousStage) {
   const Scene scene = parse_scene(R"(dimension = 2
 [[stage]]
 name = "none"
@@ -173,7 +173,7 @@ TEST(Prepare, CutsTheWedgeAndResolvesSelectors) {
 }
 
 // Eq. 3.6
-TEST(Prepare, DoesNotDependOnWhereTheSceneLies) {
+TEST(Prepare, DoesNotDependOnThePositionOfTheScene) {
   // 2^20 m: the coordinates of the moved scene are exact
   std::string moved = wedge;
   const auto replace = [&](const std::string& from, const std::string& to) {
@@ -281,7 +281,7 @@ TEST(Set, ReachesTablesByNameNumberAndValuesNotInTheFile) {
                    2 * degree);
 }
 
-TEST(CanonicalText, ForgetsLayoutAndRemembersMeaning) {
+TEST(CanonicalText, IgnoresLayoutAndKeepsMeaning) {
   const std::string base = canonical_text(parse(wedge));
   EXPECT_EQ(canonical_text(parse("# a comment\n" + wedge)), base);
   EXPECT_EQ(canonical_text(parse(wedge, {"joints.A.dip=40.0"})), base);
@@ -303,16 +303,16 @@ TEST(Plausibility, KnowsTheSignsOfWrongUnits) {
   EXPECT_EQ(warnings(wedge), "");
   const std::vector<std::pair<std::string, std::string>> all = {
       {"gravity=[0,0,9.81]", "gravity = [0, 0, 9.81]: points upwards"},
-      {"gravity=[0,9.81,-0.1]", "gravity = [0, 9.81, -0.1]: points more aside than down"},
+      {"gravity=[0,9.81,-0.1]", "gravity = [0, 9.81, -0.1]: points more sideways than down"},
       {"gravity=[0,0,-9810]", "on earth it is 9.81"},
       {"density=2.6", "density = 2.6: is unusual, 500 to 8000 kg/m³ is usual; was it given in g/cm³"},
       {"joint_properties.rock.friction_deg=0.6", "friction_deg = 0.6: is unusual, 0 or 1.6 to 89.9 deg is usual"},
       {"joints.A.dip=0.7", "joints.A.dip = 0.7: is unusual, 0 or 1.6 to 90 deg is usual; was it given in radians?"},
       {"joint_properties.rock.shear_stiffness=1e8", "exceeds normal_stiffness"},
       {"joint_properties.rock.shear_stiffness=10", "was it given in MPa/m"},
-      {"joint_properties.rock.normal_stiffness=1e10", "is tiny beside normal_stiffness"},
+      {"joint_properties.rock.normal_stiffness=1e10", "is very small compared with normal_stiffness"},
       {"joint_properties.rock.normal_stiffness=1e14", "1e+06 to 1e+12 Pa/m is usual"},
-      {"domain.planes.slope face.point=[0,0,-0.001]", "next to nothing in a scene of"},
+      {"domain.planes.slope face.point=[0,0,-0.001]", "close to zero in a scene of"},
       {"domain.box.min=[-4e5,-4,-4]", "is a coordinate of one in the wrong unit"}};
   for (const auto& [text, phrase] : all)
     EXPECT_NE(warnings(wedge, {text}).find(phrase), std::string::npos) << text << "\n" << warnings(wedge, {text});
@@ -323,13 +323,13 @@ TEST(Plausibility, KnowsTheSignsOfWrongUnits) {
   EXPECT_NE(warnings(wedge + shake + "[0, 2000]\n").find("continues beyond duration_s (2)"), std::string::npos);
 }
 
-TEST(Plausibility, TellsAJointThatCutsNothing) {
+TEST(Plausibility, ReportsAJointThatCutsNothing) {
   const std::string text = warnings(wedge + "[[joints]]\nname = \"far\"\ndip = 0\npoint = [0, 0, 50]\n");
   EXPECT_NE(text.find("joints.far"), std::string::npos);
   EXPECT_NE(text.find("cuts no block"), std::string::npos);
 }
 
-TEST(Plausibility, TellsWhichOfSeveralPropertiesServesFacesOfNoJoint) {
+TEST(Plausibility, ReportsThePropertiesOfFacesThatNoJointMade) {
   const auto soil = [](const std::string& name) {
     return wedge + "[[joint_properties]]\nname = \"" + name +
            "\"\nnormal_stiffness = 1e7\nshear_stiffness = 1e6\nfriction_deg = 20\n";
@@ -339,12 +339,13 @@ TEST(Plausibility, TellsWhichOfSeveralPropertiesServesFacesOfNoJoint) {
   EXPECT_EQ(warnings(soil("soil"), named), "") << "the outer faces of one domain meet nothing";
   const std::string wall = "[[blocks]]\nname = \"wall\"\nbox = { min = [4, -4, -4], max = [6, 4, 0] }\nfixed = true\n";
   EXPECT_EQ(warnings(soil("default") + wall, named), "");
-  EXPECT_NE(warnings(soil("soil") + wall, named).find("name = \"rock\": serves where faces meet that no joint made"),
-            std::string::npos)
+  EXPECT_NE(
+      warnings(soil("soil") + wall, named).find("name = \"rock\": applies to contacts of faces that no joint made"),
+      std::string::npos)
       << warnings(soil("soil") + wall, named);
 }
 
-// two convex parts make an L that is one body, whatever their order
+// two convex parts form an L-shaped body, in either order
 TEST(Prepare, JoinsPartsToOneBody) {
   const std::string two_parts =
       "dimension = 2\ndensity = 1000\n[[blocks]]\nname = \"foot\"\nbox = { min = [0, 0], max = [2, 1] }\n"
@@ -383,8 +384,8 @@ TEST(BaseScene, StatesOnlyTheDifferences) {
   std::filesystem::remove_all(folder);
 }
 
-// One name stands for a list of it, in every kind of table: the scenes are the same but for how they are written.
-TEST(Scene, OneNameStandsForAListOfOne) {
+// One name means a list of one, in every kind of table: the scenes differ only in notation.
+TEST(Scene, OneNameMeansAListOfOne) {
   const auto replaced = [](std::string text, const std::string& list, const std::string& one) {
     const std::size_t at = text.find(list);
     EXPECT_NE(at, std::string::npos) << list;

@@ -23,7 +23,7 @@ void remove_key(Node& table, std::string_view key) {
   std::erase_if(table.members, [&](const Member& member) { return member.key == key; });
 }
 
-// a list that holds nothing any more is as one that was not stated
+// an emptied list is treated as not stated
 template <class Condition>
 void keep_items(Node& table, std::string_view key, const Condition& wanted) {
   Node* list = table.find(key);
@@ -39,8 +39,8 @@ NameSet installed_by(const Node& stages) {
   return names;
 }
 
-// The joint properties that contacts between blocks may have: those that joints and sets name, and the one that serves
-// where none is named, and those of linings that the stages install. A search within the stages takes any.
+// The joint properties that contacts between blocks may have: those that joints and sets name, the one that applies if
+// none is named, and those of linings that the stages install. A search within the stages uses all.
 NameSet used_properties(const Node& scene, const Node& stages) {
   NameSet names{"default"};
   const Node* all = scene.find("joint_properties");
@@ -64,8 +64,7 @@ NameSet used_properties(const Node& scene, const Node& stages) {
   return names;
 }
 
-// of those that are not used only the names matter, for the places of the others; after the last that is used not even
-// these
+// of unused ones only the names matter, for the indices of the others; after the last used one not even these
 void reduce_properties(const NameSet& used, Node& scene) {
   Node* all = scene.find("joint_properties");
   if (!all) return;
@@ -75,7 +74,7 @@ void reduce_properties(const NameSet& used, Node& scene) {
     if (!used.contains(name_of(item))) std::erase_if(item.members, [](const Member& m) { return m.key != "name"; });
 }
 
-// an excavation that no stage takes out is gone from the start
+// an excavation that no stage makes is made before the first stage
 void tell_excavations(const Scene& scene, Node& tree) {
   NameSet by_stage;
   for (const StageSpec& stage : scene.stages)
@@ -91,7 +90,7 @@ void tell_excavations(const Scene& scene, Node& tree) {
   }
 }
 
-// as many numbers as all changes of a water need from the start
+// from the start as many numbers as all changes of a water need
 void tell_waters(const Scene& scene, Node& tree) {
   Node* all = tree.find("water");
   if (!all) return;
@@ -110,9 +109,9 @@ void tell_waters(const Scene& scene, Node& tree) {
   }
 }
 
-// where two trees part
+// the first difference of two trees
 struct Difference {
-  Place place;  // here, or of the table where it is not stated
+  Place place;  // here, or of the table if it is not stated
   std::string path;
   const Node* here = nullptr;
   const Node* there = nullptr;
@@ -158,14 +157,15 @@ std::optional<Difference> difference(const std::string& path, const Node& here, 
 // "scene.toml:7: joints.A.dip = 30: is 35 in 'generation': …"
 [[noreturn]] void refuse_difference(const Difference& d, const std::string& name, const std::string& stage) {
   const std::string rule = fmt::format(
-      "{} in '{}'; up to the end of stage '{}', where this run would begin, both must be the same: make them the same, "
-      "or make the state to begin with from this scene (voussoir run --until)",
+      "{} in '{}'; up to the end of stage '{}', from which this run would start, both must be the same: make them the "
+      "same, or compute the "
+      "initial state from this scene (voussoir run --until)",
       d.there ? "is " + value_text(*d.there) : "is not stated", name, one_line(stage, 60));
   if (d.here) refuse(*d.here, d.path, rule);
   refuse(d.place, fmt::format("{} is missing: {}", one_line(d.path, 200), rule), d.path);
 }
 
-// the monitors that are stated in the same words
+// the monitors with identical statements
 std::vector<std::string> same_monitors(const Node& here, const Node& there) {
   std::vector<std::string> names;
   const Node *ours = here.find("monitors"), *theirs = there.find("monitors");
@@ -199,8 +199,8 @@ SharedStages require_shared(const Scene& scene, const Scene& other, const std::s
   if (const auto found = difference("", here, there)) refuse_difference(*found, name, stage);
   if (static_cast<int>(scene.stages.size()) == stages)
     refuse({scene.tree.get(), ""}, "stage",
-           fmt::format("'{}' has done all stages of this scene already: nothing is left to run; add a stage after '{}'",
-                       name, one_line(stage, 60)));
+           fmt::format("'{}' has already run all stages of this scene; add a stage after '{}'", name,
+                       one_line(stage, 60)));
   SharedStages shared{same_monitors(*scene.tree, *other.tree), {}};
   const NameSet used = used_properties(*scene.tree, *here.find("stage"));
   for (const PropertiesSpec& p : scene.properties)

@@ -1,4 +1,4 @@
-// What two scenes must have in common for a run of the one to begin at the end of a run of the other.
+// Stages that two scenes must have in common, for a run of the one to start from the end of a run of the other.
 #pragma once
 
 #include <string>
@@ -9,16 +9,15 @@
 namespace voussoir {
 
 struct SharedStages {
-  std::vector<std::string> monitors;  // the same in both, so that the rows of the other hold for this one
-  std::vector<std::string> own;       // joint properties of this scene that nothing used within these stages
+  std::vector<std::string> monitors;  // the same in both, so that the rows of the other are valid for this one
+  std::vector<std::string> own;       // joint properties of this scene that are not used in these stages
 };
 
 // The part of a scene that the first `stages` stages depend on, as a tree: without title, monitors, output, later
-// stages, bolts that none of these stages installs and joint properties that no joint uses.
+// stages, bolts that none of these stages installs, and unused joint properties.
 Node shared_part(const Scene& scene, int stages);
 
-// Throws SceneError at the first thing on which the first stages of the two depend and which differs; `name` stands for
-// the other scene in it.
+// Throws SceneError at the first difference on which the first stages depend; `name` is the other scene in its message.
 SharedStages require_shared(const Scene& scene, const Scene& other, const std::string& name, int stages);
 
 }  // namespace voussoir

@@ -1,4 +1,4 @@
-// Joints with an end, kinds, excavations and slicing rules as a scene states them.
+// Finite joints, kinds of joints, excavations and slicing rules in scenes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace voussoir {
 namespace {
 
-// a square of 2 m, a persistent joint x = 0, and what a test adds
+// a square of 2 m, a persistent joint x = 0, and the additions of a test
 Prepared<2> square(const std::string& rest, const std::vector<std::string>& overrides = {}) {
   const std::string text = R"(
 dimension = 2
@@ -53,7 +53,7 @@ double mass(const Prepared<2>& prepared) {
   return sum;
 }
 
-TEST(SlicingScene, ATraceEndsWhereTheRuleSays) {
+TEST(SlicingScene, ATraceEndsByTheRule) {
   // from -0.1 to 0.9: it cuts both halves, each only in part
   EXPECT_EQ(square(trace).model.bodies.size(), 4u);
   EXPECT_EQ(square(trace, {"slicing.ends=healed"}).model.bodies.size(), 2u);
@@ -65,12 +65,13 @@ TEST(SlicingScene, ATraceEndsWhereTheRuleSays) {
   EXPECT_NEAR(mass(square(trace, {"slicing.ends=healed"})), 8000, 1e-9);
 }
 
-TEST(SlicingScene, KindsHoldTogetherAndFix) {
+TEST(SlicingScene, KindsJoinAndFixBlocks) {
   EXPECT_EQ(square(trace, {"joints.trace.kind=construction"}).model.bodies.size(), 2u);
-  // a boundary joint is cut first, through everything; as the file has it, the wall had parted what lies below
+  // a boundary joint is cut first, through everything; in the order of the file, the wall would have divided the side
+  // below
   for (const auto& [order, expected] : {std::pair("size", 1), std::pair("given", 2)}) {
     const Prepared<2> prepared = square(
-        trace, {"joints.trace.kind=boundary", "joints.trace.whole=below", std::string("slicing.order=") + order});
+        trace, {"joints.trace.kind=boundary", "joints.trace.fixed_side=below", std::string("slicing.order=") + order});
     int fixed = 0;
     for (const Body<2>& body : prepared.model.bodies)
       fixed += body.fixed;
@@ -78,8 +79,8 @@ TEST(SlicingScene, KindsHoldTogetherAndFix) {
   }
 }
 
-TEST(SlicingScene, AJointConfinedToASubdomainCutsWhatItMeetsThere) {
-  // a level joint through everything, but on the right of the wall alone
+TEST(SlicingScene, AJointConfinedToASubdomainCutsTheBlocksThatItMeets) {
+  // a horizontal joint through everything, but only to the right of the wall
   const std::string level = "[[joints]]\nname = \"level\"\ndip = 0\npoint = [0, 0.5]\n";
   EXPECT_EQ(square(level).model.bodies.size(), 4u);
   const std::string right =
@@ -99,7 +100,7 @@ TEST(SlicingScene, AJointConfinedToASubdomainCutsWhatItMeetsThere) {
   }
 }
 
-// what a scene is refused for; empty: it is taken
+// the reason for refusing a scene; empty: it is accepted
 std::string refusal(const std::string& rest, const std::vector<std::string>& overrides = {}) {
   try {
     square(rest, overrides);
@@ -139,7 +140,7 @@ TEST(SlicingScene, AJointEndsAtAnotherOnTheSideOfItsPoint) {
       EXPECT_GT(body.reference[0], 0);
     }
   }
-  // whatever the order of cutting would be, and healed: the joint parts what it reaches
+  // for any order of cutting, and with healed: the joint divides the blocks that it reaches
   for (const char* order : {"size", "given", "alternating"})
     for (const char* ends : {"extended", "healed"})
       EXPECT_EQ(square(level_joint(0.3, 0.5, "ends_at = \"wall\"\n") + "[slicing]\n",
@@ -151,14 +152,14 @@ TEST(SlicingScene, AJointEndsAtAnotherOnTheSideOfItsPoint) {
       square(level_joint(0.3, 0.5, "ends_at = \"wall\"\n") + "[slicing]\nends = \"ignored\"\n").model.bodies.size(),
       4u);
 
-  // a finite joint, which would be cut last: the infinite one that ends at it waits. In the lower right quarter the
-  // trace is at x = 0.5, the low joint runs from the wall to it
+  // a finite joint, which would be cut last: the infinite one that ends at it comes after it. In the lower right
+  // quarter the trace is at x = 0.5, the low joint runs from the wall to it
   const std::string trace_down =
       "[[joints]]\nname = \"trace\"\ndip = 90\ndip_direction = 90\npoint = [0.5, -0.5]\nshape = \"trace\"\nlength = "
       "0.9\n";
   const std::string low = "[[joints]]\nname = \"low\"\ndip = 0\npoint = [0.2, -0.6]\nends_at = [\"wall\", \"trace\"]\n";
   expect_areas(square(level_joint(0, 0, "") + trace_down + low), {0.2, 0.3, 0.5, 1, 1, 1});
-  // a chain: what ends at a joint that waits waits for it, too
+  // a chain: a joint that ends at a delayed joint is delayed too
   const std::string upright =
       "[[joints]]\nname = \"upright\"\ndip = 90\ndip_direction = 90\npoint = [0.25, -0.8]\nends_at = \"low\"\n";
   expect_areas(square(level_joint(0, 0, "") + trace_down + low + upright), {0.1, 0.1, 0.3, 0.5, 1, 1, 1});
@@ -167,7 +168,7 @@ TEST(SlicingScene, AJointEndsAtAnotherOnTheSideOfItsPoint) {
 TEST(SlicingScene, AJointEndsAtAnExcavationsFace) {
   const std::string box =
       "[[excavations]]\nname = \"cut\"\nbox = { min = [-0.5, -0.5], max = [0.5, 0.5] }\noutline = true\n";
-  // two level joints, of which one comes from the right; the block right of the wall, of 2 - 0.5 m2, is cut there alone
+  // two horizontal joints, one of which comes from the right; it cuts only the block right of the wall, of 2 - 0.5 m2
   const std::string from_right = level_joint(0.8, 0.2, "ends_at = \"cut\"\n");
   expect_areas(square(box + from_right), {0.8 * 1 - 0.3 * 0.5, 1.2 * 1 - 0.7 * 0.5, 1.5});
   expect_areas(square(box + level_joint(0.8, 0.2, "")), {0.65, 0.65, 0.85, 0.85});
@@ -176,7 +177,7 @@ TEST(SlicingScene, AJointEndsAtAnExcavationsFace) {
   expect_areas(square(box + level_joint(0.8, -0.8, "ends_at = \"wall\"\n")), {0.2, 1.3, 1.5});
   EXPECT_NE(refusal(box + level_joint(0.8, -0.8, "ends_at = \"cut\"\n")).find("misses the excavation 'cut'"),
             std::string::npos);
-  // inside: nothing of it is left when the opening is taken out
+  // inside: nothing of it remains after the excavation of the opening
   expect_areas(square(box + level_joint(0.2, 0.2, "ends_at = \"cut\"\n")), {1.5, 1.5});
   // through a circle, from both sides, the faces are those that the joint meets
   const std::string circle =
@@ -188,7 +189,7 @@ TEST(SlicingScene, AJointEndsAtAnExcavationsFace) {
   }
 }
 
-TEST(SlicingScene, WhatAJointCannotEndAtIsSaid) {
+TEST(SlicingScene, ImpossibleEndsOfJointsAreRefused) {
   const std::string box =
       "[[excavations]]\nname = \"cut\"\nbox = { min = [-0.5, -0.5], max = [0.5, 0.5] }\noutline = true\n";
   struct Case {
@@ -206,9 +207,9 @@ TEST(SlicingScene, WhatAJointCannotEndAtIsSaid) {
       {level_joint(0.3, 0.5, "ends_at = [\"wall\", \"wall\"]\n"), "ends_at", "twice"},
       {level_joint(0.3, 0.5, "") + "[[joints]]\nname = \"bed\"\ndip = 0\npoint = [0.3, 0.6]\nends_at = \"level\"\n",
        "ends_at", "parallel to 'level'"},
-      {level_joint(0, 0.5, "ends_at = \"wall\"\n"), "point", "lies on 'wall'"},
+      {level_joint(0, 0.5, "ends_at = \"wall\"\n"), "point", "is on 'wall'"},
       {level_joint(0.3, 0.5, "ends_at = \"wall\"\nkind = \"boundary\"\nwhole = \"below\"\n"), "ends_at", "boundary"},
-      {box + level_joint(0.5, 0.2, "ends_at = \"cut\"\n"), "point", "lies on 'cut'"},
+      {box + level_joint(0.5, 0.2, "ends_at = \"cut\"\n"), "point", "is on 'cut'"},
       {box.substr(0, box.find("outline")) + level_joint(0.8, 0.2, "ends_at = \"cut\"\n"), "ends_at", "outline = true"},
       {box + level_joint(0.8, 0.2, "ends_at = \"cut\"\n") +
            "[[joints]]\nname = \"cut\"\ndip = 60\ndip_direction = 90\npoint = [0, 0]\n",
@@ -222,7 +223,7 @@ TEST(SlicingScene, WhatAJointCannotEndAtIsSaid) {
   }
 }
 
-TEST(SlicingScene, ATunnelIsTakenOut) {
+TEST(SlicingScene, ATunnelIsExcavated) {
   const std::string tunnel = R"(
 [[excavations]]
 name = "tunnel"
@@ -235,8 +236,8 @@ outline = true
   EXPECT_EQ(prepared.model.joints.size(), 13u);
 }
 
-// A region that leaves 0.05 m of one of the two blocks, which is cut whatever the least size is, and then is too small.
-TEST(SlicingScene, WhatAnOutlineLeavesTooSmallGoes) {
+// A region that leaves 0.05 m of one of the two blocks, which is cut whatever the least size is, and is then too small.
+TEST(SlicingScene, SmallPiecesLeftByAnOutlineAreExcavated) {
   const std::string cutting = R"(
 [[excavations]]
 name = "cutting"
@@ -295,7 +296,7 @@ duration_s = 1
   refused({"joints.wall.corners=[[0, -1, 0], [0, 1, 0], [0, 0, 0.1], [0, 0, 1]]"}, "convex polygon");
   refused({"joints.floor.shape=trace", "joints.floor.length=1"}, "dimension = 3");
   refused({"joints.floor.shape=rectangle"}, "length");
-  refused({"joints.floor.kind=boundary"}, "whole");
+  refused({"joints.floor.kind=boundary"}, "fixed_side");
   refused({"slicing.most_blocks=2"}, "slicing.most_blocks");
 }
 

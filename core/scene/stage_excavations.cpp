@@ -15,32 +15,40 @@ bool holds(const std::vector<std::string>& names, const std::string& name) {
 }
 
 // `acting`: before the stage
-void check_share(const StageSpec& stage, const ActingShare& acting) {
-  const LetOffPlan& plan = *stage.plan.let_off;
-  if (!stage.plan.change.excavate.empty() || plan.share <= acting.share) return;
-  const Subject table = *child(stage.subject, "let_off");
+void check_remaining(const StageSpec& stage, const ActingForces& acting) {
+  const ExcavationForcesPlan& plan = *stage.plan.excavation_forces;
+  if (!stage.plan.change.excavate.empty() || plan.remaining <= acting.remaining) return;
+  const Subject table = *child(stage.subject, "excavation_forces");
   if (acting.stage.empty())
     refuse(
-        table, "share",
-        "nothing of these forces acts any more: the stages that excavate state no let_off, so that they were let off "
-        "at once; state let_off in the stage that excavates, or remove this one");
-  refuse(table, "share",
-         fmt::format("exceeds what acts: {:g} still acts after stage.{}, and forces that are let off do not come back; "
-                     "write at most {:g}, or let off less before",
-                     acting.share, one_line(acting.stage, 60), acting.share));
+        table, "remaining",
+        "none of these forces acts any more: the stages that excavate state no excavation_forces, which removes them "
+        "at once; state excavation_forces in the stage that excavates, or remove this one");
+  refuse(table, "remaining",
+         fmt::format("exceeds the fraction that acts: {:g} remains after stage.{}, and forces that were removed do not "
+                     "come back; write at most {:g}, or a larger fraction before",
+                     acting.remaining, one_line(acting.stage, 60), acting.remaining));
 }
 
 }  // namespace
 
-void ActingShare::follow(const StagePlan& plan) {
-  if (!plan.let_off) return;
-  share = std::min(plan.change.excavate.empty() ? share : 1.0, plan.let_off->share);
+void ActingForces::follow(const StagePlan& plan) {
+  if (!plan.excavation_forces) return;
+  remaining = std::min(plan.change.excavate.empty() ? remaining : 1.0, plan.excavation_forces->remaining);
   stage = plan.name;
+}
+
+std::string remaining_text(double remaining) {
+  const auto text = [](double fraction) {
+    const std::string shortest = fmt::format("{:g}", fraction);
+    return shortest.size() < 4 ? fmt::format("{:.2f}", fraction) : shortest;
+  };
+  return fmt::format("remaining {} (relaxed λ = {})", text(remaining), text(1 - remaining));
 }
 
 void check_excavations(const Scene& scene) {
   std::vector<std::string> names, taken_out;
-  ActingShare acting;
+  ActingForces acting;
   for (const ExcavationSpec& excavation : scene.excavations)
     names.push_back(excavation.name);
   for (const StageSpec& stage : scene.stages) {
@@ -51,16 +59,15 @@ void check_excavations(const Scene& scene) {
                              : "no excavation is named '" + one_line(name, 60) + "'; " + suggestion(name, names));
       if (holds(taken_out, name))
         refuse(stage.subject, "excavate",
-               "takes out '" + one_line(name, 60) + "' once more; name each excavation in one stage, once");
+               "excavates '" + one_line(name, 60) + "' again; name each excavation in one stage, once");
       taken_out.push_back(name);
     }
-    if (!stage.plan.let_off) continue;
+    if (!stage.plan.excavation_forces) continue;
     if (taken_out.empty())
-      refuse(
-          stage.subject, "let_off",
-          "there is nothing to let off: neither this stage nor one before it excavates; write for example excavate = "
-          "[\"tunnel\"]");
-    check_share(stage, acting);
+      refuse(stage.subject, "excavation_forces",
+             "there are no such forces: neither this stage nor one before it excavates; write for example excavate = "
+             "[\"tunnel\"]");
+    check_remaining(stage, acting);
     acting.follow(stage.plan);
   }
 }

@@ -42,9 +42,9 @@ TEST(StageExcavations, AShareAboveTheOneInForceIsRefused) {
         shares.push_back(lets_off ? 1 : 0);
       }
       if (!lets_off) continue;
-      stages += fmt::format("let_off = {{ share = {}, duration_s = 1 }}\n", share);
+      stages += fmt::format("excavation_forces = {{ remaining = {}, duration_s = 1 }}\n", share);
       if (wrong.empty() && !digs && share > *std::ranges::max_element(shares)) {
-        wrong = fmt::format("stage.s{}.let_off.share", s);
+        wrong = fmt::format("stage.s{}.excavation_forces.remaining", s);
         most = *std::ranges::max_element(shares);
         letting = most > 0;
       }
@@ -55,15 +55,15 @@ TEST(StageExcavations, AShareAboveTheOneInForceIsRefused) {
       const Scene scene = parse_scene(text + stages, "scene.toml");
       check_excavations(scene);
       EXPECT_EQ(wrong, "") << stages;
-      ActingShare acting;
+      ActingForces acting;
       for (const StageSpec& stage : scene.stages)
         acting.follow(stage.plan);
-      EXPECT_EQ(acting.share, *std::ranges::max_element(shares)) << stages;
+      EXPECT_EQ(acting.remaining, *std::ranges::max_element(shares)) << stages;
       ++read;
     } catch (const SceneError& error) {
       EXPECT_EQ(error.key, wrong) << error.what() << '\n' << stages;
       if (letting) {
-        EXPECT_NE(std::string(error.what()).find(fmt::format("{:g} still acts after stage.s", most)), std::string::npos)
+        EXPECT_NE(std::string(error.what()).find(fmt::format("{:g} remains after stage.s", most)), std::string::npos)
             << error.what();
       }
       ++refused;

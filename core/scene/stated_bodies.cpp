@@ -16,7 +16,7 @@
 namespace voussoir {
 namespace {
 
-// of the smaller part's volume: far above the rounding of stated corners, far below what changes a result
+// of the smaller part's volume: far above the rounding of stated corners, far below a change of results
 constexpr double least_overlap = 1e-6;
 
 template <int Dim>
@@ -44,14 +44,14 @@ bool is_empty(const Box<Dim>& box) {
   return (box.low.array() >= box.high.array()).any();
 }
 
-// The axes of a part, each as long as the part is wide along it: seen along them the part is round, so that no share of
-// it that matters is too thin to be a block (BlockStatus::flat), however thin the part is.
+// The axes of a part, scaled by its width along each: in these coordinates the part is round, so that no relevant
+// overlap is too thin to be a block (BlockStatus::flat), however thin the part is.
 template <int Dim>
 Matrix<Dim> round_axes_of(const Polytope<Dim>& part) {
   const Vector<Dim>& c = part.mass.centroid;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, Dim, Dim>> own(part.mass.second_moment / part.mass.volume -
                                                                            c * c.transpose());
-  // no convex part spreads less than the ball in it: a bound where rounding leaves nothing
+  // no convex part spreads less than its inscribed ball: a bound if rounding leaves nothing
   const double least = 0.1 * part.inscribed_radius;
   const Vector<Dim> widths = own.eigenvalues().cwiseMax(least * least).cwiseSqrt();
   return own.eigenvectors() * widths.asDiagonal();
@@ -75,10 +75,10 @@ bool contains(const Polytope<Dim>& part, const Vector<Dim>& point) {
   return std::ranges::all_of(part.faces, [&](const auto& face) { return signed_distance<Dim>(face, point) <= 0; });
 }
 
-// points in the middle of cells of a box that lie in both parts
+// midpoints of the cells of a box that are in both parts
 template <int Dim>
 double shared_by_points(const Polytope<Dim>& a, const Polytope<Dim>& b, const Box<Dim>& box) {
-  constexpr int cells = Dim == 2 ? 300 : 40;  // along each axis: a lens that matters fills some 20 of all
+  constexpr int cells = Dim == 2 ? 300 : 40;  // along each axis: a relevant lens fills about 20 cells
   const Vector<Dim> size = box.high - box.low;
   const int layers = Dim == 2 ? 1 : cells;
   long inside = 0;
@@ -102,12 +102,12 @@ double shared_by_points(const Polytope<Dim>& a, const Polytope<Dim>& b, const Bo
   refuse(part.subject, "part_of",
          fmt::format("overlaps part '{}' of the same body by {}{:.6g} {}, {:.3g} of the smaller one; parts of one body "
                      "may touch but not overlap (by more than 1e-6 of the smaller one), since mass, weight, contact "
-                     "area and water would count twice: end one part where the other begins",
+                     "area and water would count twice: end one part at the face of the other",
                      one_line(other.name, 60), about ? "about " : "", shared, dimension == 2 ? "m²" : "m³", fraction));
 }
 
-// Volume that two parts share, m³ (2-D: m²): exact of half-spaces, of potential particles to some percent. Parts that
-// touch share none.
+// Common volume of two parts, m³ (2-D: m²): exact for half-spaces, to a few percent for potential particles. Zero for
+// parts that only touch.
 template <int Dim>
 double shared_volume(const Polytope<Dim>& a, const Polytope<Dim>& b, const Box<Dim>& box) {
   if (is_particle(a) || is_particle(b)) return shared_by_points(a, b, box);
@@ -131,7 +131,7 @@ void refuse_overlaps(const std::vector<Polytope<Dim>>& parts, const std::vector<
     }
 }
 
-// the block whose body a further part belongs to
+// the block to whose body a further part belongs
 const BlockSpec& owner_of(const Scene& scene, const BlockSpec& part) {
   std::vector<std::string> owners;
   for (const BlockSpec& block : scene.blocks) {

@@ -1,4 +1,4 @@
-// The bodies that a scene states block by block, each with the parts that other blocks add to it (part_of).
+// The bodies of a scene, stated block by block, each with the parts that other blocks add to it (part_of).
 #pragma once
 
 #include "core/geometry/polytope.hpp"
@@ -12,8 +12,9 @@ struct StatedBody {
   std::vector<Polytope<Dim>> parts;  // seen from the origin
 };
 
-// In the order of the scene. Throws SceneError for a part of no body, and for two parts of one body that share more
-// than 1e-6 of the smaller one's volume, where mass, weight, contact area and water would count twice. Parts may touch.
+// In the order of the scene. Throws SceneError for a part without a body, and for two parts of one body that share more
+// than 1e-6 of the smaller one's volume, because mass, weight, contact area and water would count twice. Parts may
+// touch.
 template <int Dim>
 std::vector<StatedBody<Dim>> stated_bodies(const Scene& scene, const Vector<Dim>& origin);
 

@@ -40,7 +40,7 @@ std::string block_text(const std::string& name, const HalfSpaces<Dim>& planes, c
 
 template <int Dim>
 double volume_of(HalfSpaces<Dim> planes) {
-  // no two planes may coincide there
+  // no two planes may coincide
   for (std::size_t i = 0; i < planes.size(); ++i)
     for (std::size_t j = planes.size() - 1; j > i; --j)
       if ((planes[i].normal - planes[j].normal).norm() < 1e-12) {
@@ -56,7 +56,7 @@ HalfSpaces<Dim> shared(HalfSpaces<Dim> a, const HalfSpaces<Dim>& b) {
   return a;
 }
 
-// the number that stands before a word
+// the number before a word
 double number_before(const std::string& text, const std::string& word) {
   const std::size_t end = text.find(word);
   if (end == std::string::npos) return -1;
@@ -64,8 +64,8 @@ double number_before(const std::string& text, const std::string& word) {
   return std::stod(text.substr(begin + 1, end - begin - 1));
 }
 
-// A plate or a block, and another that reaches into it through one of its faces by a small or a large part of its own
-// width: from 1e-9 of it to all of it. Both are turned together.
+// A plate or a block, and another that penetrates one of its faces by 1e-9 to 1 of its own width. Both are rotated
+// together.
 template <int Dim>
 struct Pair {
   HalfSpaces<Dim> a, b;
@@ -114,7 +114,7 @@ void expect_overlaps_refused() {
     if (fraction > 1e-6) {
       ++refused;
       EXPECT_NE(message.find("blocks.a2.part_of = \"a\": overlaps part 'a' of the same body by"), std::string::npos);
-      // the coordinates' rounding over the way that one reaches into the other
+      // the coordinates' rounding over the depth of penetration
       EXPECT_NEAR(number_before(message, Dim == 2 ? " m²" : " m³") / both, 1, 1e-5 + 1e-13 / fraction);
       EXPECT_NEAR(number_before(message, " of the smaller one;") / fraction, 1, 0.006 + 1e-13 / fraction);
     } else {
@@ -160,7 +160,7 @@ TEST(PartsOfABody, AreRefusedAsStated) {
   told(a + box_text<3>("side", {1.25, 0, 0}, {2, 1, 1}, of_a) +
            "[[repeat]]\nblocks = [\"a\", \"side\"]\ncount = 2\nshift = [5, 0, 0]\n",
        "blocks.side-1.part_of = \"a-1\": overlaps part 'a-1' of the same body by 0.25 m³");
-  // faces, edges and corners may touch; bodies of their own are another matter
+  // faces, edges and corners may touch; separate bodies are not affected
   EXPECT_EQ(complaint_about(head<3>() + a + box_text<3>("face", {1.5, 0.2, 0.2}, {2, 2, 0.8}, of_a) +
                             box_text<3>("edge", {-1, -1, 0}, {0, 0, 1}, of_a) +
                             box_text<3>("corner", {-1, -1, 1}, {0, 0, 2}, of_a)),
@@ -168,7 +168,7 @@ TEST(PartsOfABody, AreRefusedAsStated) {
   EXPECT_EQ(complaint_about(head<3>() + a + box_text<3>("b", {0.5, 0, 0}, {2, 1, 1})), "");
 }
 
-// rounded bodies: two spheres of radius 1 whose centres lie 1 apart share a lens of 5 π/12
+// rounded bodies: two spheres of radius 1 whose centres are 1 apart share a lens of 5 π/12
 TEST(PartsOfABody, ThatArePotentialParticlesAreRefusedToo) {
   const auto complaint = [](double apart) {
     std::string text = head<3>();

@@ -21,7 +21,7 @@ std::vector<std::string> names_of_supports(const Scene& scene) {
       for (const StatedSupport& support : row.stated(scene)) {
         if (has_name(names, support.name))
           refuse(support.subject, "name",
-                 "is the name of bolts or of another lining; stages install by name, so give it another");
+                 "is also the name of bolts or of another lining; stages install by name, so choose another");
         names.push_back(support.name);
       }
   return names;
@@ -39,17 +39,19 @@ std::vector<std::string> installed_names(const Scene& scene) {
     for (const std::string& name : stage.plan.change.install) {
       if (!has_name(names, name))
         refuse(stage.subject, "install",
-               names.empty() ? "there is nothing to install; add [[bolts]] or [[linings]] with a name"
-                             : "no bolts or lining are named '" + one_line(name, 60) + "'; " + suggestion(name, names));
+               names.empty()
+                   ? "there is nothing to install; add [[bolts]] or [[linings]] with a name"
+                   : "no bolts or linings are named '" + one_line(name, 60) + "'; " + suggestion(name, names));
       if (has_name(installed, name))
         refuse(stage.subject, "install",
-               "puts in '" + one_line(name, 60) + "' once more; name bolts and linings in one stage, once");
+               "installs '" + one_line(name, 60) + "' again; name bolts and linings in one stage, once");
       installed.push_back(name);
       for (const LiningSpec& spec : scene.linings)
         if (spec.properties.name == name && has_name(later, spec.excavation) && !has_name(excavated, spec.excavation))
           refuse(stage.subject, "install",
-                 "puts in the lining '" + one_line(name, 60) + "' before '" + one_line(spec.excavation, 60) +
-                     "' is taken out; install it in the stage that excavates, or after it");
+                 "installs the lining '" + one_line(name, 60) + "' before '" + one_line(spec.excavation, 60) +
+                     "' is excavated; install it "
+                     "in the stage that excavates, or after it");
     }
   }
   return installed;
@@ -63,11 +65,10 @@ void check_installs(const Scene& scene) {
     if (row.stated)
       for (const StatedSupport& support : row.stated(scene))
         if (!has_name(installed, support.name))
-          refuse(
-              support.subject, "name",
-              fmt::format("no stage installs {}; write install = [\"{}\"] in the stage before which it is put in, or "
-                          "remove it",
-                          row.these, one_line(support.name, 60)));
+          refuse(support.subject, "name",
+                 fmt::format("no stage installs {}; write install = [\"{}\"] in the stage before which it is "
+                             "installed, or remove it",
+                             row.these, one_line(support.name, 60)));
 }
 
 }  // namespace voussoir

@@ -1,4 +1,4 @@
-// What a scene states of supports, a row for each kind.
+// The supports of a scene, a row for each kind.
 #pragma once
 
 #include <string>
@@ -20,10 +20,10 @@ struct StatedSupport {
 struct SceneSupport {
   SupportKind kind;
   const char* table = nullptr;                                   // of the scene
-  const char* these = nullptr;                                   // how messages name one
+  const char* these = nullptr;                                   // its name in messages
   void (*read)(const Subject& top, Scene&) = nullptr;            // throws SceneError
   std::vector<StatedSupport> (*stated)(const Scene&) = nullptr;  // in the order of the scene
-  // whatever the order in which the scene states them; the model has its origin and its joint properties
+  // independent of their order in the scene; the model's origin and joint properties are set
   void (*add_in_plane)(const Scene&, Model<2>&) = nullptr;
   void (*add_in_space)(const Scene&, Model<3>&) = nullptr;
 
@@ -61,8 +61,8 @@ inline constexpr SceneSupport scene_supports[] = {
 };
 static_assert(has_each_kind(scene_supports), "a row for each kind of support");
 
-// Every stage installs supports that exist, each is installed by one stage, and a lining once its opening is there.
-// Throws SceneError.
+// Checks that every stage installs supports that exist, that each is installed by one stage, and a lining after its
+// excavation. Throws SceneError.
 void check_installs(const Scene& scene);
 
 }  // namespace voussoir

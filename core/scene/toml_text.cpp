@@ -1,6 +1,6 @@
 #include "core/scene/toml_text.hpp"
 
-// The library's assertions would end the program on input such as "[[[[[[": with them off the same input is a parse
+// The library's assertions would end the program on input such as "[[[[[[": without them the same input is a parse
 // error. (Without NDEBUG, or some of them would turn into promises to the compiler.)
 #undef NDEBUG
 #define TOML_ASSERT(condition) static_cast<void>(0)
@@ -11,7 +11,8 @@
 #define TOML_HEADER_ONLY 1
 #define TOML_ENABLE_FORMATTERS 0
 #define TOML_MAX_NESTED_VALUES 16
-// Letters such as é outside of quotes are taken for a case that cannot happen, which is undefined; they are no blanks.
+// The library takes letters such as é outside of quotes for an impossible case, which is undefined; they are not
+// blanks.
 #include <toml++/impl/preprocessor.h>
 #undef TOML_UNREACHABLE
 #define TOML_UNREACHABLE return false
@@ -40,7 +41,7 @@ class Document {
       if (text[i] == '\n') starts_.push_back(i + 1);
   }
 
-  // "1e-400" is read as zero: its first digits are not
+  // "1e-400" is read as zero although its digits are not
   bool states_more_than_zero(const toml::source_position& begin) const {
     if (begin.line < 1 || begin.line > starts_.size()) return false;
     std::string_view rest = text_.substr(starts_[begin.line - 1]);
@@ -64,7 +65,7 @@ Node converted(const toml::node& from, const Document& document) {
   Node node;
   node.place = {document.source, static_cast<int>(from.source().begin.line)};
   if (const auto* table = from.as_table()) {
-    // the library's tables are sorted by key, and so are ours
+    // the library's tables are sorted by key, like these
     for (const auto& [key, value] : *table) {
       node.members.push_back({std::string(key.str()), converted(value, document)});
       if (node.members.back().value.place.line == 0) node.members.back().value.place.line = key.source().begin.line;
@@ -85,7 +86,7 @@ Node converted(const toml::node& from, const Document& document) {
     node.number = number->get() + 0.0;  // -0 is 0, or a scene would not read back to itself
     if (node.number == 0 && document.states_more_than_zero(from.source().begin))
       refuse(node.place,
-             "a number is too small for the machine and would count as zero; write 0, or correct the exponent");
+             "a number is too small for double precision and would count as zero; write 0, or correct the exponent");
   } else if (const auto* boolean = from.as_boolean()) {
     node.kind = Node::Kind::boolean;
     node.boolean = boolean->get();
@@ -99,7 +100,7 @@ bool same_up_to_case(char a, char b) {
   return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
 }
 
-// a word that only a text can mean: begins with a letter and is no misspelt number or boolean
+// a word that can only be a text: it begins with a letter and is not a misspelt number or boolean
 bool is_bare_word(std::string_view text) {
   if (text.empty() || !std::isalpha(static_cast<unsigned char>(text.front()))) return false;
   for (const std::string_view reserved : {"nan", "inf", "true", "false"})
@@ -107,7 +108,7 @@ bool is_bare_word(std::string_view text) {
   return std::none_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; });
 }
 
-// an override has no lines of its own
+// an override has no line numbers
 void set_place(Node& node, const Place& place) {
   node.place = place;
   for (Node& item : node.items)
@@ -133,21 +134,21 @@ bool holds_decimal_comma(std::string_view line) {
          std::isdigit(static_cast<unsigned char>(line[comma + 1]));
 }
 
-// what the line shows that the parser cannot know
+// likely mistakes in the line, which the parser does not know
 std::string repair_hint(std::string_view description, std::string_view line) {
   if (holds_decimal_comma(line)) return "; decimals are written with a point: 2.5, not 2,5";
   for (const std::string_view mark : {"//", "/*", ";", "%", "--"})
     if (line.starts_with(mark)) return "; a comment begins with #, not with " + std::string(mark);
   if (line.ends_with(';')) return "; a line ends without a semicolon: remove it";
   const bool twice = description.find("redefine") != std::string_view::npos;
-  return twice ? "; each key or table may stand once: remove one, and write [[name]] for the tables of a list"
+  return twice ? "; each key or table may appear once: remove one, and write [[name]] for the tables of a list"
                : "; correct the TOML here (texts in double quotes, lists as [1, 2, 3], one key = value a line)";
 }
 
 }  // namespace
 
-// What a text claims, before anything is allocated for it. Keys of very many parts would nest tables until the stack
-// ends (the library limits nested values only); and every value needs a comma, an equals sign or a bracket.
+// Bounds of a text, checked before memory is allocated. Keys of very many parts would nest tables until the stack
+// overflows (the library limits nested values only); and every value needs a comma, an equals sign or a bracket.
 void require_sane_size(std::string_view text, const std::string& source) {
   if (text.size() > largest_scene_file)
     throw SceneError(source + ": larger than 16 MB; a scene must be smaller", source);
@@ -172,7 +173,7 @@ void require_sane_size(std::string_view text, const std::string& source) {
 Node parse_toml(std::string_view text, const std::shared_ptr<const std::string>& source) {
   if (is_utf_16(text)) refuse(Place{source, 0}, save_as_utf_8);
   require_sane_size(text, *source);
-  const WithoutTraps without_traps;  // "1e400" overflows inside the library on its way to a parse error
+  const WithoutTraps without_traps;  // "1e400" overflows inside the library before it reports a parse error
   try {
     Node root = converted(toml::parse(text, std::string_view(*source)), {text, source});
     root.place.line = 1;
@@ -187,7 +188,7 @@ Node parse_toml(std::string_view text, const std::shared_ptr<const std::string>&
 Node parse_toml_value(std::string_view text, const Place& place) {
   const auto source = std::make_shared<const std::string>(place_text(place));
   require_sane_size(text, *source);
-  const WithoutTraps without_traps;  // "1e400" overflows inside the library on its way to a parse error
+  const WithoutTraps without_traps;  // "1e400" overflows inside the library before it reports a parse error
   Node value;
   try {
     // a line break would start another key; overrides are one line

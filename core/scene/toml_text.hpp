@@ -1,4 +1,4 @@
-// TOML text to a tree; the only place that knows the TOML library.
+// TOML text to a tree; the only file that uses the TOML library.
 #pragma once
 
 #include <string_view>
@@ -7,13 +7,13 @@
 
 namespace voussoir {
 
-// Refuses a text that claims more than a scene may hold, before memory is taken for it.
+// Refuses a text that is larger than a scene may be, before memory is allocated for it.
 void require_sane_size(std::string_view text, const std::string& source);
 
 // the whole text of a scene file; syntax errors name the line
 Node parse_toml(std::string_view text, const std::shared_ptr<const std::string>& source);
 
-// One value as it stands after `key =`; a bare word is a text. Every node gets the given place.
+// One value as written after `key =`; a bare word is a text. Every node gets the given place.
 Node parse_toml_value(std::string_view text, const Place& place);
 
 }  // namespace voussoir

@@ -30,21 +30,22 @@ const ExcavationSpec& opening_of(const Scene& scene, const MonitorSpec& spec) {
   refuse(spec.body.subject, "excavation", "no excavation of this name; " + suggestion(spec.excavation, names));
 }
 
-// what a wall is seen from, in model coordinates, and the axes that angles count from and turn to
+// the centre from which a wall is seen, in model coordinates, and the axes of its angles, from the first towards the
+// second
 template <int Dim>
 struct View {
   Vector<Dim> centre, right, up;
 };
 
-// across the middle of the axis of its cylinder; in the plane also from the middle of its box
+// perpendicular to the axis of its cylinder, at the middle; in 2-D also from the middle of its box
 template <int Dim>
 View<Dim> view_of(const ExcavationSpec& opening, const Vector<Dim>& origin, const MonitorSpec& spec) {
   const RegionSpec& region = opening.region;
   if (!region.cylinder && (Dim == 3 || !region.box))
     refuse(spec.body.subject, "excavation",
-           Dim == 3 ? "has no axis to look across; in space state it by a cylinder, and planes beside that"
-                    : "is stated by planes alone and has no centre to look from; state it by a cylinder or a box, and "
-                      "planes beside that");
+           Dim == 3
+               ? "has no axis; in 3-D state it by a cylinder, with planes if needed"
+               : "is stated by planes only and has no centre; state it by a cylinder or a box, with planes if needed");
   const auto middle = [](const std::vector<double>& a, const std::vector<double>& b) {
     return Vector<Dim>(0.5 * (to_vector<Dim>(a) + to_vector<Dim>(b)));
   };
@@ -62,7 +63,8 @@ View<Dim> view_of(const ExcavationSpec& opening, const Vector<Dim>& origin, cons
   view.centre -= origin;
   if (!lies_inside<Dim>(region_planes<Dim>(region, origin), view.centre))
     refuse(spec.body.subject, "excavation",
-           "does not hold the centre of its own cylinder or box, from which its wall is seen; state the region about "
+           "does not contain the centre of its own cylinder or box, from which the points of its wall are found; state "
+           "the region around "
            "its centre");
   const auto [right, up] = ray_axes<Dim>(axis);
   view.right = right;
@@ -70,7 +72,7 @@ View<Dim> view_of(const ExcavationSpec& opening, const Vector<Dim>& origin, cons
   return view;
 }
 
-// how far along a ray a part begins; infinite where the ray misses it
+// the distance along a ray to a part; infinite if the ray misses it
 template <int Dim>
 double begins_at(const Polytope<Dim>& part, const Vector<Dim>& from, const Vector<Dim>& along) {
   double first = 0, last = std::numeric_limits<double>::infinity();
@@ -102,7 +104,7 @@ WallPoint wall_at(const Model<Dim>& model, const View<Dim>& view, double angle, 
   for (const Body<Dim>& body : model.bodies) {
     if (!body.present) continue;
     for (const Polytope<Dim>& part : body.parts) {
-      if (is_particle(part)) continue;  // it is no wall
+      if (is_particle(part)) continue;  // particles are not part of the wall
       const double distance = begins_at<Dim>(part, view.centre - body.reference, along);
       if (distance >= nearest) continue;
       nearest = distance;
@@ -117,15 +119,15 @@ WallPoint wall_at(const Model<Dim>& model, const View<Dim>& view, double angle, 
   return wall;
 }
 
-// a stage after the one that takes the opening out may take out the rock that is followed
+// a stage after that of the opening may excavate the monitored rock
 template <int Dim>
 void require_rock(const Model<Dim>& model, const std::vector<WallPoint>& walls, const std::vector<double>& angles,
                   const std::string& stage, const Subject& monitor) {
   for (std::size_t k = 0; k < walls.size(); ++k)
     if (body_around<Dim>(model, Eigen::Map<const Vector<Dim>>(walls[k].rock.data())) < 0)
       refuse(monitor, "angles_deg",
-             fmt::format("the rock at {:g} deg is taken out by stage '{}'; choose another angle, or follow the wall of "
-                         "what that stage takes out",
+             fmt::format("the rock at {:g} deg is excavated by stage '{}'; choose another angle, or monitor the wall "
+                         "of that excavation",
                          angles[k], stage));
 }
 

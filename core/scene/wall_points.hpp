@@ -1,4 +1,4 @@
-// Where a monitor follows the wall of an opening.
+// The points of an opening's wall that a monitor follows.
 #pragma once
 
 #include <vector>
@@ -8,9 +8,9 @@
 
 namespace voussoir {
 
-// Where rays from the opening's centre, in space across the middle of its axis, first meet rock once it has been taken
-// out, by the stage that does so or before the first one. Throws SceneError where the opening is not known or has no
-// centre, or a ray meets no rock, or rock that a later stage takes out.
+// The first points of rock on rays from the opening's centre (in 3-D perpendicular to its axis, at the middle) after
+// its excavation. Throws SceneError if the opening is not known or has no centre, or if a ray meets no rock, or rock
+// that a later stage excavates.
 template <int Dim>
 std::vector<WallPoint> wall_points(const Scene& scene, const Prepared<Dim>& prepared, const MonitorSpec& spec);
 

@@ -1,4 +1,5 @@
-// Water of scenes: how stages change it, and that no thread, pause or way to rest changes what comes of it.
+// Water in scenes: its changes by stages, and results that do not depend on threads, interruptions or the static
+// solution method.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -55,9 +56,9 @@ Prepared<2> prepared(const std::string& stages, const std::vector<std::string>& 
   return scene_of(stack + stages, overrides);
 }
 
-TEST(WaterOfAScene, ChangesAsItsStagesSay) {
+TEST(WaterOfAScene, ChangesByItsStages) {
   const Prepared<2> scene = prepared(settle + flow + rise);
-  // the level has the points of the table that it becomes
+  // the level has the points of the later table
   EXPECT_EQ(scene.model.waters[0].values.size(), 6u);
   const Progress<2> progress = simulated(scene);
   ASSERT_EQ(progress.results.outcome, Outcome::done) << progress.results.message;
@@ -99,7 +100,7 @@ TEST(WaterOfAScene, GivesTheSameBitsForThreadsAndAfterAPause) {
   }
 }
 
-TEST(WaterOfAScene, IsKnownToTheHash) {
+TEST(WaterOfAScene, IsPartOfTheHash) {
   const Prepared<2> scene = prepared(settle);
   State<2> state = scene.state;
   const std::string before = state_hash(scene.model, state);
@@ -107,11 +108,11 @@ TEST(WaterOfAScene, IsKnownToTheHash) {
   EXPECT_NE(state_hash(scene.model, state), before);
 }
 
-// Newton's method comes to the same rest as relaxation, by itself, in increments of the level
-TEST(WaterOfAScene, IsMetByNewtonsMethod) {
+// Newton's method finds the same equilibrium as relaxation, on its own, in increments of the level
+TEST(WaterOfAScene, IsSolvedByNewtonsMethod) {
   const std::string up = settle + "[[stage]]\nname = \"up\"\nkind = \"settle\"\n" + rise;
   const Progress<2> relaxed = simulated(prepared(up));
-  const Progress<2> newton = simulated(prepared(up, {"damping.statics=newton", "damping.increments=3"}));
+  const Progress<2> newton = simulated(prepared(up, {"statics=newton", "static_increments=3"}));
   ASSERT_EQ(newton.results.outcome, Outcome::done) << newton.results.message;
   EXPECT_GT(newton.state.counters.static_iterations, 0);
   EXPECT_EQ(newton.state.counters.static_fallbacks, 0);
@@ -146,13 +147,13 @@ std::string water_text(const Table& table, const std::string& faces, double besi
   return text + "] }]\n";
 }
 
-// whose first, last or middle point lies at the crack or at a side of the domain, 1 m above the floor at the crack
+// whose first, last or middle point is at the crack or at a side of the domain, 1 m above the floor at the crack
 const std::vector<Table> bent_tables{{{0, 0}, {1, 1}},   {{1, 1}, {2, 0}},
                                      {{1, 1}, {3, 0.5}}, {{0, 0.4}, {1, 1}, {2, 0}},
                                      {{0, 1}, {3, 1}},   {{-1, 0}, {1, 1}, {3, 0.2}},
                                      {{-5, 3}, {1, 1}},  {{0.5, 1}, {1, 1}, {1.5, -2}}};
 
-TEST(WaterOfAScene, AtABendIsThatBesideIt) {
+TEST(WaterOfAScene, AtAKinkIsContinuous) {
   for (const Table& table : bent_tables)
     for (const std::string faces :
          {"\"crack\"", "\"outer\"", "\"all\"", "\"floor\", \"crack\"", "\"outer\", \"crack\""}) {
@@ -179,7 +180,7 @@ TEST(WaterOfAScene, AtABendIsThatBesideIt) {
 }
 
 // the thrust of 1 m of water, 5 kN, in a run and in a search: the block slides below atan 5/20
-TEST(WaterOfAScene, AtABendPushesInRunAndSearch) {
+TEST(WaterOfAScene, AtAKinkPushesInRunAndSearch) {
   const std::string instant = "[[stage]]\nname = \"instant\"\nkind = \"run\"\nduration_s = 1e-4\n";
   const std::string reduce = settle +
                              "[[stage]]\nname = \"reduce\"\nkind = \"reduce\"\nfrom_deg = 30\nto_deg = "
@@ -190,7 +191,7 @@ TEST(WaterOfAScene, AtABendPushesInRunAndSearch) {
     EXPECT_NEAR(run.results.find("m_water_load_x")->value, -5000, 1e-3);
     const Progress<2> search = simulated(prepare<2>(parse_scene(scene + reduce, "scene.toml")));
     ASSERT_EQ(search.results.outcome, Outcome::done) << search.results.message;
-    // the bracket, and 1 mm of slip out of the water, which takes 0.2 % of its thrust
+    // the bracket, and 1 mm of slip out of the water, which reduces its thrust by 0.2 %
     EXPECT_NEAR(search.results.find("critical_friction")->value, std::atan(0.25) / degree, 0.1 + 0.03);
   }
 }

@@ -17,9 +17,9 @@ std::vector<double> moved(std::vector<double> numbers, const Vector<3>& origin) 
   return numbers;
 }
 
-// No rock lies on both sides of its faces, or it is one body: sides of the domain, blocks given directly, faces of
-// excavations and their outlines, construction joints. Where a construction joint lies within a body, its two faces
-// push against each other.
+// Faces without rock on both sides, or with one body on both: sides of the domain, blocks given directly, faces of
+// excavations and their outlines, construction joints. The pressures on the two faces of a construction joint within a
+// body cancel.
 template <int Dim>
 std::vector<std::size_t> outer_faces(const Scene& scene, const Model<Dim>& model) {
   std::vector<std::size_t> places;
@@ -45,7 +45,7 @@ std::vector<std::string> known_names(const Scene& scene) {
   return names;
 }
 
-// the places in Model::water_of_joint that a word names
+// the indices in Model::water_of_joint that a word names
 template <int Dim>
 std::vector<std::size_t> places_of(const std::string& word, const WaterSpec& water, const Scene& scene,
                                    const Model<Dim>& model) {
@@ -80,8 +80,9 @@ void add_waters(const Scene& scene, Model<Dim>& model) {
           refuse(spec.subject, "faces",
                  (place < model.joints.size() ? "the faces of joint '" + model.joints[place].name + "'"
                                               : std::string("the outer faces")) +
-                     " have the water '" + waters[other].name +
-                     "' already, and a face takes only one; name the joints of each water, or \"outer\"");
+                     " already have the water '" + waters[other].name +
+                     "', and a face has only one; name the joints of each water, or "
+                     "\"outer\"");
         water_of_joint[place] = number;
       }
     const bool uniform = spec.surface.pressure.has_value();

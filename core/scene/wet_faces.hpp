@@ -1,4 +1,4 @@
-// Which water is on which face.
+// Assigns waters to faces.
 #pragma once
 
 #include "core/model/model.hpp"
@@ -6,8 +6,8 @@
 
 namespace voussoir {
 
-// Gives the model, whose joints and bodies are known, the scene's waters. Throws SceneError for a joint that is not
-// there and for a face with two waters.
+// Gives the model, whose joints and bodies are set, the scene's waters. Throws SceneError for an unknown joint and for
+// a face with two waters.
 template <int Dim>
 void add_waters(const Scene& scene, Model<Dim>& model);
 

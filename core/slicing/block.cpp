@@ -23,8 +23,8 @@ constexpr double redundancy_tolerance = 1e-10;
 // an inscribed ball smaller than this times the offsets it follows from is their rounding: planes that only touch
 constexpr double ball_rounding = 64 * std::numeric_limits<double>::epsilon();
 
-// Coordinates carry 2e-16 of the extent and of the distance from the origin. Where that comes near the inscribed radius
-// few digits of volume and overlap are left: such a block is refused.
+// Coordinates have an error of 2e-16 of the extent and of the distance from the origin. If that is close to the
+// inscribed radius few digits of volume and overlap remain: such a block is refused.
 constexpr double thinnest = 1e-8;                                           // inscribed radius / extent
 constexpr double farthest = 1e-6 / std::numeric_limits<double>::epsilon();  // distance / inscribed radius
 
@@ -33,8 +33,8 @@ bool valid(const HalfSpace<Dim>& plane) {
   return plane.normal.allFinite() && std::isfinite(plane.offset) && plane.normal.norm() > 0;
 }
 
-// Unit to rounding stays as it is: a plane that was divided again at every later cut would come out in other bits when
-// the cuts come in another order.
+// A normal that is unit to rounding is kept: a plane normalised again at every later cut would have other bits if the
+// cuts were made in another order.
 template <int Dim>
 void normalise(HalfSpace<Dim>& plane) {
   constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
@@ -44,7 +44,7 @@ void normalise(HalfSpace<Dim>& plane) {
   plane.offset /= norm;
 }
 
-// the order of a part's faces, whatever the order in which its planes were given
+// the order of a part's faces, for any order of its planes in the input
 template <int Dim>
 bool before(const HalfSpace<Dim>& a, const HalfSpace<Dim>& b) {
   for (int k = 0; k < Dim; ++k)
@@ -52,7 +52,7 @@ bool before(const HalfSpace<Dim>& a, const HalfSpace<Dim>& b) {
   return a.offset < b.offset;
 }
 
-// corners by their coordinates: planes through them must not round differently when they are listed otherwise
+// corners by their coordinates: planes through them must not round differently when they are listed in another order
 template <int Dim>
 std::vector<Vector<Dim>> sorted(std::vector<Vector<Dim>> points) {
   std::sort(points.begin(), points.end(), [](const Vector<Dim>& a, const Vector<Dim>& b) {
@@ -61,11 +61,11 @@ std::vector<Vector<Dim>> sorted(std::vector<Vector<Dim>> points) {
   return points;
 }
 
-// Bounded iff the recession cone {a_i·x <= 0} holds no direction: along no axis, either way, can a point continue for
-// ever.
+// Bounded iff the recession cone {a_i·x <= 0} has no direction: along no axis, in either sense, can a point continue
+// endlessly.
 template <int Dim>
 bool bounded(const HalfSpaces<Dim>& planes) {
-  constexpr double rounding = 1e-12;  // of unit normals; a needle of aspect 1e6 still answers 1e-6
+  constexpr double rounding = 1e-12;  // of unit normals; a needle of aspect 1e6 still gives 1e-6
   HalfSpaces<Dim> cone = planes;
   for (HalfSpace<Dim>& p : cone)
     p.offset = 0;
@@ -119,8 +119,8 @@ BlockStatus judge(const HalfSpaces<Dim>& planes, const FeasibilityResult<Dim>& b
   return ball.point.norm() > farthest * std::abs(ball.value) ? BlockStatus::far : BlockStatus::ok;
 }
 
-// Where fewer faces carry the inscribed ball than the LP has tight planes, as two opposite ones do, the rest of the
-// basis is free: the faces most independent of the others take those places.
+// If fewer faces touch the inscribed ball than the LP has tight planes, as two opposite ones do, the rest of the basis
+// is free: the faces most independent of the others take those places.
 template <int Dim>
 void complete_basis(Polytope<Dim>& part) {
   using Column = FixedMatrix<Dim + 1, 1>;
@@ -154,7 +154,7 @@ void complete_basis(Polytope<Dim>& part) {
   part.basis_inverse = columns.inverse();
 }
 
-// all that follows from a part's faces
+// the data that follow from a part's faces
 template <int Dim>
 BlockStatus describe(Polytope<Dim>& part) {
   const FeasibilityResult<Dim> ball = solve_feasibility<Dim>(part.faces, {});
@@ -166,7 +166,7 @@ BlockStatus describe(Polytope<Dim>& part) {
   Surface<Dim> surface = surface_around(part.faces, ball);
   if (const BlockStatus status = judge(surface, part.inscribed_radius); status != BlockStatus::ok) return status;
 
-  // a face that only just bounded something may have lost it: without it, all over again
+  // a face that only just bounded the part may bound it no longer: all is recomputed without it
   for (std::size_t f = part.faces.size(); f-- > 0;) {
     if (!surface.loops[f].empty()) continue;
     part.faces.erase(part.faces.begin() + f);
@@ -217,7 +217,7 @@ BlockResult<Dim> make_block(const HalfSpaces<Dim>& input, const std::vector<int>
     normalise(planes[i]);
   }
 
-  // the largest inscribed ball tells whether the planes enclose a solid at all
+  // the largest inscribed ball shows whether the planes enclose a solid at all
   const FeasibilityResult<Dim> ball = solve_feasibility<Dim>(planes, {});
   if (static_cast<int>(planes.size()) <= Dim || !bounded(planes)) {
     result.status = BlockStatus::open;
@@ -226,7 +226,8 @@ BlockResult<Dim> make_block(const HalfSpaces<Dim>& input, const std::vector<int>
   result.status = judge(planes, ball);
   if (result.status != BlockStatus::ok) return result;
 
-  // redundant planes (Eq. 3.8) have no loop and go; of equal ones the last, and with it the newest joint, stays
+  // redundant planes (Eq. 3.8) have no loop and are dropped; of equal ones the last is kept, and with it the newest
+  // joint
   const Surface<Dim> all = surface_around(planes, ball);
   result.status = judge(all, -ball.value);
   if (result.status != BlockStatus::ok) return result;
@@ -262,7 +263,7 @@ BlockStatus cut_draft(const Draft<Dim>& whole, const HalfSpace<Dim>& plane, int 
   for (Vector<Dim>& v : below.vertices)
     v += below.ball.point;
 
-  // what the cut took away goes, and with it its number in the ball's basis
+  // faces that the cut removed are dropped, and with them their numbers in the ball's basis
   std::vector<int> number(planes.size(), -1);
   below.faces.clear();
   below.joints.clear();
@@ -306,7 +307,7 @@ HalfSpaces<2> hull_planes(const std::vector<Vector<2>>& stated, int* hidden) {
         extreme = extreme && distance <= tolerance;
         inner = inner || (std::abs(distance) <= tolerance && (along < -1e-9 || along > 1 + 1e-9));
       }
-      if (!extreme || inner) continue;  // only the whole edge counts, from corner to corner
+      if (!extreme || inner) continue;  // only the full edge counts, from corner to corner
       planes.push_back({normal, normal.dot(points[i])});
       used[i] = used[j] = true;
     }

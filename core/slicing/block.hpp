@@ -11,7 +11,7 @@ namespace voussoir {
 enum class BlockStatus {
   ok,
   open,      // the planes do not close a region
-  empty,     // no point satisfies all of them with room to spare: 1e-10 of the coordinates at most is left
+  empty,     // no point satisfies all of them with room to spare: at most 1e-10 of the coordinates remains
   flat,      // thinner than 1e-8 of its extent: its coordinates' rounding would be seen in its volume
   far,       // so far from the origin that coordinates round by more than 1e-6 of its size
   bad_plane  // a zero or non-finite normal, or a non-finite offset
@@ -26,14 +26,14 @@ struct BlockResult {
 
 // Normals are normalised; of planes that coincide the last one, with its joint, is kept (Boon 2013, Eq. 3.8, keeps
 // both), and a plane that would cut off less than 1e-10 of the inscribed radius is dropped. Faces
-// come in an order of their own, so that a part has the same bits for any order of its planes (which of planes that
-// coincide names the joint apart). Vertices lie within some 64 roundings of the coordinates of the planes, measured
+// come in an order of their own, so that a part has the same bits for any order of its planes (except which of
+// coincident planes names the joint). Vertices lie within some 64 roundings of the coordinates of the planes, measured
 // across them; volume, centroid and inertia follow from that. `joints` names the joint of each plane, or no_joint.
 // Coordinates as given: the caller keeps the origin near the block.
 template <int Dim>
 BlockResult<Dim> make_block(const HalfSpaces<Dim>& planes, const std::vector<int>& joints);
 
-// A part that is still being cut: what decides about the next cut, and nothing that only the finished part needs.
+// A part that is still being cut: the data that decide the next cut, without those that only the finished part needs.
 template <int Dim>
 struct Draft {
   HalfSpaces<Dim> faces;              // unit normals, none redundant

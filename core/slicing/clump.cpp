@@ -13,7 +13,7 @@ namespace voussoir {
 namespace {
 
 // Two faces that share less than this of the smaller one's area (and, in lengths, less than its root) touch at an
-// edge: above the rounding of their corners, below any contact that could carry load.
+// edge: above the rounding of their corners, below any contact that could transfer load.
 constexpr double least_fraction = 1e-9;
 
 // a corner beyond a joint's extent by no more than this times the extent's or the face's size lies in it
@@ -53,7 +53,7 @@ double size_of(const std::vector<Vector<3>>& ring) {
   return twice.norm() / 2;
 }
 
-// what of a ring of points (2-D: of a segment) lies in a half-space
+// the part of a ring of points (2-D: of a segment) in a half-space
 template <int Dim>
 std::vector<Vector<Dim>> clipped(const std::vector<Vector<Dim>>& ring, const HalfSpace<Dim>& plane) {
   std::vector<Vector<Dim>> left;
@@ -159,7 +159,7 @@ std::vector<SharedFace> shared_faces(const std::vector<Polytope<Dim>>& parts, co
 
 template <int Dim>
 std::vector<int> bodies_of(const std::vector<Polytope<Dim>>& parts, const std::vector<Cut<Dim>>& cuts, bool heal) {
-  // only these joints can hold anything together
+  // only these joints can hold parts together
   std::vector<Cut<Dim>> holding;
   std::map<int, JointKind> kind;
   for (const Cut<Dim>& cut : cuts)

@@ -1,4 +1,4 @@
-// What happens to the parts that joints made: excavated, held together, or kept apart (Boon 2013, section 3.2.5).
+// The parts that joints made: excavated, held together, or kept apart (Boon 2013, section 3.2.5).
 #pragma once
 
 #include <vector>
@@ -8,21 +8,21 @@
 
 namespace voussoir {
 
-// where a part below and a part above a joint touch
+// the face in which a part below and a part above a joint touch
 struct SharedFace {
   int joint = 0;
   int below = 0, above = 0;  // parts
   double area = 0;           // m² (2-D: m)
-  bool covered = true;       // it lies within the joint's extent
+  bool covered = true;       // it is within the joint's extent
 };
 
 // Every pair of parts that share an area of a joint, by joint, part below, part above.
 template <int Dim>
 std::vector<SharedFace> shared_faces(const std::vector<Polytope<Dim>>& parts, const std::vector<Cut<Dim>>& cuts);
 
-// The body of each part, numbered in the order of the parts. Parts are one body where they share a face of a
-// construction joint and, when `heal`, where the joint between them does not cover all of the face they share: Yu et
-// al. (2009), who cut by infinite planes where we cut by extents, so that far fewer parts have to be joined.
+// The body of each part, numbered in the order of the parts. Parts are one body if they share a face of a construction
+// joint and, with `heal`, if the joint between them does not cover all of the face they share: Yu et al. (2009), who
+// cut by infinite planes, not by extents as here, so that far fewer parts have to be joined.
 template <int Dim>
 std::vector<int> bodies_of(const std::vector<Polytope<Dim>>& parts, const std::vector<Cut<Dim>>& cuts, bool heal);
 

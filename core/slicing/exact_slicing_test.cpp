@@ -1,5 +1,5 @@
 // Slicing by planes of small integers, which meet in lines, points and each other, against the same slicing in
-// rationals: as many cells, each of them where the referee has it.
+// rationals: the same number of cells, each at the referee's place.
 #include <gtest/gtest.h>
 
 #include "core/slicing/slice.hpp"

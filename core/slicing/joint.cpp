@@ -8,7 +8,7 @@
 
 namespace voussoir {
 
-// the lines of Eqs 3.9 and 3.10, turned and moved to where the joint lies: Eqs 3.14 and 3.15
+// the lines of Eqs 3.9 and 3.10, turned and moved to the joint: Eqs 3.14 and 3.15
 Extent<3> polygon_extent(const Vector<3>& normal, const Vector<3>& point, const std::vector<Vector<2>>& stated) {
   Extent<3> extent;
   const std::vector<Vector<2>> corners = counter_clockwise(stated);
@@ -75,7 +75,8 @@ Extent<3> extent_of(const Vector<3>& normal, const Outline<3>& outline, int elli
 template <int Dim>
 void put_in_order(std::vector<Cut<Dim>>& cuts, CuttingOrder order) {
   if (order == CuttingOrder::given) return;
-  // boundary joints keep one side whole and come first; construction joints shape what the others left
+  // boundary joints leave one side in one piece and come first; construction joints shape the pieces that the others
+  // leave
   const auto stage = [](const Cut<Dim>& cut) {
     return cut.kind == JointKind::boundary ? 0 : cut.kind == JointKind::construction ? 2 : 1;
   };

@@ -1,4 +1,4 @@
-// A joint as slicing sees it: a plane, how far it reaches in it, and what its faces mean (Boon 2013, chapter 3.2).
+// A joint in slicing: a plane, its extent within it, and the meaning of its faces (Boon 2013, chapter 3.2).
 #pragma once
 
 #include <limits>
@@ -18,7 +18,7 @@ enum class JointKind {
 // which side of a joint, seen along its normal
 enum class JointSide { none, below, above };
 
-// The part of a joint's plane that exists: no half-space, and it has no end. Every half-space that bounds it counts,
+// The part of a joint's plane that exists: without half-spaces it is infinite. Every half-space that bounds it counts,
 // those of an outline, perpendicular to the joint, and those of a subdomain to which it is confined.
 template <int Dim>
 struct Extent {
@@ -32,15 +32,15 @@ struct Extent {
 template <int Dim>
 struct Cut {
   HalfSpace<Dim> plane;  // upward normal, unit
-  int joint;             // the number that the faces it makes remember
+  int joint;             // the number stored with the faces that it makes
   Extent<Dim> extent{};
   int set = 0;  // of the same joint set
   JointKind kind = JointKind::rock;
-  JointSide whole = JointSide::none;  // boundary: the side that stays whole
+  JointSide fixed_side = JointSide::none;  // boundary: the side that stays in one piece
 };
 
 // Outlines about a point of the plane, from coordinates along its axes (m). A polygon has at least three corners, in
-// either sense; of one that is not convex or has no area, the extent is empty of bounds: the caller refuses it. An
+// either sense; if it is not convex or has no area, the extent has no bounds: the caller refuses it. An
 // ellipse becomes the polygon of `sides` sides that touches it from outside, which is larger by sides/π tan(π/sides).
 Extent<3> polygon_extent(const Vector<3>& upward_normal, const Vector<3>& point, const std::vector<Vector<2>>& corners);
 Extent<3> rectangle_extent(const Vector<3>& upward_normal, const Vector<3>& centre, double along_strike,
@@ -55,10 +55,10 @@ Extent<2> trace_extent(const Vector<2>& upward_normal, const Vector<2>& centre, 
 Extent<2> extent_of(const Vector<2>& upward_normal, const Outline<2>& outline, int ellipse_sides);
 Extent<3> extent_of(const Vector<3>& upward_normal, const Outline<3>& outline, int ellipse_sides);
 
-// But for `given`, boundary joints come first and construction joints last, whatever their size and set.
+// Except for `given`, boundary joints come first and construction joints last, at any size and of any set.
 enum class CuttingOrder {
   given,
-  by_size,      // large extents first: a small joint then ends at the large ones; of one size alternating
+  by_size,      // large extents first: a small joint then ends at the large ones; those of one size alternate
   alternating,  // the first of every set, the second of every set, …
 };
 

@@ -1,4 +1,4 @@
-// What joints with an end, of every kind, do to blocks; clumps and excavations.
+// Cuts by joints of finite extent, of every kind; clumps and excavations.
 #include "core/slicing/joint.hpp"
 
 #include <gtest/gtest.h>
@@ -110,9 +110,9 @@ TEST(Extent, OutlinesHaveTheirAreas) {
 }
 
 // Eq. 3.16
-TEST(Extent, AJointCutsRightThroughWhatItMeetsAndNothingElse) {
+TEST(Extent, AJointCutsRightThroughTheBlocksThatItMeetsAndNoOther) {
   const Cut<3> floor{{z, 0}, 0};
-  EXPECT_EQ(count({floor, wall(x, 0.2, 0.8, 1)}), 3u);    // inside the upper half: only that is cut
+  EXPECT_EQ(count({floor, wall(x, 0.2, 0.8, 1)}), 3u);    // inside the upper half: only this is cut
   EXPECT_EQ(count({floor, wall(x, 0, 0.8, 1)}), 3u);      // ends at the floor
   EXPECT_EQ(count({floor, wall(x, -1e-6, 0.8, 1)}), 4u);  // and a little below it
   EXPECT_EQ(count({wall(x, 0.2, 0.8, 1), floor}), 4u);    // cut first, when all is one block
@@ -195,7 +195,7 @@ TEST(CuttingOrder, BySizeAndByTurns) {
   EXPECT_EQ(joints(cuts, CuttingOrder::by_size), (std::vector<int>{1, 2, 5, 4, 0, 3}));
   EXPECT_EQ(joints(cuts, CuttingOrder::alternating), (std::vector<int>{0, 3, 1, 4, 2, 5}));
 
-  // joints of one size alternate; a boundary comes before and a construction joint behind whatever is larger
+  // joints of one size alternate; a boundary comes before and a construction joint after all that are larger
   for (Cut<3>& c : cuts)
     c.extent = {};
   cuts[0].kind = JointKind::construction;
@@ -207,7 +207,7 @@ TEST(CuttingOrder, BySizeAndByTurns) {
 
 // ---- limits -----------------------------------------------------------------------------------------------------
 
-TEST(Limits, WhatIsRefusedLeavesTheParentBitForBit) {
+TEST(Limits, ARefusedCutLeavesTheParentBitForBit) {
   // a grid of 64 cubes, and beside each of its joints one that leaves slabs: too thin, or too flat
   std::vector<Cut<3>> sound, all;
   for (int axis = 0; axis < 3; ++axis)
@@ -273,7 +273,7 @@ TEST(Clump, HealedBlocksAreThoseThatJointsSeparate) {
 }
 
 TEST(Clump, ConstructionJointsShapeAConcaveBody) {
-  // an L of three quarters of the cube: two construction joints outline the corner that goes
+  // an L of three quarters of the cube: two construction joints outline the corner that is removed
   std::vector<Cut<3>> cuts{{{x, 0}, 0}, {{z, 0}, 1}};
   for (Cut<3>& cut : cuts)
     cut.kind = JointKind::construction;
@@ -309,7 +309,7 @@ TEST(Clump, ATunnelLeavesOneBodyOfExactVolume) {
   const std::vector<int> body = bodies_of<3>(left, cuts, false);
   EXPECT_EQ(*std::max_element(body.begin(), body.end()), 0);
 
-  // whatever the least block size: a joint may leave no smaller block, the tunnel does
+  // at any least block size: a joint may leave no smaller block, the tunnel does
   SlicingLimits large;
   large.smallest_inscribed_radius = 0.3;
   SlicingCounters counters;
@@ -329,7 +329,7 @@ TEST(Kinds, ABoundaryJointLeavesItsSideWhole) {
   std::vector<Cut<3>> cuts{{{z, -0.5}, 7}, {{x, 0}, 1}, {{y, 0}, 2}};
   cuts[0].kind = JointKind::boundary;
   for (const JointSide side : {JointSide::below, JointSide::above}) {
-    cuts[0].whole = side;
+    cuts[0].fixed_side = side;
     const auto parts = sliced<3>(cube(), cuts);
     ASSERT_EQ(parts.size(), 5u);
     const std::vector<int> whole = boundary_parts<3>(parts, cuts);

@@ -20,10 +20,10 @@ namespace {
 constexpr double cut_tolerance = 1e-10;
 
 // A cut that leaves no more than this of the coordinates beyond it leaves no block (block.hpp): vertices, whose own
-// rounding this is, need not be asked more closely.
+// rounding this is, need no closer check.
 constexpr double vertex_rounding = 8 * std::numeric_limits<double>::epsilon();
 
-// the work is handed to threads in about as many pieces, whatever their number
+// the work is handed to threads in about as many pieces, for any number of threads
 constexpr std::size_t handed_out = 256;
 
 template <int Dim>
@@ -43,8 +43,8 @@ struct Harvest {
 };
 
 // Whether a block may reach to both sides of the plane, and below every bound of the extent, by ball and vertices in
-// place of the programs of Eq. 3.17: what the linear program would find deeper than its tolerance has vertices deeper
-// than half of it.
+// place of the programs of Eq. 3.17: a block that the linear program would find deeper than its tolerance has vertices
+// deeper than half of it.
 template <int Dim>
 bool may_meet(const Cut<Dim>& cut, const Draft<Dim>& block) {
   const Vector<Dim>& centre = block.ball.point;
@@ -117,7 +117,7 @@ std::vector<int> handed_on(const std::vector<int>& joints, std::size_t first, co
 template <int Dim>
 using Pair = std::pair<Piece<Dim>, Piece<Dim>>;
 
-// the first of its joints that cuts the piece does so; nothing when none does
+// cuts the piece by the first of its joints that meets it; nothing when none does
 template <int Dim>
 std::optional<Pair<Dim>> split(const Piece<Dim>& piece, const Cuts<Dim>& cuts, const SlicingLimits& limits,
                                SlicingCounters& counters) {
@@ -128,7 +128,7 @@ std::optional<Pair<Dim>> split(const Piece<Dim>& piece, const Cuts<Dim>& cuts, c
     Pair<Dim> children;
     auto& [below, above] = children;
     const HalfSpace<Dim> reversed{-cut.plane.normal, -cut.plane.offset};
-    // what a construction joint cuts stays one body with its surroundings, or is not there: an outline is exact
+    // a piece cut by a construction joint stays one body with its surroundings, or is removed: an outline is exact
     const auto suits = [&](const Draft<Dim>& child) {
       return cut.kind == JointKind::construction || sound(child, limits);
     };
@@ -140,9 +140,9 @@ std::optional<Pair<Dim>> split(const Piece<Dim>& piece, const Cuts<Dim>& cuts, c
       continue;
     }
     ++counters.cuts;
-    if (cut.whole != JointSide::below)
+    if (cut.fixed_side != JointSide::below)
       below.joints = handed_on(piece.joints, k + 1, cuts, below.block, limits, counters);
-    if (cut.whole != JointSide::above)
+    if (cut.fixed_side != JointSide::above)
       above.joints = handed_on(piece.joints, k + 1, cuts, above.block, limits, counters);
     return children;
   }
@@ -185,7 +185,7 @@ void cut_up(Piece<Dim> first, const Cuts<Dim>& cuts, const SlicingLimits& limits
   }
 }
 
-// The largest pieces of the work, breadth first, and blocks that are finished on the way.
+// The largest pieces of the work, breadth first, and blocks that are finished before.
 template <int Dim>
 std::deque<Piece<Dim>> hand_out(Piece<Dim> first, const Cuts<Dim>& cuts, const SlicingLimits& limits,
                                 std::atomic<std::size_t>& made, Harvest<Dim>& result) {
@@ -241,24 +241,24 @@ std::vector<Polytope<Dim>> slice(const Polytope<Dim>& domain, const std::vector<
 
   for (const Harvest<Dim>& h : harvests)
     add(counters, h.counters);
-  // at the most, as many blocks as joints make may be all of them, or more may have been left uncut
+  // beyond the largest number some blocks may have been left uncut
   counters.given_up = counters.given_up || made > limits.most_blocks;
   return counters.given_up ? std::vector<Polytope<Dim>>{} : in_canonical_order(harvests);
 }
 
 template <int Dim>
 std::vector<int> boundary_parts(const std::vector<Polytope<Dim>>& parts, const std::vector<Cut<Dim>>& cuts) {
-  // what such a joint leaves whole is never cut again, and keeps its face
+  // a side that such a joint leaves in one piece is never cut again, and keeps its face
   std::map<int, const Cut<Dim>*> boundaries;
   for (const Cut<Dim>& cut : cuts)
-    if (cut.whole != JointSide::none) boundaries[cut.joint] = &cut;
+    if (cut.fixed_side != JointSide::none) boundaries[cut.joint] = &cut;
   std::vector<int> whole;
   for (std::size_t p = 0; p < parts.size(); ++p)
     for (std::size_t f = 0; f < parts[p].faces.size(); ++f) {
       const auto at = boundaries.find(parts[p].joints[f]);
       if (at == boundaries.end()) continue;
       const bool below = parts[p].faces[f].normal.dot(at->second->plane.normal) > 0;
-      if (below != (at->second->whole == JointSide::below)) continue;
+      if (below != (at->second->fixed_side == JointSide::below)) continue;
       whole.push_back(static_cast<int>(p));
       break;
     }

@@ -15,10 +15,10 @@ namespace {
 
 using shapes::Random;
 
-// volumes of well-shaped blocks carry three to four digits less than a double
+// volumes of well-shaped blocks have three to four digits less than a double
 constexpr double volume_tolerance = 1e-12;
 
-// slices of random joints may be needles, whose own volume is less exact than the whole's
+// slices of random joints may be needles, whose own volume is less exact than that of the domain
 constexpr double sliver_tolerance = 1e-9;
 
 // at 1e6 m from the origin coordinates of 1 m blocks are given to 1e-10
@@ -66,7 +66,7 @@ BlockStatus status_of(const HalfSpaces<Dim>& planes) {
   return make_block<Dim>(planes, std::vector<int>(planes.size(), no_joint)).status;
 }
 
-TEST(MakeBlock, NamesWhatIsWrong) {
+TEST(MakeBlock, NamesTheFault) {
   EXPECT_EQ(status_of<3>(shapes::cube<3>(1)), BlockStatus::ok);
   HalfSpaces<3> open = shapes::cube<3>(1);
   open.pop_back();
@@ -125,7 +125,7 @@ TEST(MakeBlock, OfEqualPlanesTheLastOneStays) {
   EXPECT_EQ(r.part.joints, (std::vector<int>{11, 12, 14, 15, 16, 17}));
 }
 
-// x + y <= 1 and x + y >= 1, whose unit normals and offsets round: what is left between them is rounding, no block
+// x + y <= 1 and x + y >= 1, whose unit normals and offsets round: the region between them is rounding, no block
 TEST(MakeBlock, PlanesThatOnlyTouchMakeNoBlock) {
   HalfSpaces<2> planes = shapes::cube<2>(1.5);
   planes.push_back({{0.4234619140625, 0.4234619140625}, 0.4234619140625});
@@ -136,7 +136,7 @@ TEST(MakeBlock, PlanesThatOnlyTouchMakeNoBlock) {
 }
 
 TEST(MakeBlock, RegularShapesWithManyEqualBallsSucceed) {
-  // planes tangent to one ball leave the LP's optimum degenerate, whatever the orientation
+  // planes tangent to one ball leave the LP's optimum degenerate, at any orientation
   Random random(22);
   int failures = 0;
   for (int i = 0; i < 600; ++i) {
@@ -226,7 +226,7 @@ int count_regions(const HalfSpaces<Dim>& domain, const HalfSpaces<Dim>& joints) 
   return count;
 }
 
-TEST(Slice, GeneralPlanesMakeWhatEnumerationFinds) {
+TEST(Slice, GeneralPlanesMakeTheBlocksOfEnumeration) {
   Random random(26);
   for (int i = 0; i < 4; ++i) {
     const HalfSpaces<3> planes = random_joints<3>(random, 4, 0.8);
@@ -314,7 +314,7 @@ void expect_volume_and_memory(Random& random, int joints) {
   EXPECT_GT(static_cast<int>(blocks.size()), joints);
   EXPECT_NEAR(total_volume<Dim>(blocks), domain.mass.volume, volume_tolerance * domain.mass.volume);
 
-  // a face that remembers a joint lies on it; each joint's faces, seen from below and above, have the same area
+  // a face with the number of a joint lies on it; each joint's faces, seen from below and above, have the same area
   std::vector<double> net(planes.size(), 0);
   for (const Polytope<Dim>& b : blocks)
     for (std::size_t f = 0; f < b.faces.size(); ++f) {

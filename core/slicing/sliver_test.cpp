@@ -1,4 +1,4 @@
-// Blocks near the limit of what double precision resolves: thin, with nearly coplanar faces, barely cut, or far away.
+// Blocks near the resolution of double precision: thin, with nearly coplanar faces, barely cut, or far away.
 #include <gtest/gtest.h>
 
 #include "core/model/model.hpp"
@@ -16,7 +16,7 @@ BlockStatus status_of(const HalfSpaces<3>& planes) {
 }
 
 TEST(Sliver, ATurnedSlabOrNeedleKeepsItsVolume) {
-  // the planes' distances from the block's middle carry 1e-16 of its length: that over the thickness
+  // the planes' distances from the block's middle have an error of 1e-16 of its length: that over the thickness
   Random random(31);
   for (const double thin : {1e-3, 1e-5, 1e-7})
     for (int i = 0; i < 20; ++i) {
@@ -90,7 +90,7 @@ TEST(Sliver, TooThinOrTooFarIsRefusedByName) {
 }
 
 TEST(Sliver, InertiaSurvivesTheDistance) {
-  // coordinates at 1e7 carry 1e-9, and no more than that is lost
+  // coordinates at 1e7 have an error of 1e-9, and no more than that is lost
   const Vector<3> low(1e7, -2e7, 5e6);
   const Body<3> body = make_body<3>({shapes::block<3>(shapes::box<3>(low, low + Vector<3>(1, 1, 1)))}, 1);
   for (int k = 0; k < 3; ++k)

@@ -1,4 +1,4 @@
-// Whatever the joints, the blocks tile the domain: nothing lost, nothing twice, the right number, and the same blocks
+// For any joints, the blocks tile the domain: no gaps, no overlaps, the right number, and the same blocks
 // for any order of persistent joints and any number of threads.
 #include <gtest/gtest.h>
 
@@ -175,7 +175,7 @@ TEST(Tiling, PlanesInGeneralPosition) {
   }
 }
 
-// ---- nothing lost, nothing twice --------------------------------------------------------------------------------
+// ---- no gaps, no overlaps ---------------------------------------------------------------------------------------
 
 TEST(Tiling, BlocksShareNoInterior) {
   const std::vector<Cut<3>> cuts = mixed_joints(45, 40);
@@ -186,7 +186,7 @@ TEST(Tiling, BlocksShareNoInterior) {
     for (std::size_t j = i + 1; j < blocks.size(); ++j) {
       HalfSpaces<3> both = blocks[i].faces;
       both.insert(both.end(), blocks[j].faces.begin(), blocks[j].faces.end());
-      // faces of one plane, seen from both sides, leave nothing between them but rounding
+      // faces of one plane, seen from both sides, leave only rounding between them
       EXPECT_GE(solve_feasibility<3>(both, {}).value, -1e-15);
     }
 }
@@ -243,7 +243,7 @@ TEST(Tiling, AnyNumberOfThreadsMakesTheSameBits) {
     expect_same_bits(blocks, sliced<3>(cube<3>(1), cuts, threads));
 }
 
-// what replaces Eq. 3.17
+// in place of Eq. 3.17
 TEST(Tiling, CullingChangesNothingButTheNumberOfPrograms) {
   const std::vector<Cut<3>> cuts = mixed_joints(51, 120);
   SlicingLimits limits;
@@ -271,7 +271,7 @@ void expect_clean_cut(const Vector<3>& towards, double depth, const Matrix<3>& t
   EXPECT_TRUE(blocks.size() == 1 || depth > 1e-14) << towards.transpose() << " " << depth;
   if (blocks.size() < 2) return;
   const double volume = std::min(blocks[0].mass.volume, blocks[1].mass.volume);
-  // the plane lies where its offset says to 1e-16: that over the depth
+  // the plane's place is exact to 1e-16: that over the depth
   EXPECT_NEAR(volume / piece, 1, 4e-15 / depth) << towards.transpose() << " " << depth;
 }
 

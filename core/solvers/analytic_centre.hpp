@@ -20,7 +20,7 @@ struct CentreRequest {
   double tolerance = 1e-5;  // on the Newton decrement before the last step
   int limit = 200;
 
-  // unit: the contact's normal, where it is known from the step before; zero: unknown. Only Ipopt's scaling looks at it
+  // unit: the contact's normal, if known from the step before; zero: unknown. Only Ipopt's scaling uses it
   Vector<Dim> normal = Vector<Dim>::Zero();
 };
 

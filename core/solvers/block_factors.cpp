@@ -8,16 +8,16 @@
 namespace voussoir {
 namespace {
 
-// Factors are complete where they cost no more than so many iterations with incomplete ones, which grow as the root of
-// the rows in the plane: walls of 1,000 bricks take 40 near rest, of 10,000 more than 200.
+// Factors are complete if they cost no more than so many iterations with incomplete ones, which grow as the root of
+// the rows in the plane: walls of 1,000 bricks take 40 near equilibrium, of 10,000 more than 200.
 constexpr double a_root_of_rows = 2.5;
 
-// An iteration multiplies every block by a vector four times: twice the matrix's, twice the factors'.
+// An iteration multiplies every block by a vector four times: twice those of the matrix, twice those of the factors.
 constexpr double products_an_iteration = 4;
 
 using Rows = std::vector<std::vector<int>>;
 
-// for each row the others that it shares a block with, on either side of the diagonal; ascending
+// for each row the others with which it shares a block, on either side of the diagonal; ascending
 template <int Size>
 Rows neighbours_in(const BlockMatrix<Size>& matrix) {
   Rows rows(matrix.rows());
@@ -34,7 +34,7 @@ Rows neighbours_in(const BlockMatrix<Size>& matrix) {
   return rows;
 }
 
-// rows in an order that fills in little
+// an order of the rows with little fill-in
 std::vector<int> minimum_degree(const Rows& rows) {
   const int count = static_cast<int>(rows.size());
   std::vector<Eigen::Triplet<double>> entries;
@@ -51,7 +51,7 @@ std::vector<int> minimum_degree(const Rows& rows) {
 }
 
 // The columns left of the diagonal that each row of the factors has in this order: those from which the elimination
-// tree leads to it. Nothing where eliminating them takes more than `most` products of blocks.
+// tree leads to it. Empty if eliminating them takes more than `most` products of blocks.
 Rows lower_pattern(const Rows& rows, const std::vector<int>& order, double most) {
   const int count = static_cast<int>(rows.size());
   std::vector<int> place(count), parent(count, -1), met(count, -1);

@@ -1,7 +1,7 @@
 // Factors of a sparse matrix of blocks, without pivots beyond the diagonal blocks: the preconditioner of solve_blocks.
-// Complete where elimination fills in little, as in chains and where blocks lie in a plane: an approximate minimum
+// Complete if elimination fills in little, as for chains and for blocks in a plane: an approximate minimum
 // degree order (Amestoy, Davis and Duff 1996, by Eigen), the rows of the factors by the elimination tree (Liu 1990).
-// Else in the matrix's own pattern and order, ILU(0) (Meijerink and van der Vorst 1977).
+// Otherwise in the matrix's own pattern and order, ILU(0) (Meijerink and van der Vorst 1977).
 #pragma once
 
 #include "core/solvers/block_matrix.hpp"
@@ -17,7 +17,7 @@ class BlockFactors {
   bool regular() const { return is_regular; }
   bool complete() const { return !order.empty(); }
 
-  // of the factors' product; exact but for rounding where they are complete
+  // of the factors' product; exact but for rounding if they are complete
   Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
 
  private:

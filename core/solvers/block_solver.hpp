@@ -11,7 +11,7 @@ struct LinearAnswer {
   double residual = 0;  // |b - A x| / |b|; infinite when a pivot block is singular
 };
 
-// Solves A x = b until |b - A x| <= tolerance |b|, or gives the best it met within the limit.
+// Solves A x = b until |b - A x| <= tolerance |b|, or returns the best x found within the limit.
 template <int Size>
 LinearAnswer solve_blocks(const BlockMatrix<Size>& matrix, const Eigen::VectorXd& b, double tolerance,
                           int iteration_limit, int threads);

@@ -1,4 +1,4 @@
-// Linear systems of blocks: against dense factors, and where the sparse ones are complete.
+// Linear systems of blocks: against dense factors, and when the sparse ones are complete.
 #include "core/solvers/block_solver.hpp"
 
 #include <gtest/gtest.h>
@@ -56,7 +56,8 @@ TEST(BlockMatrix, SolvesSmallBlocks) {
   expect_solved<6>();
 }
 
-// each block on the next along every axis of a box of so many blocks; stiff enough on its diagonal to be definite
+// each block coupled to the next along every axis of a box of so many blocks; stiff enough on its diagonal to be
+// definite
 template <int Size>
 BlockMatrix<Size> grid(int dimensions, int side) {
   int count = 1;
@@ -75,9 +76,8 @@ BlockMatrix<Size> grid(int dimensions, int side) {
   return matrix;
 }
 
-// Complete factors solve what lies in a chain or in the plane at once, however much; in a box they would fill in too
-// much.
-TEST(BlockFactors, AreCompleteWhereTheyFillInLittle) {
+// Complete factors solve chains and blocks in a plane directly, at any number; in a box they would fill in too much.
+TEST(BlockFactors, AreCompleteIfTheyFillInLittle) {
   const auto iterations = [](const auto& matrix) {
     const LinearAnswer answer =
         solve_blocks(matrix, Eigen::VectorXd(Eigen::VectorXd::Ones(matrix.rows() * 6)), 1e-10, 100, 1);
@@ -94,7 +94,7 @@ TEST(BlockFactors, AreCompleteWhereTheyFillInLittle) {
   EXPECT_GT(iterations(in_a_box), 1);
 }
 
-TEST(BlockMatrix, SaysThatItIsSingular) {
+TEST(BlockMatrix, ReportsThatItIsSingular) {
   BlockMatrix<3> matrix;
   matrix.assign(1, {{{0, BlockMatrix<3>::Block::Zero()}}});
   EXPECT_FALSE(std::isfinite(solve_blocks(matrix, Eigen::VectorXd(Eigen::VectorXd::Ones(3)), 1e-3, 10, 1).residual));

@@ -13,8 +13,8 @@ template <int Size>
 using Row = FixedMatrix<Size, 1>;
 
 // Axes fitted to the rows: each along the largest remainder that the axes before it leave. In these axes the Hessian
-// Σ p pᵀ is graded, so that factorising it top down loses nothing, however near some planes are and far others. False
-// when the rows do not span space. Leaves nothing of the rows.
+// Σ p pᵀ is graded, so that factorising it top down loses nothing, at any ratio of near and far distances. False
+// when the rows do not span space. Destroys the rows.
 template <int Size>
 bool graded_frame(std::vector<Row<Size>>& rows, FixedMatrix<Size, Size>& frame) {
   for (int k = 0; k < Size; ++k) {
@@ -61,7 +61,7 @@ CentralPathResult<Dim> follow_central_path(const HalfSpaces<Dim>& planes, const 
   const double least_weight =
       request.weights.empty() ? 1 : *std::min_element(request.weights.begin(), request.weights.end());
   FixedMatrix<size, size> frame;
-  bool settled = false;  // near the end the frame stays
+  bool settled = false;  // near the end the frame is kept
   while (result.iterations < request.limit) {
     ++result.iterations;
     if (!settled) {

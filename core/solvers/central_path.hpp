@@ -1,8 +1,8 @@
 // A point on the central path of the feasibility program (feasibility_program.hpp), by its logarithmic barrier:
 //   min over x and s of  s - µ Σ w_i log(s + d_i - a_i·x).
 // Its multipliers λ_i = µ w_i / (s + d_i - a_i·x) satisfy those of the program, Σ λ_i a_i = 0 and Σ λ_i = 1, but are
-// smooth in the planes, as its value and its point are; for µ -> 0 all become the program's own (Boyd and Vandenberghe
-// 2004, 11.2). The value moves with a plane by λ_i times its move, seen at x.
+// smooth in the planes, as its value and its point are; for µ -> 0 all tend to those of the program (Boyd and
+// Vandenberghe 2004, 11.2). When a plane moves, the value changes by λ_i times the plane's displacement at x.
 #pragma once
 
 #include <span>

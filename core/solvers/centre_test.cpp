@@ -14,7 +14,8 @@ namespace {
 using shapes::Random;
 using shapes::random_pair;
 
-// the LP's value carries a few ulp of the coordinates (of order one here), more when the basis is badly conditioned
+// the LP's value has an error of a few ulp of the coordinates (of order one here), more when the basis is badly
+// conditioned
 constexpr double lp_tolerance = 1e-12;
 
 // a decrement of 1e-5 before the last Newton step leaves its square, with room for the constant
@@ -33,7 +34,7 @@ void expect_on_the_central_path(const HalfSpaces<Dim>& planes, double weight, co
     sum += weight / t;
     direction += weight / t * p.normal;
   }
-  // a t of the weight's size carries the rounding of the coordinates
+  // a t of the weight's size has the rounding of the coordinates
   const double rounding = 1e-15 / weight;
   EXPECT_NEAR(sum, 1, centre_tolerance + rounding);
   EXPECT_LT(direction.norm(), centre_tolerance + rounding);
@@ -51,7 +52,7 @@ void expect_central_paths(std::uint64_t seed) {
     const double weight = shapes::power_of_ten(random, -7, -1);
     const CentralPathResult<Dim> r = follow_central_path<Dim>(planes, {Vector<Dim>::Zero(), weight});
     expect_on_the_central_path<Dim>(planes, weight, r);
-    // the same from anywhere
+    // the same from any start
     const Vector<Dim> start = 3 * shapes::direction<Dim>(random);
     const CentralPathResult<Dim> other = follow_central_path<Dim>(planes, {start, weight});
     expect_on_the_central_path<Dim>(planes, weight, other);
@@ -60,7 +61,7 @@ void expect_central_paths(std::uint64_t seed) {
 }
 
 // Eq. 3.30 against the program, Eq. 3.29
-TEST(CentralPath, ItsMultipliersAreTheProgramsButForTheWeight) {
+TEST(CentralPath, ItsMultipliersAreThoseOfTheProgramButForTheWeight) {
   expect_central_paths<3>(21);
   expect_central_paths<2>(22);
 }
@@ -116,7 +117,7 @@ void expect_simplex_centroid(Random& random) {
     const Vector<Dim> n = -(edges.inverse() * Vector<Dim>::Unit(0)).normalized();
     planes.push_back({n, n.dot(corners[(k + 1) % (Dim + 1)])});
   }
-  // starts near a corner, where nearly all slacks are small
+  // starts near a corner, with nearly all slacks small
   const Vector<Dim> start = corners[0] + 0.01 * (centroid - corners[0]);
   const CentreResult<Dim> r = solve_analytic_centre<Dim>(planes, {start});
   ASSERT_EQ(r.status, CentreStatus::converged);
@@ -158,7 +159,7 @@ void expect_newton_in_long_double(std::uint64_t seed, int trials) {
     const HalfSpaces<Dim> planes = shapes::random_planes<Dim>(random, shapes::integer(random, 0, 20), 1);
     const oracle::RealVector<Dim> expected = oracle::analytic_centre<Dim>(planes, oracle::RealVector<Dim>::Zero());
     ASSERT_LT(oracle::barrier<Dim>(planes, expected).decrement, 1e-14L);
-    // the centre does not depend on where the search starts
+    // the centre does not depend on the start of the search
     for (const double fraction : {0.0, 0.5, 0.999999}) {
       Vector<Dim> start = shapes::direction<Dim>(random);
       double reach = 1e300;
@@ -180,7 +181,7 @@ TEST(AnalyticCentre, AgreesWithNewtonInLongDouble2D) {
   expect_newton_in_long_double<2>(19, 100);
 }
 
-TEST(AnalyticCentre, RepeatedPlanesPull) {
+TEST(AnalyticCentre, RepeatedPlanesCountRepeatedly) {
   // max log(1 - x) + 2 log(1 + x): x = 1/3
   HalfSpaces<2> planes = shapes::cube<2>(1);
   planes.push_back({Vector<2>(-1, 0), 1});

@@ -1,5 +1,5 @@
-// Numbers of 106 bits as unevaluated sums of two doubles, for the few answers that 53 bits do not settle. Correct to
-// some 2^-102 of the result; every step is an addition or a product in double that rounds as IEEE says, without fused
+// Numbers of 106 bits as unevaluated sums of two doubles, for the few results that 53 bits do not decide. Correct to
+// some 2^-102 of the result; every step is an addition or a product in double that rounds by IEEE 754, without fused
 // multiply-adds, so that the bits are the same everywhere. After Dekker (1971) and Li et al. (2002), the QD library.
 #pragma once
 

@@ -8,11 +8,11 @@
 namespace voussoir {
 namespace {
 
-// rounding in the sums below, as a fraction of their terms: 2^-96, some bits above what DoubleDouble promises
+// rounding in the sums below, as a fraction of their terms: 2^-96, some bits above the error of DoubleDouble
 constexpr double sum_rounding = 0x1p-96;
 
-// A plane violated by no more than this fraction of the coordinates holds. Far below what the answer in double can
-// tell, far above what a basis with a condition of 10^10 leaves of 106 bits.
+// A plane violated by no more than this fraction of the coordinates counts as satisfied. Far below the resolution of
+// the result in double, far above the error in 106 bits of a basis with a condition of 10^10.
 constexpr double least_violation = 0x1p-64;
 
 template <int Dim>
@@ -139,7 +139,7 @@ int entering(const ExtendedBasis<Dim>& basis, const HalfSpaces<Dim>& planes, con
   return enter;
 }
 
-// the tight plane that leaves, but for those that must not: the first to lose its multiplier, and of several the one
+// the tight plane that leaves, except those that must not: the first to lose its multiplier, and of several the one
 // with the largest pivot, or after many pivots the one with the least number
 template <int Dim>
 int leaving(const ExtendedBasis<Dim>& basis, const HalfSpace<Dim>& enter, bool first,
@@ -162,8 +162,8 @@ int leaving(const ExtendedBasis<Dim>& basis, const HalfSpace<Dim>& enter, bool f
   return leave;
 }
 
-// The basis with the entering plane; false: none was found. Where another one's leaving would leave the planes
-// dependent its pivot was zero but for the rounding of the inverse: it stays.
+// The basis with the entering plane; false: none was found. If a plane's leaving would make the others dependent, its
+// pivot was zero but for the rounding of the inverse: it stays.
 template <int Dim>
 bool exchange(ExtendedBasis<Dim>& basis, const HalfSpaces<Dim>& planes, int enter, bool first, double far) {
   const ExtendedBasis<Dim> before = basis;
@@ -189,7 +189,7 @@ FeasibilityResult<Dim> solve_feasibility_in_extended_precision(const HalfSpaces<
   ExtendedBasis<Dim> basis = start_basis<Dim>(planes, request.start, far);
   FeasibilityResult<Dim> result;
   for (; result.pivots < limit; ++result.pivots) {
-    const bool first = result.pivots > limit / 2;  // in this order nothing comes twice
+    const bool first = result.pivots > limit / 2;  // in this order no basis comes twice
     const LongRow<Dim> solution = intersection_point<Dim>(basis, planes, far);
     for (int j = 0; j < Dim; ++j)
       result.point[j] = solution[j].high;

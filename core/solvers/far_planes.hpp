@@ -1,4 +1,4 @@
-// Where the feasibility program starts when nobody knows better: a regular simplex of far planes that encloses
+// The start of the feasibility program when no better one is known: a regular simplex of far planes that encloses
 // everything, numbered -1, -2, … They are a legal basis for any input and leave it unless the program is unbounded.
 #pragma once
 
@@ -34,7 +34,7 @@ std::array<int, Dim + 1> far_basis() {
   return planes;
 }
 
-// The planes' extent is the largest of their offsets. What they enclose lies within its multiple:
+// The planes' extent is the largest of their offsets. The region that they enclose is within this multiple of it:
 inline constexpr double beyond_extent = 10;
 
 // m
@@ -49,8 +49,8 @@ double reach_of(const HalfSpaces<Dim>& planes) {
 // and how far the far planes are, in reaches
 inline constexpr double far_in_reaches = 100;
 
-// a program is unbounded when a far plane holds it by a larger multiplier: smaller ones are what rounding tilted faces
-// by
+// a program is unbounded when a far plane bounds it with a larger multiplier: smaller ones are due to faces tilted by
+// rounding
 inline constexpr double far_multiplier = 1e-11;
 
 }  // namespace voussoir

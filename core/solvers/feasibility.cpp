@@ -14,18 +14,18 @@ namespace {
 // a plane enters against multipliers only by more than rounding
 constexpr double multiplier_rounding = 1e-11;
 
-// a plane violated by no more than this fraction of the coordinates holds: on rounding alone, degenerate bases would
-// pivot for ever
+// a plane violated by no more than this fraction of the coordinates counts as satisfied: on rounding alone, degenerate
+// bases would pivot endlessly
 constexpr double violation_rounding = 16 * std::numeric_limits<double>::epsilon();
 
-// each gains the digits that the inverse has
+// each gains as many digits as the inverse has
 constexpr int refinement_steps = 3;
 
 // a multiplier below this is negative: its basis bounds nothing
 constexpr double negative_multiplier = -8 * std::numeric_limits<double>::epsilon();
 
-// what a value may be off as a fraction of the planes' extent; if it may be more it is computed once more in extended
-// precision
+// the error that a value may have, as a fraction of the planes' extent; if it may have more it is computed again in
+// extended precision
 constexpr double value_rounding = 16 * std::numeric_limits<double>::epsilon();
 
 // Tight planes of the dual simplex. With C = columns (a_i, 1) of the basis, C λ = (0, …, 0, 1) and (x, -s) C = d.
@@ -113,7 +113,7 @@ void record(const Basis<Dim>& basis, FeasibilityResult<Dim>& result) {
     result.multipliers[k] = basis.multipliers()[k];
 }
 
-// whether the point lies on its tight planes, as far as rounding lets it
+// whether the point lies on its tight planes, up to rounding
 template <int Dim>
 bool lies_on_planes(const Basis<Dim>& basis, const HalfSpaces<Dim>& planes, double far,
                     const FixedMatrix<Dim + 1, 1>& solution, double coordinates) {
@@ -165,8 +165,8 @@ FeasibilityResult<Dim> search(const HalfSpaces<Dim>& planes, const FeasibilityRe
       }
     }
     if (enter < 0) {
-      // updates lose digits: the answer is taken from a fresh inverse of the final basis, and where there is none, of
-      // planes that pivoting let come too near to dependent, it is no answer
+      // updates lose digits: the result is computed from a fresh inverse of the final basis; if there is none, since
+      // pivoting has led to nearly dependent planes, there is no result
       if (polished && lies_on_planes(basis, planes, far, solution, coordinates))
         result.status = FeasibilityStatus::optimal;
       if (polished || !factorise(basis, planes, far)) break;
@@ -190,9 +190,9 @@ FeasibilityResult<Dim> search(const HalfSpaces<Dim>& planes, const FeasibilityRe
   return result;
 }
 
-// Whether the answer certifies itself. Its planes are all kept; by weak duality no better one is farther off than what
-// the multipliers leave of the normals where they should cancel, times how far out the optimum lies. A basis of planes
-// that are too near to dependent has multipliers of which some may truly be negative.
+// Whether the result certifies itself. All planes are satisfied; by weak duality the optimum differs by no more than
+// the multipliers' sum of the normals, which should be zero, times the distance of the optimum. In a basis of nearly
+// dependent planes some multipliers may truly be negative.
 template <int Dim>
 bool answered(const HalfSpaces<Dim>& planes, const FeasibilityResult<Dim>& result) {
   if (result.status == FeasibilityStatus::separated_early) return true;  // proven there

@@ -1,5 +1,5 @@
 // The feasibility program (Boon 2013, Eqs 3.7 and 3.27):  min s  subject to  a_i·x - d_i <= s.
-// s < 0: the half-spaces share an interior, and -s is how far x lies inside (the Chebyshev radius for unit normals);
+// s < 0: the half-spaces share an interior, and -s is the depth of x inside (the Chebyshev radius for unit normals);
 // s > 0: they do not, and the multipliers prove it: sum λ_i a_i = 0, sum λ_i = 1, λ >= 0, s = -sum λ_i d_i.
 #pragma once
 
@@ -28,7 +28,7 @@ struct FeasibilityRequest {
       nullptr;  // planes whose normals contain 0 in their hull; null: a start is built
   // m: stop as soon as s is proven larger (the parts are separated)
   double stop_above = std::numeric_limits<double>::infinity();
-  double tolerance = 0;  // m: a plane violated by no more than this holds
+  double tolerance = 0;  // m: a plane violated by no more than this counts as satisfied
 };
 
 template <int Dim>

@@ -14,7 +14,8 @@ namespace {
 using shapes::Random;
 using shapes::random_pair;
 
-// the LP's value carries a few ulp of the coordinates (of order one here), more when the basis is badly conditioned
+// the LP's value has an error of a few ulp of the coordinates (of order one here), more when the basis is badly
+// conditioned
 constexpr double lp_tolerance = 1e-12;
 
 // multipliers satisfy their equations within the same rounding
@@ -86,7 +87,7 @@ void expect_best_of_all_bases(std::uint64_t seed, int trials) {
     expect_certificate<Dim>(planes, extended);
     separate += r.value > 0;
   }
-  // both answers must have been asked for
+  // both outcomes must have occurred
   EXPECT_GT(separate, trials / 10);
   EXPECT_LT(separate, trials - trials / 10);
 }
@@ -159,7 +160,7 @@ TEST(Feasibility, OpenRegionsAreUnbounded) {
 
 TEST(Feasibility, AZeroNormalOnlyBoundsTheValue) {
   HalfSpaces<3> planes = shapes::cube<3>(1);
-  planes.push_back({Vector<3>::Zero(), 0.25});  // says -0.25 <= s
+  planes.push_back({Vector<3>::Zero(), 0.25});  // requires -0.25 <= s
   const FeasibilityResult<3> r = solve_feasibility<3>(planes, {});
   ASSERT_EQ(r.status, FeasibilityStatus::optimal);
   EXPECT_NEAR(r.value, -0.25, lp_tolerance);
@@ -178,7 +179,7 @@ TEST(Feasibility, StartsAnywhereAndEndsTheSame) {
     EXPECT_NEAR(solve_feasibility<3>(planes, {&warm}).value, cold.value, lp_tolerance);
     EXPECT_NEAR(solve_feasibility<3>(planes, {&useless}).value, cold.value, lp_tolerance);
     const FeasibilityResult<3> again = solve_feasibility<3>(planes, {&cold.basis});
-    EXPECT_LE(again.pivots, 1);  // one pass to polish the answer
+    EXPECT_LE(again.pivots, 1);  // one pass to polish the result
     shapes::shuffle(planes, random);
     EXPECT_NEAR(solve_feasibility<3>(planes, {}).value, cold.value, lp_tolerance);
   }
@@ -216,7 +217,7 @@ TEST(Feasibility, PowersOfTwoScaleItExactly) {
 }
 
 // Two blocks between parallel joints, corner in corner by 1e-13 m, turned by 1e-10: pivoting from one block's own basis
-// comes to two pairs of opposite faces, which are dependent. What was read from their stale inverse was no answer.
+// comes to two pairs of opposite faces, which are dependent. The values from their stale inverse were no result.
 TEST(Feasibility, ADependentBasisIsLeftForAFreshStart) {
   const HalfSpaces<3> planes{
       {{-0x1.fe0d3b41815a2p-1, -0x1.194f4cfc107e4p-54, -0x1.64fd6b8c281p-4}, 0x1.fe0d3b41815a3p-2},
@@ -243,7 +244,7 @@ TEST(Feasibility, ADependentBasisIsLeftForAFreshStart) {
 }
 
 // Two squares corner in corner by 1e-13 m, turned by 1e-13: the multiplier of the side face, 5e-14, passed for rounding
-// and went below zero, and squares that overlap were called apart by a value 1e-13 too high.
+// and went below zero, and squares that overlap were found separate, by a value 1e-13 too high.
 TEST(Feasibility, ASmallMultiplierIsNotRounding) {
   const HalfSpaces<2> planes{
       {{-0x1p+0, -0x0p+0}, 0x1.7ffffffffffa4p+1},  {{-0x0p+0, -0x1p+0}, 0x1.0921a29a6fc8bp+0},
@@ -259,8 +260,8 @@ TEST(Feasibility, ASmallMultiplierIsNotRounding) {
 }
 
 // Two blocks of a sliced rock mass that touch along an edge and have turned by 1e-10: opposite faces of two joints,
-// whose bases have an inverse of 1e10. Updates of it, and ratios distinguished by its rounding, pivoted in a circle.
-TEST(Feasibility, BlocksAlongAnEdgeBetweenJointsAreAnswered) {
+// whose bases have an inverse of 1e10. Updates of it, and ratios distinguished by its rounding, cycled.
+TEST(Feasibility, BlocksAlongAnEdgeBetweenJointsAreSolved) {
   const HalfSpaces<3> planes{
       {{-0x1.d3818faa3d4e2p-1, 0x1.79c4fa9bd7368p-2, -0x1.63a1a7e0b738dp-3}, 0x1.034c8b4bc15a2p-3},
       {{-0x1.3f289d4ccf0d8p-3, -0x1.f7c5a88755d0ep-1, -0x1.64fd6b8c280ffp-4}, 0x1.034c8b4bc15a4p-3},

@@ -1,4 +1,4 @@
-// What every call of GLPK needs; included only by the files that call it.
+// The environment for every call of GLPK; included only by the files that call it.
 #pragma once
 
 #include <glpk.h>
@@ -7,7 +7,7 @@
 
 namespace voussoir {
 
-// GLPK keeps one environment per thread and frees it only when asked
+// GLPK keeps one environment per thread and frees it only on request
 struct GlpkEnvironment {
   GlpkEnvironment() {
     glp_init_env();

@@ -21,11 +21,11 @@ using Ipopt::Number;
 
 constexpr double ipopt_tolerance = 1e-10;  // of the scaled problem, whose slacks start at 1
 
-// Newton's step from the answer may change no slack by more than this fraction, beyond the rounding of the slacks
+// Newton's step from the result may change no slack by more than this fraction, beyond the rounding of the slacks
 constexpr double accepted_step = 1e-9;
 constexpr double roundings = 16;  // operations behind a slack and a step, in units of rounding
 
-// far from the centre the start's slacks are poor units; from the first answer they are good ones
+// far from the centre the start's slacks are poor units; from the first result they are good ones
 constexpr int passes = 3;
 
 // squared sine of the angle between normals that are opposite but for rounding
@@ -60,7 +60,7 @@ SlackProgram<Dim> make_program(const HalfSpaces<Dim>& planes, const std::vector<
   return program;
 }
 
-// how far the region reaches from the start along a direction and against it: to the first plane either way
+// how far the region reaches from the start along a direction and against it: to the first plane on either side
 struct Room {
   double ahead = std::numeric_limits<double>::infinity(), behind = ahead;
   double width() const { return ahead + behind; }
@@ -83,7 +83,7 @@ Matrix<Dim> fitted_axes(const HalfSpaces<Dim>& planes, const std::vector<double>
   for (std::size_t i = 0; i < planes.size(); ++i)
     scaled.col(static_cast<Eigen::Index>(i)) = planes[i].normal / slacks[i];
 
-  // the thin direction first: pivoting takes the nearest plane's normal, then the nearest of what remains
+  // the thin direction first: pivoting takes the nearest plane's normal, then the nearest of the rest
   Matrix<Dim> axes = Eigen::ColPivHouseholderQR<decltype(scaled)>(scaled).householderQ() * Matrix<Dim>::Identity();
 
   // along each axis the room before the first plane is the unit of length: a flat overlap becomes a square one
@@ -95,7 +95,7 @@ Matrix<Dim> fitted_axes(const HalfSpaces<Dim>& planes, const std::vector<double>
   return axes;
 }
 
-// of all planes' normals the one along which the region is thinnest at the start
+// the normal among all planes along which the region is thinnest at the start
 template <int Dim>
 Vector<Dim> thinnest(const HalfSpaces<Dim>& planes, const std::vector<double>& slacks) {
   Vector<Dim> normal = planes.front().normal;
@@ -151,7 +151,7 @@ class SlackForm : public Ipopt::TNLP {
     return true;
   }
 
-  // an answer of false makes Ipopt shorten its step
+  // a return value of false makes Ipopt shorten its step
   bool eval_f(Index, const Number* x, bool, Number& value) override {
     value = 0;
     for (Index i = 0; i < planes(); ++i) {
@@ -245,7 +245,7 @@ CentreStatus status_of(Ipopt::ApplicationReturnStatus status) {
 // one solve from `result.point`
 template <int Dim>
 void solve(const SlackProgram<Dim>& program, int limit, CentreResult<Dim>& result) {
-  // one call at a time in the whole program; the application is made once, its options cost more than a solve
+  // one call at a time in the program; the application is made once, its options cost more than a solve
   static std::mutex mutex;
   const std::lock_guard lock(mutex);
   const WithoutTraps without_traps;  // Ipopt divides by zero on purpose
@@ -260,7 +260,8 @@ void solve(const SlackProgram<Dim>& program, int limit, CentreResult<Dim>& resul
   if (result.status == CentreStatus::converged) result.point += program.axes * slack_form->solution();
 }
 
-// Ipopt's error measure is blind to what its scaling hides: an answer counts when Newton would leave it where it is
+// Ipopt's error measure does not see errors that its scaling hides: a result counts when Newton's step would not move
+// it
 template <int Dim>
 bool is_centre(const HalfSpaces<Dim>& planes, const std::vector<double>& slacks, const Vector<Dim>& point) {
   Eigen::Matrix<double, Eigen::Dynamic, Dim> rows(planes.size(), Dim);
@@ -309,7 +310,7 @@ Matrix<2> aligning_rotation(const Vector<2>& n) {
 
 Matrix<3> aligning_rotation(const Vector<3>& n) {
   // the quaternion of Eqs 3.39-3.43 before it is made unit: w = 1 + n·z, (x, y, z) = z × n. Near -z the sum cancels;
-  // there (x² + y²)/(1 - n·z) is the same
+  // there (x² + y²)/(1 - n·z) replaces it
   const double across = n[0] * n[0] + n[1] * n[1];
   Quaternion turn(n[2] > 0 ? 1 + n[2] : across / (1 - n[2]), -n[1], n[0], 0);
   if (n[2] < 0 && across < opposite) turn = Quaternion(0, 1, 0, 0);

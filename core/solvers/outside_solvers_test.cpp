@@ -1,4 +1,4 @@
-// The outside solvers against closed forms and against ours. Built with what is available: each half stands by itself.
+// The external solvers against closed forms and against ours. Built with those available: each half is independent.
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
@@ -95,7 +95,7 @@ TEST(Glpk, MeasuresTheGapOfSeparatedParts) {
   EXPECT_NEAR(result.value, 0.25, 1e-14);
 }
 
-TEST(Glpk, RefusesWhatItWouldCallOptimal) {
+TEST(Glpk, RefusesInputThatItWouldCallOptimal) {
   HalfSpaces<3> planes = box<3>({0, 0, 0}, {1, 1, 1});
   planes[2].offset = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(solve_feasibility_glpk<3>(planes, {}).status, FeasibilityStatus::iteration_limit);
@@ -161,7 +161,7 @@ void expect_aligned(const Vector<Dim>& n) {
 }
 
 // Eqs 3.39-3.44
-TEST(AligningRotation, TakesTheLastAxisToTheNormalAlsoWhereTheyAreOpposite) {
+TEST(AligningRotation, TakesTheLastAxisToTheNormalAlsoIfTheyAreOpposite) {
   // 10^-k from z and from -z, down to angles whose squares vanish
   for (int k = 0; k <= 300; k += k < 20 ? 1 : 20)
     for (const double up : {1.0, -1.0})
@@ -202,7 +202,7 @@ double apart(const HalfSpaces<3>& planes, const Vector<3>& from, const Vector<3>
 //   start                       thesis' scaling   unscaled, Eq. 3.38
 //   1 % of the block away           4.5 (4.5)         7.4 (12)
 //   the LP's point, a corner         24 (38)         10.7 (10)
-// The scaling is made for starts near the centre; there it needs no more iterations however thin the overlap is.
+// The scaling is made for starts near the centre; there it needs no more iterations at any thickness of the overlap.
 TEST(IpoptScaling, FindsOurCentreFaceOnFaceAndSavesIterationsFromAWarmStart) {
   const int pairs = 5;
   for (const double overlap : {1e-2, 1e-6, 1e-10}) {
@@ -255,7 +255,7 @@ TEST(IpoptScaling, FindsOurCentreInAnyDirectionAndInThePlane) {
   EXPECT_LT(std::abs(result.point[1] + 2), 1e-8 * 1e-6 + 1e-15);
 }
 
-// newton_limit reaches Ipopt as well: what took too long is no answer
+// newton_limit applies to Ipopt as well: a solve that takes longer gives no result
 TEST(Ipopt, StopsAtTheLimit) {
   CentreRequest<2> request = request_from<2>({3.4, -1.8});
   request.limit = 1;
@@ -267,7 +267,7 @@ CentreResult<3> fails(const HalfSpaces<3>&, const CentreRequest<3>& request) {
   return {CentreStatus::singular, request.start, 0};
 }
 
-// the failure is injected: our own search has none to offer
+// the failure is injected: our own search has none
 TEST(Ipopt, IsTheFallbackForAContactWhoseCentreWasNotFound) {
   const Polytope<3> cube = shapes::block<3>(box<3>({0, 0, 0}, {0.5, 0.5, 0.5}));
   for (const double overlap : {1e-2, 1e-8}) {

@@ -11,7 +11,7 @@ struct Solvers {
   FeasibilitySolver<Dim>* feasibility = &solve_feasibility<Dim>;
   CentreSolverFunction<Dim>* centre = &solve_analytic_centre<Dim>;
 
-  // called when `centre` has failed from a cold start; null: the contact then has no answer
+  // called when `centre` has failed from a cold start; null: the contact then has no result
   CentreSolverFunction<Dim>* fallback = nullptr;
 };
 

@@ -6,7 +6,7 @@
 namespace voussoir {
 
 // Solves H y = g by LDLᵀ without pivoting, y in place of g; false when H is not positive definite. Only H's lower half
-// is looked at. The order of operations is written out: the same bits for every instruction set.
+// is read. The order of operations is explicit: the same bits for every instruction set.
 template <int Size>
 bool solve_symmetric(FixedMatrix<Size, Size> h, FixedMatrix<Size, 1>& g) {
   for (int k = 0; k < Size; ++k) {

@@ -17,7 +17,7 @@ const Vector<Dim>& largest(const std::vector<Vector<Dim>>& vectors) {
 }
 
 // Axes fitted to the scaled normals p = a/s: the first along the largest, the second along the largest remainder. In
-// these axes the Hessian Σ p pᵀ is graded, so that factorising it top down loses nothing, however thin the region is in
+// these axes the Hessian Σ p pᵀ is graded, so that factorising it top down loses nothing, even if the region is thin in
 // one direction (face on face) or in two (edge along edge).
 Matrix<2> graded_frame(const std::vector<Vector<2>>& scaled) {
   const Vector<2> first = largest(scaled).normalized();
@@ -68,12 +68,12 @@ CentreResult<Dim> solve_weighted_centre(const HalfSpaces<Dim>& planes, std::span
     }
   }
 
-  // A slack changes by at most the decrement over the root of its weight, relative to itself: what is asked of the
-  // decrement's square is asked for the smallest of them.
+  // A slack changes by at most the decrement over the root of its weight, relative to itself: the bound on the
+  // decrement's square is applied to the smallest of them.
   const double least_weight = weights.empty() ? 1 : *std::min_element(weights.begin(), weights.end());
   Vector<Dim> moved = Vector<Dim>::Zero();
   Matrix<Dim> frame;
-  bool settled = false;  // near the centre the frame stays: a new one rounds again, which thin regions magnify
+  bool settled = false;  // near the centre the frame is kept: a new one rounds again, which thin regions magnify
   for (; result.iterations < request.limit; ++result.iterations) {
     if (!settled) {
       for (std::size_t i = 0; i < count; ++i)

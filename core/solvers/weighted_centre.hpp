@@ -1,4 +1,4 @@
-// The analytic centre of planes that do not count alike: max Σ w log(d - a·x).
+// The analytic centre of planes of different weights: max Σ w log(d - a·x).
 #pragma once
 
 #include <span>

@@ -1,4 +1,4 @@
-// What a stage changes in the model before it begins.
+// Changes of the model by a stage, before it begins.
 #include <algorithm>
 #include <cassert>
 
@@ -45,7 +45,7 @@ void prescribe(Model<Dim>& model, const MovePlan& plan) {
   }
 }
 
-// those of earlier stages stay as they ended
+// those of earlier stages keep their last values
 template <int Dim>
 void hold_forces(Model<Dim>& model) {
   for (AppliedForce<Dim>& f : model.applied) {
@@ -95,7 +95,7 @@ DepthStress<Dim> depth_stress_of(const BoundaryPlan& plan, double origin) {
 template <int Dim>
 void load_boundary(Model<Dim>& model, int body, const DepthStress<Dim>& stress) {
   BoundaryForces<Dim> loaded{body, {}, stress};
-  DepthStress<Dim> seen = stress;  // from the body
+  DepthStress<Dim> seen = stress;  // in the body's frame
   seen.surface -= model.bodies[body].reference[Dim - 1];
   for (const Polytope<Dim>& part : model.bodies[body].parts)
     for (const DeadLoad<Dim>& load : boundary_loads<Dim>(part, seen))

@@ -22,7 +22,7 @@ std::vector<const Excavation<Dim>*> regions_named(const Model<Dim>& model, const
   return regions;
 }
 
-// numbers of the pieces that some parts of a body make: they hang together where they share a face
+// numbers of the pieces formed by some parts of a body: parts with a common face are connected
 template <int Dim>
 std::vector<int> piece_of_parts(const Model<Dim>& model, const Body<Dim>& body, const std::vector<int>& places) {
   std::vector<Polytope<Dim>> parts;
@@ -46,8 +46,8 @@ bool one_piece(const std::vector<int>& piece) {
   return std::ranges::all_of(piece, [](int p) { return p == 0; });
 }
 
-// The parts that are left of a body, piece by piece, the largest first. A body that did not hang together by faces
-// before, of blocks given directly, stays one.
+// The remaining parts of a body, piece by piece, the largest first. A body of blocks given directly that was not
+// connected by faces before stays one body.
 template <int Dim>
 std::vector<std::vector<int>> pieces_left(const Model<Dim>& model, const Body<Dim>& body,
                                           const std::vector<int>& left) {
@@ -69,7 +69,7 @@ std::vector<std::vector<int>> pieces_left(const Model<Dim>& model, const Body<Di
   return pieces;
 }
 
-// its reference is how the centroid moved in the whole's frame
+// its reference is the shift of the centroid in the original body's frame
 template <int Dim>
 Body<Dim> piece_of(const Body<Dim>& whole, const std::vector<int>& places) {
   std::vector<Polytope<Dim>> parts;
@@ -84,7 +84,7 @@ Body<Dim> piece_of(const Body<Dim>& whole, const std::vector<int>& places) {
   return piece;
 }
 
-// Takes the pieces of a body into the model; `now` is where each of the body's parts is to be found.
+// Adds the pieces of a body to the model; `now` has the index of each of the body's parts.
 template <int Dim>
 void divide(Model<Dim>& model, int b, const std::vector<std::vector<int>>& pieces, std::span<PartId> now,
             Excavated<Dim>& moved) {

@@ -14,10 +14,10 @@ namespace {
 // anchors this many diameters from the joint: Boon (2013), section 5.1
 constexpr double offset_in_diameters = 1.2;
 
-// of a bolt's length: what it has less of in a block is a corner that it grazes
+// fraction of a bolt's length: a shorter length in a block is a grazed corner
 constexpr double least_chord = 1e-9;
 
-// where a bolt lies in a block, m from its collar
+// interval of a bolt in a block, m from its collar
 struct Chord {
   int body;
   double begin, end;
@@ -33,7 +33,7 @@ struct Line {
   }
 };
 
-// where the bolt lies in the parts of a body, which may hang together
+// intervals of the bolt in the parts of a body, which may be adjacent
 template <int Dim>
 void add_chords(const Model<Dim>& model, const State<Dim>& state, int b, const Line<Dim>& line,
                 std::vector<Chord>& chords) {
@@ -103,8 +103,8 @@ Vector<Dim> in_body(const Model<Dim>& model, const State<Dim>& state, int body, 
   return matrix(motion.rotation).transpose() * (point - model.bodies[body].reference - motion.displacement);
 }
 
-// Which length of the bolt each spring stands for: all from collar to toe, ending midway between joints, m from the
-// collar.
+// The length of the bolt that each spring represents: from collar to toe without gaps, divided midway between joints, m
+// from the collar.
 template <int Dim>
 void share_out(const Model<Dim>& model, const State<Dim>& state, const Line<Dim>& line,
                const std::vector<double>& joints, std::vector<BoltSpring<Dim>>& springs) {
@@ -117,7 +117,7 @@ void share_out(const Model<Dim>& model, const State<Dim>& state, const Line<Dim>
   }
 }
 
-// where the nodes of a bar must not share a cell, m from its begin, ascending: joints, edges of air, the end of the
+// positions that separate the cells of a bar's nodes, m from its start, ascending: joints, edges of air, the end of the
 // free length
 std::vector<double> breaks_of(const std::vector<Chord>& chords, double free_length, double spacing) {
   const double begin = chords.front().begin, length = chords.back().end - begin;
@@ -150,7 +150,7 @@ GroutedBar bar_with(const BoltProperties& p) {
   return bar;
 }
 
-// whether a place along the bolt lies in rock, or in air too narrow to matter
+// whether a point along the bolt is in rock, or in a gap too narrow to matter
 bool in_rock(const std::vector<Chord>& chords, double at, double spacing) {
   for (std::size_t k = 1; k < chords.size(); ++k)
     if (at > chords[k - 1].end && at < chords[k].begin) return chords[k].begin - chords[k - 1].end <= spacing;
@@ -160,10 +160,10 @@ bool in_rock(const std::vector<Chord>& chords, double at, double spacing) {
 void check_pretension(const BoltProperties& p, const std::string& bolt, const GroutedBar& bar) {
   const double grout = std::accumulate(bar.bond_length.begin(), bar.bond_length.end(), 0.0);
   const double holds = grout > 0 ? bar.bond_strength * grout : 0;
-  // without grout the plate alone holds the bar, which nothing tightens
+  // without grout only the plate holds the bar, which cannot be tightened
   if (p.pretension > 0 && p.pretension >= holds)
     throw std::invalid_argument(bolt + " cannot take its pretension: of its grout " + std::to_string(grout) +
-                                " m lie in rock, which hold " + std::to_string(p.spacing * holds) +
+                                " m are in rock, with a strength of " + std::to_string(p.spacing * holds) +
                                 " N; lower pretension, or lengthen the bolt");
 }
 
@@ -282,8 +282,8 @@ std::vector<std::string> install_bolts(const Model<Dim>& model, const std::vecto
 
 namespace {
 
-// Whether the rock at both anchors is left, with which the spring then goes; an end whose rock is gone is drawn at its
-// anchor.
+// Whether the rock at both anchors remains, to which the spring is then attached; an end whose rock is excavated is
+// drawn at its anchor.
 template <int Dim>
 bool follow_spring(const std::function<bool(int& body, Vector<Dim>& place)>& is_left, BoltSpring<Dim>& s) {
   const auto follow_end = [&](int was, int body, const Vector<Dim>& anchor, Vector<Dim>& end) {
@@ -296,7 +296,7 @@ bool follow_spring(const std::function<bool(int& body, Vector<Dim>& place)>& is_
   return true;
 }
 
-// What is left of a bar, and of its joints, goes to the ends of the lists.
+// The remaining pieces of a bar, and its joints, are appended to the lists.
 template <int Dim>
 void cut_bar(const std::function<bool(int& body, Vector<Dim>& place)>& is_left, GroutedBolt<Dim> g,
              std::vector<BoltSpring<Dim>> joints, std::vector<GroutedBolt<Dim>>& bars,
@@ -357,9 +357,9 @@ void carry_bolts(const Model<Dim>& before, const Model<Dim>& model, const Excava
 
 std::string describe_idle_bolts(const std::string& name) {
   return fmt::format(
-      "the bolts '{}' cross no joint between two blocks and hold nothing; lengthen or move them, or install them "
-      "before "
-      "their blocks are taken out",
+      "the bolts '{}' cross no joint between two blocks and have no effect; lengthen or move them, or install them "
+      "before their blocks are "
+      "excavated",
       name);
 }
 

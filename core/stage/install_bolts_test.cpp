@@ -1,4 +1,4 @@
-// Bolts in whole scenes: what they carry, where they are anchored, and that nothing of them is lost.
+// Bolts in complete scenes: forces, anchors, excavation, identical bits.
 #include "core/stage/install_bolts.hpp"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ using hung_slab::weight;
 std::string bolts(const std::string& more, const std::string& name = "roof") {
   return "[[bolts]]\nname = \"" + name + "\"\nstiffness = 1e8\n" + more + "\n";
 }
-// three of them, upright, 2 m long
+// three of them, vertical, 2 m long
 const std::string row = "from = [1, 0.2]\nto = [1, 2.2]\nrepeat = [{ step = [1, 0], count = 3 }]\n";
 
 template <int Dim>
@@ -45,7 +45,7 @@ TEST(Bolts, ShareTheWeightThatHangsFromThem) {
     }
 }
 
-TEST(Bolts, HangInSpaceByThePlate) {
+TEST(Bolts, InThreeDimensionsHoldByThePlate) {
   const std::string text = R"(
 dimension = 3
 gravity = [0, 0, -10]
@@ -68,14 +68,14 @@ repeat = [{ step = [2, 0, 0], count = 2 }, { step = [0, 1, 0], count = 2 }]
   ASSERT_EQ(done.state.supports.bolt_springs.size(), 4u);
   for (const BoltSpring<3>& spring : done.state.supports.bolt_springs) {
     EXPECT_NEAR(spring.force, 2 * weight / 4, 1e-6 * weight);
-    EXPECT_NEAR(spring.length, 2, 1e-12) << "from the face to the end: what lies in the open does not count";
+    EXPECT_NEAR(spring.length, 2, 1e-12) << "from the face to the end: the length outside the rock does not count";
     EXPECT_NEAR(spring.extension, spring.force / (1e8 / 2), 1e-9);
   }
 
-  // leaning bolts, by relaxation and by Newton's method
+  // inclined bolts, by relaxation and by Newton's method
   const std::string leaning = "bolts.roof.to=[1.7, 0.9, 2]";
   const Progress<3> relaxed = simulated(scene_of<3>(text, {leaning}));
-  const Progress<3> newton = simulated(scene_of<3>(text, {leaning, "damping.statics=\"newton\""}));
+  const Progress<3> newton = simulated(scene_of<3>(text, {leaning, "statics=\"newton\""}));
   ASSERT_EQ(relaxed.results.outcome, Outcome::done) << relaxed.results.message;
   ASSERT_EQ(newton.results.outcome, Outcome::done) << newton.results.message;
   EXPECT_GT(newton.results.counters.static_iterations, 0);
@@ -92,7 +92,7 @@ TEST(Bolts, HoldAtATenthOfAPercentMoreThanTheWeightAndNotAtLess) {
   }
 }
 
-TEST(Bolts, PressTheJointsThatTheyPretension) {
+TEST(Bolts, CompressTheJointsByTheirPretension) {
   constexpr double kn = 1e9, area = 1, K = 2e8, F0 = 1e5;
   for (const int joints : {1, 10}) {
     std::string text =
@@ -117,7 +117,7 @@ TEST(Bolts, AreTheSameByNewtonsMethod) {
   const std::string text = slab + bolts(row) + bolts("from = [0.5, 0.5]\nto = [2, 2]\n", "inclined") +
                            stage("gravity_ramp_s = 1\ninstall = [\"roof\", \"inclined\"]");
   const std::vector<double> relaxed = forces(simulated(scene_of(text)));
-  const Progress<2> done = simulated(scene_of(text, {"damping.statics=\"newton\""}));
+  const Progress<2> done = simulated(scene_of(text, {"statics=\"newton\""}));
   ASSERT_EQ(done.results.outcome, Outcome::done) << done.results.message;
   EXPECT_GT(done.results.counters.static_iterations, 0);
   EXPECT_EQ(done.results.counters.static_fallbacks, 0);
@@ -138,14 +138,14 @@ TEST(Bolts, AnchorInTheMiddleOfThinBlocks) {
   }
 }
 
-TEST(Bolts, WarnWhereTheyCrossNoJoint) {
+TEST(Bolts, WarnIfTheyCrossNoJoint) {
   const Progress<2> done = simulated(
       scene_of(slab + bolts("from = [1, 1.5]\nto = [2, 2.5]\n") + stage("step_limit = 10\ninstall = [\"roof\"]")));
   ASSERT_FALSE(done.results.warnings.empty());
   EXPECT_NE(done.results.warnings.front().find("cross no joint"), std::string::npos);
 }
 
-// The lower third of the block is dug away from under the bolts, and then the block that one of them holds.
+// The lower third of the block below the bolts is excavated, and then the block that one of them holds.
 const std::string digging = slab + R"(
 [[excavations]]
 name = "bench"
@@ -154,7 +154,7 @@ outline = true
 )" + bolts("from = [1, 0.4]\nto = [1, 2.2]\nrepeat = [{ step = [1, 0], count = 3 }]\n") +
                             hang;
 
-TEST(Bolts, StayInWhatIsLeftOfTheirBlocks) {
+TEST(Bolts, StayInTheRemainingPartsOfTheirBlocks) {
   const Progress<2> done = simulated(scene_of(digging + stage("excavate = [\"bench\"]", "dig")));
   ASSERT_EQ(done.results.outcome, Outcome::done) << done.results.message;
   for (const double force : forces(done))
@@ -190,19 +190,19 @@ outline = true
   EXPECT_EQ(simulated(scene).results.state_hash, whole.results.state_hash);
 }
 
-// A wedge of rock hung by yielding bolts swings: what the motion has, the springs hold and yield took adds up.
-TEST(Bolts, KeepTheLedgerOfAMotion) {
+// A wedge of rock supported by yielding bolts oscillates: kinetic, elastic and plastic energy add up.
+TEST(Bolts, KeepTheEnergyBalanceOfAMotion) {
   const Prepared<2> scene = scene_of(
       slab + bolts(row + "yield = 50e3\ndowel_stiffness = 1e7\ndowel_strength = 1e3\n") +
       "[[stage]]\nname = \"run\"\nkind = \"run\"\nduration_s = 0.3\ninstall = [\"roof\"]\ndamping = { local = 0 }\n");
   const Progress<2> done = simulated(scene);
-  const EnergyLedger& energy = done.results.energy;
+  const EnergyBalance& energy = done.results.energy;
   EXPECT_GT(energy.flows[Source::bolt_yield], 0.1 * energy.largest_energy);
   EXPECT_LT(std::abs(energy.motion_error), 1e-10 * energy.largest_energy);
   EXPECT_LT(energy.relative_error(), 0.01);
 }
 
-// What bolts put on all blocks together is nothing, and what gravity does is their weight, or its mean.
+// The sum of the bolts' forces on all blocks is zero, and that of gravity is their weight, or its mean.
 TEST(Monitors, SumAndAverageOverBlocks) {
   const auto monitor = [](const std::string& name, const std::string& over, const std::string& quantity) {
     return "[[monitors]]\nname = \"" + name + "\"\nall = true\nover = \"" + over + "\"\nquantities = [\"" + quantity +
@@ -220,7 +220,7 @@ TEST(Monitors, SumAndAverageOverBlocks) {
   EXPECT_LT(sum, 0);
   EXPECT_DOUBLE_EQ(value("ways_mean_displacement_y"), sum / 2);
 
-  // the roof alone is left when the slab is taken out
+  // only the roof remains after the excavation of the slab
   const Progress<2> dug = simulated(
       scene_of(slab + "[[blocks]]\nname = \"crumb\"\nbox = { min = [0, 5], max = [1, 6] }\n" +
                stage("remove = [{ below = [\"bed\"] }]\nstep_limit = 10") + monitor("weights", "sum", "gravity_load")));

@@ -1,4 +1,4 @@
-// Grouted bolts in whole scenes: what they carry, that their forces have a potential, and that nothing of them is lost.
+// Grouted bolts in complete scenes: forces and their potential, excavation, identical bits.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,10 +27,10 @@ std::string bolts(const std::string& more, const std::string& name = "roof") {
   return "[[bolts]]\nname = \"" + name + "\"\nkind = \"grouted\"\naxial_stiffness = 1e8\nbond_stiffness = 1e9\n" +
          more + "\n";
 }
-// three of them, upright, 2 m long
+// three of them, vertical, 2 m long
 const std::string row = "from = [1, 0]\nto = [1, 2]\nrepeat = [{ step = [1, 0], count = 3 }]\n";
 
-// over a joint at the middle of 2 m: of each half √(EA k) tanh(l √(k/EA))
+// across a joint at the middle of 2 m: of each half √(EA k) tanh(l √(k/EA))
 double joint_stiffness() {
   return 0.5 * std::sqrt(axial * bond) * std::tanh(std::sqrt(bond / axial));
 }
@@ -39,12 +39,12 @@ TEST(GroutedBolts, ShareTheWeightThatHangsFromThem) {
   for (const char* statics : {"adaptive", "newton"})
     for (const double spacing : {1.0, 2.5}) {
       const Progress<2> done = simulated(scene_of(slab + bolts(row + "spacing = " + std::to_string(spacing)) + hang,
-                                                  {std::string("damping.statics=\"") + statics + "\""}));
+                                                  {std::string("statics=\"") + statics + "\""}));
       ASSERT_EQ(done.results.outcome, Outcome::done) << done.results.message;
       ASSERT_EQ(done.results.bolts.size(), 3u);
       for (const BoltRow& bolt : done.results.bolts) {
         EXPECT_NEAR(bolt.force, spacing * weight / 3, 1e-6 * spacing * weight / 3) << statics;
-        // the default spacing of nodes, a fifth of √(EA/k), leaves 0.5 %
+        // the default spacing of nodes, a fifth of √(EA/k), has an error of 0.5 %
         EXPECT_NEAR(bolt.extension, bolt.force / joint_stiffness(), 0.006 * bolt.extension) << statics;
         ASSERT_TRUE(bolt.slip);
         EXPECT_EQ(*bolt.slip, 0);
@@ -56,8 +56,8 @@ TEST(GroutedBolts, ShareTheWeightThatHangsFromThem) {
     }
 }
 
-// The bond that holds a third of the slab over the metre that is in it holds, and a thousandth less does not.
-TEST(GroutedBolts, FallWhereTheBondSlipsOrTheBarYields) {
+// A bond strength of a third of the slab's weight over the metre in it is sufficient, and a thousandth less is not.
+TEST(GroutedBolts, FailIfTheBondSlipsOrTheBarYields) {
   for (const char* strength : {"bond_strength", "yield"})
     for (const double of_weight : {1.001, 0.999}) {
       const Progress<2> done =
@@ -68,9 +68,9 @@ TEST(GroutedBolts, FallWhereTheBondSlipsOrTheBarYields) {
     }
 }
 
-TEST(GroutedBolts, PressTheJointThatTheyPretension) {
-  // the plate at the top, free over the joint, grouted in the lower block: half a metre of bar and the pull-out of a
-  // metre
+TEST(GroutedBolts, CompressTheJointByTheirPretension) {
+  // the plate at the top, ungrouted across the joint, grouted in the lower block: half a metre of bar and the pull-out
+  // of a metre
   const std::string text = R"(
 dimension = 2
 density = 2500
@@ -100,7 +100,7 @@ fix = [{ below = ["bed"] }]
   EXPECT_NE(weak.results.message.find("cannot take its pretension"), std::string::npos) << weak.results.message;
 }
 
-TEST(GroutedBolts, WarnWhereTheyCrossNoJoint) {
+TEST(GroutedBolts, WarnIfTheyCrossNoJoint) {
   const Progress<2> done = simulated(
       scene_of(slab + bolts("from = [1, 1.5]\nto = [2, 2.5]\n") + stage("step_limit = 10\ninstall = [\"roof\"]")));
   ASSERT_FALSE(done.results.warnings.empty());
@@ -110,7 +110,7 @@ TEST(GroutedBolts, WarnWhereTheyCrossNoJoint) {
 
 // ---- forces and their potential -------------------------------------------------------------------------------------
 
-// Four blocks in a row, in space or in the plane, and a bar through all of them, askew.
+// Four blocks in a row, in 3-D or 2-D, and an oblique bar through all of them.
 template <int Dim>
 std::string row_of_blocks() {
   const std::string three = Dim == 3 ? "3" : "2";
@@ -144,7 +144,7 @@ struct Bars {
     s.ledger.energy.elastic = 0;
     find_bar_forces<Dim>(scene.model, s.schedule, {}, s.bodies, s.supports, s.ledger, s.counters);
   }
-  // along one freedom of a body
+  // along one degree of freedom of a body
   void move(State<Dim>& s, int body, int freedom, double by) const {
     if (freedom < Dim) {
       s.bodies.motions[body].displacement[freedom] += by;
@@ -205,12 +205,12 @@ void expect_a_potential() {
     }
 }
 
-TEST(GroutedBolts, HaveForcesOfAPotentialAndNoneOnTheWhole) {
+TEST(GroutedBolts, HaveForcesOfAPotentialAndZeroSum) {
   expect_a_potential<2>();
   expect_a_potential<3>();
 }
 
-// The stiffness of stretch against stretch is the derivative of the forces, and what a body gets at most bounds it.
+// The stiffness between segments is the derivative of the forces, and the bound for a body is an upper bound.
 template <int Dim>
 void expect_a_tangent() {
   const Bars<Dim> bars;
@@ -248,7 +248,8 @@ TEST(GroutedBolts, HaveTheTangentOfTheirForces) {
 
 // ---- nothing is lost ------------------------------------------------------------------------------------------------
 
-// Beds of 1 m under a roof; bars through three joints; the bed that is dug away leaves what lies above it.
+// Beds of 1 m under a roof; bars through three joints; after the excavation of the lowest bed the bars support the
+// rest.
 const std::string beds = R"(
 dimension = 2
 gravity = [0, -10]
@@ -266,7 +267,7 @@ const std::string lowest = "[[excavations]]\nname = \"dug\"\nbox = { min = [0, 0
 const std::string dig = stage("excavate = [\"dug\"]", "dig");
 const std::string through = "from = [1, 0]\nto = [1, 4]\nrepeat = [{ step = [1, 0], count = 3 }]\n";
 
-TEST(GroutedBolts, StayInWhatIsLeftOfTheirBlocks) {
+TEST(GroutedBolts, StayInTheRemainingPartsOfTheirBlocks) {
   const std::string plate = "plate = \"tied\"\n";
   const Progress<2> whole = simulated(scene_of(beds + bolts(through + plate) + hang));
   ASSERT_EQ(whole.results.outcome, Outcome::done) << whole.results.message;
@@ -279,9 +280,9 @@ TEST(GroutedBolts, StayInWhatIsLeftOfTheirBlocks) {
   ASSERT_EQ(dug.state.supports.bolt_springs.size(), 6u);
   for (const GroutedBolt<2>& g : dug.state.supports.grouted) {
     EXPECT_EQ(g.joints(), 2);
-    EXPECT_EQ(g.bar.plate, Plate::none) << "it went with its rock";
+    EXPECT_EQ(g.bar.plate, Plate::none) << "it was removed with its rock";
   }
-  // joint by joint what hangs below it
+  // at each joint the weight below it
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_NEAR(whole.state.supports.bolt_springs[3 * i].force, weight / 3, 1e-5 * weight);
     EXPECT_NEAR(half.state.supports.bolt_springs[3 * i].force, 0.5 * weight / 3, 1e-5 * weight);
@@ -293,13 +294,13 @@ TEST(GroutedBolts, StayInWhatIsLeftOfTheirBlocks) {
 }
 
 // What the rock that goes held by bolts is held by its let-off, and nothing moves as long as none is let off.
-TEST(GroutedBolts, AreLetOffWithTheRockThatGoes) {
-  const std::string hold = "let_off = { share = 1, duration_s = 0.1 }";
+TEST(GroutedBolts, AreRelievedWithTheRockThatGoes) {
+  const std::string hold = "excavation_forces = { remaining = 1, duration_s = 0.1 }";
   const std::string plain = "[[bolts]]\nname = \"roof\"\nstiffness = 1e8\n" + through;
   for (const std::string& roof : {plain, bolts(through)}) {
     const Progress<2> done =
         simulated(scene_of(beds + lowest + roof + hang + stage("excavate = [\"dug\"]\n" + hold, "dig") +
-                           stage("let_off = { share = 0, duration_s = 1 }", "off")));
+                           stage("excavation_forces = { remaining = 0, duration_s = 1 }", "off")));
     ASSERT_EQ(done.results.outcome, Outcome::done) << done.results.message;
     std::vector<double> opened[3];  // of the joints that are left
     for (const BoltRow& r : done.results.bolts)
@@ -314,17 +315,17 @@ TEST(GroutedBolts, AreLetOffWithTheRockThatGoes) {
   }
 }
 
-// A bar whose middle goes is two bars, each of which must cross a joint yet.
-TEST(GroutedBolts, AreCutWhereTheirRockGoes) {
+// A bar whose middle is excavated becomes two bars, each of which must still cross a joint.
+TEST(GroutedBolts, AreCutAtExcavatedRock) {
   Bars<2> bars;
   State<2> state = bars.state;
   cut_bolts<2>([](int& body, Vector<2>&) { return body != 1; }, state);
-  ASSERT_EQ(state.supports.grouted.size(), 1u) << "the first block alone has no joint left";
+  ASSERT_EQ(state.supports.grouted.size(), 1u) << "the first block has no joint left";
   EXPECT_EQ(state.supports.grouted[0].joints(), 1);
   ASSERT_EQ(state.supports.bolt_springs.size(), 1u);
   EXPECT_EQ(state.supports.bolt_springs[0].number, 3);
   bars.evaluate(state);
-  EXPECT_NEAR(state.supports.bolt_springs[0].force, 0, 1e-10 * 1e4) << "its pretension went with the plate";
+  EXPECT_NEAR(state.supports.bolt_springs[0].force, 0, 1e-10 * 1e4) << "its pretension was lost with the plate";
   cut_bolts<2>([](int& body, Vector<2>&) { return body != 3; }, state);
   EXPECT_TRUE(state.supports.grouted.empty());
   EXPECT_TRUE(state.supports.bolt_springs.empty());
@@ -348,7 +349,7 @@ void expect_same_bits(const std::string& statics) {
   for (const BoltRow& r : whole.results.bolts) {
     EXPECT_EQ(r.slip.has_value(), r.bolts != "plain" && r.joint > 0);
     if (r.bolts == "inclined" && r.slip) {
-      EXPECT_EQ(*r.slip, 0) << "its bond has no strength to lose";
+      EXPECT_EQ(*r.slip, 0) << "its bond has unlimited strength";
     }
     if (r.bolts == "roof" && r.stage == 3) most = std::max(most, std::abs(*r.slip));
   }
@@ -356,7 +357,7 @@ void expect_same_bits(const std::string& statics) {
   for (std::size_t k = 1; k < 4; ++k)
     for (const double slip : whole.state.supports.grouted[k].state.slip)
       of_bars = std::max(of_bars, std::abs(slip));
-  EXPECT_NEAR(most, of_bars, 1e-6 * of_bars) << "rows are of the positions that the last step led to";
+  EXPECT_NEAR(most, of_bars, 1e-6 * of_bars) << "rows are at the positions after the last step";
   EXPECT_EQ(simulated(scene_of(beds + lowest + springs + other + one + stages, {statics})).results.state_hash,
             whole.results.state_hash);
   const double steps = static_cast<double>(whole.state.counters.steps);
@@ -372,18 +373,18 @@ void expect_same_bits(const std::string& statics) {
 TEST(GroutedBolts, SurviveInterruptionsThreadsAndTheOrderOfTheFile) {
   for (const char* statics : {"adaptive", "local", "newton"}) {
     SCOPED_TRACE(statics);
-    expect_same_bits(std::string("damping.statics=\"") + statics + "\"");
+    expect_same_bits(std::string("statics=\"") + statics + "\"");
   }
 }
 
-// A slab hung by bars swings: what the motion has, bars and bonds hold and slip and yield took adds up.
-TEST(GroutedBolts, KeepTheLedgerOfAMotion) {
+// A slab supported by bars oscillates: kinetic energy, elastic energy of bars and bonds, slip and yield add up.
+TEST(GroutedBolts, KeepTheEnergyBalanceOfAMotion) {
   for (const char* strength : {"bond_strength = 50e3\n", "yield = 50e3\n"}) {
     const Prepared<2> scene = scene_of(
         slab + bolts(row + strength) +
         "[[stage]]\nname = \"run\"\nkind = \"run\"\nduration_s = 0.3\ninstall = [\"roof\"]\ndamping = { local = 0 }\n");
     const Progress<2> done = simulated(scene);
-    const EnergyLedger& energy = done.results.energy;
+    const EnergyBalance& energy = done.results.energy;
     EXPECT_GT(energy.flows[Source::bolt_yield], 0.1 * energy.largest_energy) << strength;
     EXPECT_LT(std::abs(energy.motion_error), 1e-10 * energy.largest_energy);
     EXPECT_LT(energy.relative_error(), 0.01);

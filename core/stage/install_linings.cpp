@@ -9,13 +9,13 @@
 namespace voussoir {
 namespace {
 
-// A face belongs to a side that it is no more inclined to than this, cos 20°: sides of a polygon of 18 or fewer.
+// A face belongs to a side if the angle between them is at most this, cos 20°: for polygons of at most 18 sides.
 constexpr double least_cosine = 0.94;
 
-// and no farther from, in the mean length that a node stands for: the rock may have moved before
+// and if its distance is at most this, in mean lengths of a node: the rock may have moved before
 constexpr double near_side = 0.5;
 
-// of a side's length: less of a face is a corner
+// of a side's length: a shorter face is a corner
 constexpr double least_face = 1e-9;
 
 double mean_length(const Lining& lining) {
@@ -25,7 +25,7 @@ double mean_length(const Lining& lining) {
   return sum / static_cast<double>(lining.nodes.size());
 }
 
-// A face that an outline made, as a stretch of one of the sides; no length where it is none of that side's.
+// A face made by an outline, as a segment of one of the sides; zero length if it does not belong to that side.
 LiningRock stretch_of(const Model<2>& model, const Motion<2>& motion, int b, const Polytope<2>& part, std::size_t face,
                       const Lining& lining, int k) {
   const LiningSide& side = lining.sides[k];
@@ -46,7 +46,7 @@ LiningRock stretch_of(const Model<2>& model, const Motion<2>& motion, int b, con
   return rock;
 }
 
-// m by which a place lies outside of a face
+// distance of a point beyond the ends of a face, m
 double outside_by(const LiningRock& rock, double place) {
   return std::max({0.0, rock.from - place, place - rock.to});
 }
@@ -69,7 +69,7 @@ LiningState cast(const Model<2>& model, int index, State<2>& state) {
   return lined;
 }
 
-// keeps the faces that `is_left` answers; contacts point to where they lie now
+// keeps the faces for which `is_left` is true; contacts refer to their new indices
 template <class IsLeft>
 void keep_rock(LiningState& lined, const IsLeft& is_left) {
   std::vector<int> now(lined.rock.size(), -1);
@@ -178,7 +178,7 @@ std::vector<std::string> install_linings(const Model<Dim>& model, const std::vec
 std::string describe_idle_lining(const std::string& name) {
   return fmt::format(
       "no block has a face on the outline of the lining '{}', so that nothing holds it; install it after its "
-      "excavation is taken out",
+      "excavation",
       name);
 }
 

@@ -1,4 +1,4 @@
-// Linings in whole scenes: what they carry, that nothing of them is lost, and that a node feels no flush joint.
+// Linings in complete scenes: forces, excavation, identical bits, and nodes that slide across a flush joint.
 #include "core/stage/install_linings.hpp"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ namespace {
 using namespace lined_opening;
 
 // The forces of the rock on a ring, and of the ring on the rock, balance the ring's weight.
-TEST(Linings, HangInTheRockWithTheirWeight) {
+TEST(Linings, AreSupportedByTheRockWithTheirWeight) {
   const Prepared<2> scene = scene_of(rock + held + shell + dig);
   const Progress<2> done = whole_run(scene);
   EXPECT_LT(done.results.energy.relative_error(), 0.01);
@@ -47,14 +47,14 @@ TEST(Linings, HangInTheRockWithTheirWeight) {
       of_rock += -c.normal * side.normal + c.shear * side.along();
     }
   }
-  // blocks have turned by some 1e-4 since the lining was cast
+  // blocks have rotated by about 1e-4 since the lining was cast
   EXPECT_NEAR(of_rock[0], 0, 1e-2 * weight);
   EXPECT_NEAR(of_rock[1], weight, 1e-2 * weight);
 }
 
-// From one and the same state, in rock that does not slip, with a light lining: its own weight, put on at once, would
-// leave shear in the interface that depends on the path.
-TEST(Linings, RestTheSameByNewtonsMethod) {
+// From the same state, in rock that does not slip, with a light lining: its own weight, applied suddenly, would leave
+// shear in the interface that depends on the path.
+TEST(Linings, HaveTheSameEquilibriumByNewtonsMethod) {
   const std::vector<std::string> stick = {"joint_properties.bed.friction_deg=89",
                                           "joint_properties.contact.friction_deg=89", "linings.shell.density=1"};
   std::vector<std::string> by_newton = stick;
@@ -68,10 +68,10 @@ TEST(Linings, RestTheSameByNewtonsMethod) {
     largest = std::max(largest, row.forces.thrust);
   for (std::size_t i = 0; i < relaxed.results.linings.size(); ++i)
     EXPECT_NEAR(relaxed.results.linings[i].forces.thrust, newton.results.linings[i].forces.thrust, 0.05 * largest)
-        << i << ": nodes that part on the way lose their shear, and which do depends on the way";
+        << i << ": nodes that open on the path lose their shear, and which do depends on the path";
 }
 
-// What is interrupted, has three threads or states its tables in another order ends in the same bits.
+// Interruptions, three threads and another order of the tables give the same bits.
 TEST(Linings, KeepTheirBits) {
   const Prepared<2> scene = scene_of(rock + held + shell + dig);
   const Progress<2> whole = whole_run(scene);
@@ -85,16 +85,17 @@ TEST(Linings, KeepTheirBits) {
   EXPECT_EQ(whole_run(threads).results.state_hash, whole.results.state_hash);
 }
 
-// Bolts that the same stage installs look for their blocks among the bodies of the lining, too: they carry what they do
-// when a stage before, in which nothing moves, has put them in.
+// Bolts installed in the same stage find their blocks among the bodies of the lining, too: they have the same forces as
+// if an earlier stage without motion had installed them.
 TEST(Linings, AreInstalledTogetherWithBolts) {
   const std::string roof = "[[bolts]]\nname = \"roof\"\nstiffness = 1e8\n",
                     left = roof + "from = [-0.2, 3]\nto = [-5, 7.8]\n",
                     right = "[[bolts]]\nname = \"right\"\nstiffness = 1e8\nfrom = [0.5, 3]\nto = [4, 6.5]\n";
-  const std::string dug = stage("weight", "gravity_ramp_s = 1") +
-                          stage("dig", "excavate = [\"tunnel\"]\nlet_off = { share = 0.5, duration_s = 1 }");
+  const std::string dug =
+      stage("weight", "gravity_ramp_s = 1") +
+      stage("dig", "excavate = [\"tunnel\"]\nexcavation_forces = { remaining = 0.5, duration_s = 1 }");
   const auto last = [](const std::string& names) {
-    return stage("line", "install = [" + names + "]\nlet_off = { share = 0, duration_s = 1 }");
+    return stage("line", "install = [" + names + "]\nexcavation_forces = { remaining = 0, duration_s = 1 }");
   };
   const std::string support = held + shell + left + right;
   const Progress<2> together = whole_run(scene_of(rock + support + dug + last(R"("roof", "shell", "right")")));
@@ -124,13 +125,13 @@ TEST(Linings, AreCastWithoutForce) {
   EXPECT_EQ(nodes_without_rock(cast.state.supports.linings.front()), 0);
   find_forces_of_linings(cast, cast.state);
   for (const LiningContact& contact : cast.state.supports.linings.front().contacts) {
-    EXPECT_LT(std::abs(contact.normal), 1e-3) << "rounding of some m at 1e9 N/m";
+    EXPECT_LT(std::abs(contact.normal), 1e-3) << "rounding of a few m at 1e9 N/m";
     EXPECT_EQ(contact.shear, 0);
   }
 }
 
-// Bodies that follow count their paths from 0 again: what a pair may skip until some path is forgotten, too.
-TEST(Linings, LetNoPairBeSkippedForAnOldPath) {
+// New bodies measure their paths from 0 again: distances until which a pair may be skipped are reset, too.
+TEST(Linings, ResetTheDistancesOfSkippedPairs) {
   const Progress<2> before = whole_run(scene_of(rock + held + stage("weight", "gravity_ramp_s = 1")));
   Cast cast;
   State<2> state = before.state;
@@ -144,8 +145,8 @@ TEST(Linings, LetNoPairBeSkippedForAnOldPath) {
   }
 }
 
-// A node is pressed against the rock and drawn along a side past the joint that crosses it there.
-TEST(Linings, FeelNoFlushJoint) {
+// A node is pressed against the rock and moved along a side across a joint.
+TEST(Linings, AreNotAffectedByAFlushJoint) {
   Cast cast;
   for (double& friction : cast.state.schedule.friction)
     friction = 1.57;  // nothing slips
@@ -172,10 +173,10 @@ TEST(Linings, FeelNoFlushJoint) {
     }
     crossed += changed;
   }
-  EXPECT_GT(crossed, 0) << "some node must have come from one block to the next";
+  EXPECT_GT(crossed, 0) << "at least one node must have passed from one block to the next";
 }
 
-// The pairs of Newton's method against differences of the loads themselves.
+// The pair stiffness of Newton's method against differences of the loads.
 TEST(Linings, HaveTheTangentOfTheirForces) {
   Cast cast;
   const double size = 1e-4;
@@ -235,8 +236,8 @@ TEST(Linings, HaveTheTangentOfTheirForces) {
   EXPECT_LT(worst, 1e-5 * largest);
 }
 
-// The bound of the step against the exact limit of a ring that nothing holds.
-TEST(Linings, KnowTheirStableStep) {
+// The bound of the step against the exact limit of an unsupported ring.
+TEST(Linings, HaveASafeTimeStep) {
   for (const int nodes : {24, 48, 96}) {
     Prepared<2> scene = scene_of(rock + held + shell + stage("dig", "excavate = [\"tunnel\"]\ninstall = [\"shell\"]"),
                                  {"linings.shell.nodes=" + std::to_string(nodes)});
@@ -264,8 +265,8 @@ TEST(Linings, KnowTheirStableStep) {
   }
 }
 
-// Half of what a lining leans on is dug away: it loses its rock there and keeps the rest.
-TEST(Linings, LoseTheRockThatIsTakenOut) {
+// Half of the rock around a lining is excavated: it loses its contacts there and keeps the rest.
+TEST(Linings, LoseContactsOfExcavatedRock) {
   const std::string more =
       "[[excavations]]\nname = \"cross\"\noutline = true\nbox = { min = [0.5, -1], max = [11, 1] }\n";
   const Progress<2> done =

@@ -1,4 +1,4 @@
-// What a stage does with supports, a row for each kind.
+// Supports in the changes of a stage, a row for each kind.
 #pragma once
 
 #include <string>
@@ -11,20 +11,20 @@
 
 namespace voussoir {
 
-// A kind without entries is installed and removed with another.
+// A kind without entries is installed and removed with another kind.
 template <int Dim>
 struct StageSupport {
   SupportKind kind;
-  // removes what was fixed in blocks that are no longer there
+  // removes supports fixed in blocks that no longer exist
   void (*remove)(const Model<Dim>&, State<Dim>&) = nullptr;
-  // leaves what is fixed in parts of blocks that an excavation has left
+  // keeps supports fixed in parts of blocks that remain after an excavation
   void (*carry)(const Model<Dim>& before, const Model<Dim>& model, const Excavated<Dim>&, State<Dim>&) = nullptr;
-  // Puts in those of these names; gives the names of those that hold nothing. Throws std::invalid_argument where they
-  // cannot take what they are to carry.
+  // Installs those of these names; returns the names of those without effect. Throws std::invalid_argument if they are
+  // too weak for their pretension.
   std::vector<std::string> (*install)(const Model<Dim>&, const std::vector<std::string>&, State<Dim>&) = nullptr;
-  // a sentence about one that holds nothing
+  // a message about one without effect
   std::string (*describe_idle)(const std::string& name) = nullptr;
-  // gives the model of the stage the bodies of those of these names that have some
+  // adds the bodies of these supports, if they have any, to the model of the stage
   void (*add_bodies)(Model<Dim>&, const std::vector<std::string>&) = nullptr;
 };
 

@@ -6,10 +6,10 @@
 
 namespace voussoir {
 
-// where the two anchors of a spring are, world axes, m
+// positions of a spring's two anchors, world axes, m
 template <int Dim>
 struct Stretched {
-  Vector<Dim> apart;         // of its anchors
+  Vector<Dim> apart;         // distance vector of its anchors
   Vector<Dim> arm_a, arm_b;  // of the second anchor from each centroid
 
   template <class Spring>
@@ -21,7 +21,7 @@ struct Stretched {
   }
 };
 
-// how a force on the second body at a spring's second anchor, world axes, changes
+// change of a force on the second body at a spring's second anchor, world axes
 template <int Dim>
 PairStiffness<Dim> pair_of(const BodiesState<Dim>& bodies, int body_a, int body_b, const Vector<Dim>& arm_b,
                            const Matrix<Dim>& k, const Vector<Dim>& force) {
@@ -34,7 +34,7 @@ PairStiffness<Dim> pair_of(const BodiesState<Dim>& bodies, int body_a, int body_
   pair.wrench.template head<Dim>() = force;
   pair.wrench.template tail<S>() = moment(arm_b, force);
   for (int f = 0; f < freedoms<Dim>; ++f) {
-    // the second anchor as the second body moves along this freedom
+    // displacement of the second anchor as the second body moves along this degree of freedom
     const Vector<Dim> way =
         f < Dim ? Vector<Dim>(Vector<Dim>::Unit(f % Dim)) : cross(Spin<Dim>(Spin<Dim>::Unit((f + S - Dim) % S)), arm_b);
     const Vector<Dim> lost = k * way;

@@ -15,7 +15,7 @@ const BoltProperties& properties_of(const Model<Dim>& model, const BoltSpring<Di
   return model.bolt_properties[model.bolts[spring.bolt].properties];
 }
 
-// whether the spring is a joint of a grouted bar
+// whether the spring is a joint crossing of a grouted bar
 template <int Dim>
 bool is_grouted(const Model<Dim>& model, const BoltSpring<Dim>& spring) {
   return properties_of(model, spring).kind == BoltKind::grouted;
@@ -27,13 +27,13 @@ std::span<const BoltSpring<Dim>> joints_of(const SupportsState<Dim>& supports, c
   return std::span(supports.bolt_springs).subspan(grouted.first_spring, grouted.joints());
 }
 
-// the block of a stretch
+// the block of a segment
 template <int Dim>
 int body_of(std::span<const BoltSpring<Dim>> joints, std::size_t stretch) {
   return stretch == 0 ? joints[0].body_a : joints[stretch - 1].body_b;
 }
 
-// in which a spring pulls on its first body, unit, world axes
+// direction in which a spring pulls on its first body, unit, world axes
 template <int Dim>
 Vector<Dim> direction_of(const BodiesState<Dim>& bodies, const BoltSpring<Dim>& spring, const Stretched<Dim>& at) {
   const Vector<Dim> axis = bodies.poses[spring.body_a].axes * spring.axis;
@@ -42,7 +42,7 @@ Vector<Dim> direction_of(const BodiesState<Dim>& bodies, const BoltSpring<Dim>& 
   return (axis.dot(at.apart) < 0 ? -1 / distance : 1 / distance) * at.apart;
 }
 
-// moves the rock along the bar by as far as its joints have opened
+// moves the rock along the bar by the opening of its joints
 template <int Dim>
 void find_bar_force(const BodiesState<Dim>& bodies, GroutedBolt<Dim>& grouted, SupportsState<Dim>& supports,
                     Ledger& ledger, Counters& counters) {
@@ -151,7 +151,7 @@ void add_bar_stiffness(const Model<Dim>& model, const LoadInputs<Dim>& now, std:
       };
       if (s > 0) add_joint(joints[s - 1], Stretched<Dim>(now.bodies, joints[s - 1]).arm_b.squaredNorm());
       if (s < joints.size()) add_joint(joints[s], Stretched<Dim>(now.bodies, joints[s]).arm_a.squaredNorm());
-      // what a row sums to, all signs positive; alone, the diagonal
+      // sum of a row with all signs positive; for a single one the diagonal
       const double k = (free > 1 ? 2 : 1) * of_bar;
       BodyStiffness& of_body = stiffness[body_of(joints, s)];
       of_body.translation += k;

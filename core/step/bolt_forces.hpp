@@ -1,4 +1,4 @@
-// What bolts do to their blocks (core/support/bolt.hpp, core/support/grouted_bolt.hpp): the entries of their rows in
+// Forces of bolts on their blocks (core/support/bolt.hpp, core/support/grouted_bolt.hpp): the entries of their rows in
 // support_table.hpp.
 #pragma once
 
@@ -18,18 +18,18 @@ bool has_springs(const Model<Dim>& model, const LoadInputs<Dim>& now);
 template <int Dim>
 bool has_bars(const Model<Dim>& model, const LoadInputs<Dim>& now);
 
-// The forces of springs that are no joints of a bar.
+// The forces of springs that do not belong to a bar.
 template <int Dim>
 void find_spring_forces(const Model<Dim>& model, const Schedule& schedule, const JointStep& last,
                         const BodiesState<Dim>& bodies, SupportsState<Dim>& supports, Ledger& ledger,
                         Counters& counters);
 
-// Those of grouted bars and of the springs that are their joints. A bar without equilibrium counts as unconverged.
+// Those of grouted bars and of the springs at their joints. A bar without equilibrium counts as unconverged.
 template <int Dim>
 void find_bar_forces(const Model<Dim>& model, const Schedule& schedule, const JointStep& last,
                      const BodiesState<Dim>& bodies, SupportsState<Dim>& supports, Ledger& ledger, Counters& counters);
 
-// of all springs, joints of bars among them
+// of all springs, including those of bars
 template <int Dim>
 void bolt_loads(const Model<Dim>& model, int threads, const LoadInputs<Dim>& now, std::vector<Load<Dim>>& loads);
 
@@ -43,7 +43,7 @@ template <int Dim>
 void add_spring_pairs(const Model<Dim>& model, const Settings& settings, const State<Dim>& state,
                       std::vector<PairStiffness<Dim>>& pairs);
 
-// One for any two stretches of a bar: between neighbours with the force at their joint, between others as if the bar
+// One for any two segments of a bar: between neighbours with the force at their joint, between others as if the bar
 // were straight.
 template <int Dim>
 void add_bar_pairs(const Model<Dim>& model, const Settings& settings, const State<Dim>& state,

@@ -13,7 +13,7 @@
 namespace voussoir {
 namespace {
 
-// of a contact polygon: up to so many the step asks for no memory
+// vertices of a contact polygon: up to this number the step allocates no memory
 constexpr std::size_t expected_corners = 16;
 
 template <int Dim>
@@ -23,7 +23,7 @@ bool needs_area(const Model<Dim>& model, const ContactSettings& settings) {
   });
 }
 
-// how far contacts are resolved: those that are carried as a whole need no more than a point in the overlap
+// depth of the contact solution: integrated face contacts need only a point in the overlap
 template <int Dim>
 QueryLevel level_of(const Model<Dim>& model, const ContactSettings& settings) {
   const auto whole = [&](const JointProperties& p) { return is_integrated(settings, p); };
@@ -31,8 +31,8 @@ QueryLevel level_of(const Model<Dim>& model, const ContactSettings& settings) {
   return needs_area(model, settings) ? QueryLevel::area : QueryLevel::overlap;
 }
 
-// The joint of a contact, and how it is carried; true: as a whole, with the planes of both parts. Where some are, the
-// faces nearest to its point say which joint it is, of every contact.
+// The joint of a contact, and the kind of its contact; true: integrated, with the planes of both parts. If there are
+// integrated contacts, the faces nearest to the contact point determine the joint of every contact.
 template <int Dim>
 bool choose_joint(const Model<Dim>& model, const ContactSettings& settings, const Pair<Dim>& pair, Contact<Dim>& c,
                   HalfSpaces<Dim>& planes) {
@@ -43,7 +43,7 @@ bool choose_joint(const Model<Dim>& model, const ContactSettings& settings, cons
   return is_integrated(settings, model.properties[c.properties]);
 }
 
-// nor do its sub-contacts count any more
+// nor are its sub-contacts valid any more
 template <int Dim>
 void forget(Contact<Dim>& contact) {
   contact.history = {};
@@ -52,7 +52,7 @@ void forget(Contact<Dim>& contact) {
   contact.divided_face = -1;
 }
 
-// what the candidates' skin has added leaves no trace: the result is the same for any skin
+// candidates added by the skin have no effect: the result is the same for any skin
 template <int Dim>
 void set_apart(Contact<Dim>& contact) {
   if (contact.status == ContactStatus::apart) return;
@@ -63,13 +63,13 @@ void set_apart(Contact<Dim>& contact) {
   forget(contact);
 }
 
-// what some contacts have cost, and how many are without an answer
+// the cost of some contacts, and the number of those without a result
 struct Tally {
   KernelCounters kernel;
   long long unconverged = 0;
 };
 
-// Contacts that are to be resolved together, and, pressed already, those whose faces lie on each other as before.
+// Contacts to be resolved together, and, already computed, those whose faces are in contact as before.
 template <int Dim>
 struct PendingPairs {
   int count = 0;
@@ -96,7 +96,7 @@ struct PendingPairs {
   }
 };
 
-// what they turn out to be
+// their results
 template <int Dim>
 void resolve(const Model<Dim>& model, const Settings& settings, const BodiesState<Dim>& bodies, double gap,
              const PendingPairs<Dim>& pending, ContactsState<Dim>& contacts, Tally& tally) {
@@ -128,7 +128,7 @@ void resolve(const Model<Dim>& model, const Settings& settings, const BodiesStat
     if (c->unanswered()) ++tally.unconverged;
     if (bonds > 0 || (c->status == ContactStatus::separated && c->proof.margin > gap)) c->bond_due = false;
     if (pending.touched[i]) {
-      c->near_until = 0;  // only its boxes were looked at
+      c->near_until = 0;  // only its boxes were compared
       if (!is_near(model, bodies, gap, *c)) {
         set_apart(*c);
         continue;
@@ -156,7 +156,7 @@ void find_contacts_of(const Model<Dim>& model, const Settings& settings, const B
     Contact<Dim>& c = contacts.list[i];
     contacts.loads[i].second = -1;
     if (!is_near(model, bodies, gap, c)) {
-      if (c.bond_due && whole_bonds(contacts, i) > 0) c.bond_due = false;  // lost, not to be made again
+      if (c.bond_due && whole_bonds(contacts, i) > 0) c.bond_due = false;  // broken, not to be made again
       set_apart(c);
       continue;
     }
@@ -205,7 +205,7 @@ void find_contacts(const Model<Dim>& model, const Settings& settings, BodiesStat
       contacts.faces[i].polygon.corners.reserve(expected_corners);
   }
   static thread_local std::vector<Tally> own;
-  std::vector<Tally>& tallies = own;  // this thread's, filled by all
+  std::vector<Tally>& tallies = own;  // of this thread, filled by all
   tallies.assign(groups_of(contacts.list.size()), {});
   on_threads(settings.threads, static_cast<int>(tallies.size()), [&](int group) {
     find_contacts_of(model, settings, bodies, level, gap, group, found, contacts, tallies[group]);

@@ -1,4 +1,4 @@
-// Which candidate pairs touch, and how.
+// Contacts among the candidate pairs.
 #pragma once
 
 #include <functional>
@@ -13,14 +13,13 @@
 
 namespace voussoir {
 
-// some of a group of contacts that have been looked at, while they are in the cache; groups in any order and at the
-// same time, the contacts of each in theirs; as many in each group as are summed together
+// part of a group of examined contacts, while they are in the cache; groups run in any order and in parallel, the
+// contacts of each in order; a group has as many as are summed together
 template <int Dim>
 using FoundContacts = std::function<void(int group, std::span<Contact<Dim>* const>)>;
 
-// Point, normal, overlap and area of each candidate, each in its own slot; one that separated forgets its history.
-// None has a load until its joint has answered.
-// `found` is given those that touch, and some that do not.
+// Point, normal, overlap and area of each candidate, each in its own slot; a separated one loses its history. None has
+// a load until its joint force is computed. `found` receives those that touch, and some that do not.
 template <int Dim>
 void find_contacts(const Model<Dim>& model, const Settings& settings, BodiesState<Dim>& bodies,
                    ContactsState<Dim>& contacts, Counters& counters, const FoundContacts<Dim>& found = {});

@@ -32,11 +32,11 @@ double held(const JointState<Dim>& h, double shear_stiffness) {
   return energy;
 }
 
-// how the springs go on over another area, whose centre lies `apart` from where they had theirs
+// transfers the springs to another area, whose centre is `apart` from the previous one
 template <int Dim>
 void change_area(const Vector<Dim>& normal, const Vector<Dim>& apart, double area, double polar, JointState<Dim>& h) {
   if constexpr (Dim == 3) {
-    // turning moves the new centre; moments about it are others
+    // rotation moves the new centre, and moments refer to it
     const double turn = h.polar > 0 ? h.twist / h.polar : 0;
     const Vector<3> across = normal.cross(apart);
     if (area < h.area)
@@ -54,7 +54,7 @@ void change_area(const Vector<Dim>& normal, const Vector<Dim>& apart, double are
   h.polar = polar;
 }
 
-// what Coulomb's friction leaves of shear and twist, and the energy that slip took
+// limits shear and twist by Coulomb friction, and returns the energy of slip
 template <int Dim>
 double slip(const IntegratedContact<Dim>& face, double shear_stiffness, double limit, const Vector<Dim>& shear_before,
             double twist_before, JointState<Dim>& h) {
@@ -66,7 +66,7 @@ double slip(const IntegratedContact<Dim>& face, double shear_stiffness, double l
                                          face.polygon.axes.transpose() * h.shear_force, h.twist);
       way = face.polygon.axes * s.slip;
       turn = s.turn;
-      if (way.isZero(0) && turn == 0) return 0;  // it holds
+      if (way.isZero(0) && turn == 0) return 0;  // no slip
       h.shear_force = face.polygon.axes * s.force;
       h.twist = s.moment;
       h.plastic_slip += way.norm();
@@ -94,8 +94,8 @@ FaceForce<Dim> face_force(const JointProperties& properties, double friction, do
   const Spin<Dim> spin = motion.spin_b - motion.spin_a;
   FaceForce<Dim> answer;
 
-  // The slip of the step that led here, half of it where the contact was and half where it is, so that the old force
-  // and the new take half of the work each; a new contact slips as long as it has been closed.
+  // The slip of the last step, half of it at the old position of the contact and half at the new one, so that the old
+  // and the new force each do half of the work; a new contact slips for the time that it has been closed.
   Vector<Dim> way = velocity + closing * n;
   double turn = about_normal(n, spin) * dt, closing_before = 0;
   if (!h.normal.isZero(0)) {
@@ -107,7 +107,7 @@ FaceForce<Dim> face_force(const JointProperties& properties, double friction, do
     const double was = held(h, ks), twist = h.twist;
     const Vector<Dim> shear = carried(h.shear_force, h.normal, n, turned);
     h.shear_force = shear;
-    // where the old centre has gone, with both bodies
+    // the old centre, displaced with both bodies
     const Vector<Dim> gone = dt * (cross(motion.spin_a, h.point) + 0.5 * before);
     change_area<Dim>(n, face.centre - h.point - gone, geometry.area, face.polar, h);
     answer.lost_area = was - held(h, ks) - 0.5 * ((shear - h.shear_force).dot(way) + (twist - h.twist) * turn);

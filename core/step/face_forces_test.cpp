@@ -1,5 +1,5 @@
-// Contacts that are carried as a whole: pressed, rocked, turned and slid in closed form; what they hold and lose; same
-// bits over threads, skin and interruptions; no memory asked for.
+// Integrated face contacts: compression, rocking, twist and sliding in closed form; stored and lost energy; identical
+// bits for any threads, skin and interruptions; no memory allocation.
 #include "core/step/face_forces.hpp"
 
 #include <gtest/gtest.h>
@@ -19,10 +19,10 @@ namespace {
 
 using pressed::height, pressed::width, pressed::Springs;
 
-// asked for: elastic twist and rocking
+// required: elastic twist and rocking
 constexpr double exact = 1e-9;
 
-// its joint carried as a whole
+// with an integrated face contact
 template <int Dim>
 struct Pressed : pressed::Block<Dim> {
   using pressed::Block<Dim>::model, pressed::Block<Dim>::state, pressed::Block<Dim>::block;
@@ -33,7 +33,7 @@ struct Pressed : pressed::Block<Dim> {
     this->press(depth, angle);
   }
 
-  // as if the step that led here had moved the block so, about the middle of its base
+  // as if the last step had moved the block like this, about the middle of its base
   void answer_after(const Vector<Dim>& way, const Spin<Dim>& turn) {
     constexpr double dt = 1e-3;
     state.time_step.length = dt;
@@ -64,12 +64,12 @@ void expect_pressed_and_rocked() {
   }
 }
 
-TEST(WholeFaces, ArePressedAndRockedInClosedForm) {
+TEST(IntegratedFaces, CompressAndRockInClosedForm) {
   expect_pressed_and_rocked<2>();
   expect_pressed_and_rocked<3>();
 }
 
-TEST(WholeFaces, TwistInClosedForm) {
+TEST(IntegratedFaces, TwistInClosedForm) {
   constexpr double depth = 1e-4, angle = 1e-9;
   Pressed<3> p(depth);
   const double stiffness = p.properties().shear_stiffness * width * width * (width * width + width * width) / 12;
@@ -80,8 +80,8 @@ TEST(WholeFaces, TwistInClosedForm) {
   }
 }
 
-// µ k u ∫ r dA of a square, and past it; what friction took is the moment times the turn that slipped
-TEST(WholeFaces, HoldAndLoseTheirFrictionInTwist) {
+// µ k u ∫ r dA of a square, and beyond it; the frictional work is the moment times the plastic rotation
+TEST(IntegratedFaces, StickAndSlipInTwist) {
   constexpr double depth = 1e-4;
   Pressed<3> p(depth);
   const double pressure = p.properties().normal_stiffness * depth, mu = std::tan(40 * degree);
@@ -89,7 +89,7 @@ TEST(WholeFaces, HoldAndLoseTheirFrictionInTwist) {
   const double stiffness = p.properties().shear_stiffness / 6, turn = 3 * limit / stiffness;
   p.answer_after(Vector<3>::Zero(), {0, 0, turn});
   EXPECT_NEAR(-p.moment()[2], limit, 1e-6 * limit);
-  // from nothing to the limit: half of it on the way, over the turn that slipped
+  // from zero to the limit: the mean is half the limit, over the plastic rotation
   const double slipped = turn - limit / stiffness;
   EXPECT_NEAR(p.state.ledger.energy.flows[Source::friction], 0.5 * limit * slipped, 1e-6 * limit * slipped);
   p.answer_after(Vector<3>::Zero(), {0, 0, turn});
@@ -108,7 +108,7 @@ void expect_slide() {
   EXPECT_EQ(p.state.ledger.energy.flows[Source::friction], 0);
   p.answer_after(2 * limit / stiffness * along, Spin<Dim>::Zero());
   EXPECT_NEAR(-p.force()[0], limit, exact * limit);
-  // 1.5 limits of the way slipped, from half the limit to all of it
+  // slip over 1.5 times the elastic displacement at the limit, from half the limit to the limit
   EXPECT_NEAR(p.state.ledger.energy.flows[Source::friction], 0.75 * limit * 1.5 * limit / stiffness,
               exact * limit * limit / stiffness);
   EXPECT_NEAR(p.state.ledger.energy.elastic,
@@ -116,13 +116,13 @@ void expect_slide() {
               exact * limit * depth);
 }
 
-TEST(WholeFaces, SlideInClosedForm) {
+TEST(IntegratedFaces, SlideInClosedForm) {
   expect_slide<2>();
   expect_slide<3>();
 }
 
-// Sheared, then tilted until part of it opens, then laid flat: what is left of the shear is that of the area that
-// stayed, and the ledger has the rest.
+// Sheared, then tilted until part of it opens, then laid flat: the remaining shear is that of the area that stayed
+// closed, and the energy balance has the rest.
 template <int Dim>
 void expect_lost_area() {
   constexpr double depth = 1e-4, shear = 1e-6, tilt = 4e-4;
@@ -130,12 +130,12 @@ void expect_lost_area() {
   p.answer_after(shear * Vector<Dim>::Unit(0), Spin<Dim>::Zero());
   const double stiffness = p.properties().shear_stiffness;
   const double held = 0.5 * stiffness * shear * shear;
-  Pressed<Dim> tilted(depth, tilt);  // pressed where depth + tilt x > 0: three quarters
+  Pressed<Dim> tilted(depth, tilt);  // closed where depth + tilt x > 0: three quarters
   p.state.bodies.motions = tilted.state.bodies.motions;
   p.state.time_step.length = 0;
   p.answer();
   const double left = 0.5 + depth / tilt;
-  // the normal force's own part along x is half the tilt of it
+  // the component of the normal force along x is half the tilt times it
   const JointState<Dim>& h = p.state.contacts.list[0].history;
   EXPECT_NEAR(h.shear_force.norm(), left * stiffness * shear, 1e-3 * stiffness * shear);
   EXPECT_NEAR(h.area, left, 1e-3);
@@ -143,21 +143,21 @@ void expect_lost_area() {
   EXPECT_EQ(p.state.ledger.energy.flows[Source::friction], 0);
 }
 
-TEST(WholeFaces, GiveUpTheShearOfTheAreaTheyLose) {
+TEST(IntegratedFaces, LoseTheShearOfTheAreaTheyLose) {
   expect_lost_area<2>();
   expect_lost_area<3>();
 }
 
-// Pushed aside without spinning, the shear of a face that has lost a side acts at the middle of what is left, and a
-// twist's share in it with it.
-TEST(WholeFaces, CarryTheirStressWhenTheyLoseASide) {
+// If displaced without rotation, the shear of a face that has lost one side acts at the centre of the remaining area,
+// and so does the shear from a twist.
+TEST(IntegratedFaces, KeepTheirStressWhenTheyLoseASide) {
   JointState<3> h;
   h.normal = {0, 0, 1};
   h.area = 2;  // 2 along x, 1 along y
   h.polar = 2 * (4 + 1) / 12.0;
   h.shear_force = {0, 3, 0};
   h.twist = 0.7;
-  // the half beyond x = 0 is left: 1 by 1 about (0.5, 0)
+  // the half beyond x = 0 remains: 1 by 1 about (0.5, 0)
   JointProperties properties{"joint", 1e9, 1e9, 60 * degree, false};
   IntegratedContact<3> face;
   face.flat = true;
@@ -177,7 +177,7 @@ TEST(WholeFaces, CarryTheirStressWhenTheyLoseASide) {
   const PairMotion<3> motion{{0, 0, 1}, Vector<3>::Zero(), still, still, 1};
   const double turn = h.twist / h.polar;
   const FaceForce<3> f = face_force<3>(properties, std::tan(60 * degree), 0, 1e-3, motion, geometry, face, h);
-  // stress 3/2 along y and turn times the arm, over the square
+  // stress 3/2 along y and rotation times the arm, over the square
   EXPECT_NEAR(h.shear_force[1], 1.5 + turn * 0.5, 1e-14);
   EXPECT_NEAR(h.shear_force[0], 0, 1e-14);
   EXPECT_NEAR(h.twist, turn / 6, 1e-14);
@@ -189,9 +189,9 @@ TEST(WholeFaces, CarryTheirStressWhenTheyLoseASide) {
 
 // ---- over many steps ----------------------------------------------------------------------------------------------
 
-// what the ledger leaves open as a block rocks and twists on its face
+// the error of the energy balance as a block rocks and twists on its face
 template <int Dim>
-double closure_of_rocking(const Spin<Dim>& spin, double fraction) {
+double energy_error_of_rocking(const Spin<Dim>& spin, double fraction) {
   Pressed<Dim> p(1e-4);
   p.settings.time.fraction = fraction;
   Motion<Dim>& motion = p.state.bodies.motions[p.block];
@@ -204,14 +204,14 @@ double closure_of_rocking(const Spin<Dim>& spin, double fraction) {
   return p.state.ledger.energy.relative_error();
 }
 
-TEST(WholeFaces, KeepTheirEnergyAsTheyRockAndTwist) {
-  EXPECT_LT(closure_of_rocking<2>(Spin<2>(0.01), 0.02), 1e-6);
-  EXPECT_LT(closure_of_rocking<3>(Spin<3>(0, 0.01, 0), 0.02), 1e-6);
-  EXPECT_LT(closure_of_rocking<3>(Spin<3>(0.005, 0.01, 0.02), 0.02), 1e-5);
+TEST(IntegratedFaces, ConserveEnergyAsTheyRockAndTwist) {
+  EXPECT_LT(energy_error_of_rocking<2>(Spin<2>(0.01), 0.02), 1e-6);
+  EXPECT_LT(energy_error_of_rocking<3>(Spin<3>(0, 0.01, 0), 0.02), 1e-6);
+  EXPECT_LT(energy_error_of_rocking<3>(Spin<3>(0.005, 0.01, 0.02), 0.02), 1e-5);
 }
 
-// a block that comes to rest on a face does not turn on it for ever
-TEST(WholeFaces, EndATurnAboutTheirNormal) {
+// a block that comes to equilibrium on a face does not keep rotating on it
+TEST(IntegratedFaces, StopARotationAboutTheirNormal) {
   Pressed<3> p(1e-4);
   const Body<3>& body = p.model.bodies[p.block];
   p.model.gravity[2] = -p.force()[2] / body.mass;
@@ -246,7 +246,7 @@ State<3> pile(int threads, double skin, int steps, bool interrupted) {
   return state;
 }
 
-TEST(WholeFaces, AreTheSameForAnyThreadsSkinAndInterruption) {
+TEST(IntegratedFaces, AreTheSameForAnyThreadsSkinAndInterruption) {
   const Model<3> model = shapes::model_of<3>(shapes::jointed_box());
   const std::string hash = state_hash(model, pile(1, 0.1, 400, false));
   EXPECT_EQ(state_hash(model, pile(3, 0.1, 400, false)), hash);
@@ -254,9 +254,9 @@ TEST(WholeFaces, AreTheSameForAnyThreadsSkinAndInterruption) {
   EXPECT_EQ(state_hash(model, pile(2, 0.1, 400, true)), hash);
 }
 
-// Beside joints that can be bonded: which face of a corner says whose joint a contact is, whether it is carried as a
-// whole follows from that, and such a contact is pressed in the same step.
-TEST(WholeFaces, AreThoseOfTheirJointBesideOthers) {
+// Together with joints that can be bonded: the faces at a corner determine the joint of a contact, therefore also
+// whether it is integrated, and such a contact is computed in the same step.
+TEST(IntegratedFaces, AreThoseOfTheirJointBesideOthers) {
   Model<3> model = shapes::model_of<3>(shapes::jointed_box());
   model.properties.push_back({"tied", 1e9, 5e8, 35 * degree, false});
   model.properties[1].laws.bond = true;
@@ -288,7 +288,7 @@ TEST(WholeFaces, AreThoseOfTheirJointBesideOthers) {
   EXPECT_GT(tied, 1000);
 }
 
-TEST(WholeFaces, AskForNoMemory) {
+TEST(IntegratedFaces, AllocateNoMemory) {
   const Model<3> model = shapes::model_of<3>(shapes::jointed_box());
   Settings settings;
   settings.contact.face = ContactFace::integrated;

@@ -11,10 +11,10 @@
 namespace voussoir {
 namespace {
 
-// widths of the model: no stage waits until a body comes back from there
+// widths of the model: no stage waits for a body to come back from this distance
 constexpr double lost = 1e3;
 
-// diagonal of the box around all bodies where they began
+// diagonal of the box around all bodies in their initial positions
 template <int Dim>
 double width_of(const Model<Dim>& model) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -32,13 +32,14 @@ bool all_directions_free(const Body<Dim>& body) {
          std::all_of(body.free_translation.begin(), body.free_translation.end(), [](bool free) { return free; });
 }
 
-// loads that act wherever a body goes
+// loads that act on a body at any position
 constexpr bool follows_body(Source source) {
   return source == Source::gravity || source == Source::boundary_stress || source == Source::applied_forces ||
-         source == Source::let_off;
+         source == Source::excavation_forces;
 }
 
-// N, by body: of the loads that follow it, when no other exerts a force on it and it is free in all directions; else 0
+// N, by body: of the loads that follow it, if nothing else exerts a force on it and it is free in all directions; else
+// 0
 template <int Dim>
 std::vector<Vector<Dim>> pulls(const Model<Dim>& model, const State<Dim>& state) {
   std::vector<Vector<Dim>> pull;
@@ -67,7 +68,7 @@ std::vector<Vector<Dim>> pulls(const Model<Dim>& model, const State<Dim>& state)
   return pull;
 }
 
-// the bodies that near pairs and supports tie
+// the bodies connected by near pairs and supports
 template <int Dim>
 Chains chains_of(const Model<Dim>& model, const State<Dim>& state) {
   Chains chains(model.bodies.size());
@@ -78,7 +79,7 @@ Chains chains_of(const Model<Dim>& model, const State<Dim>& state) {
   return chains;
 }
 
-// whether a body that falls along `ahead` might meet the other: by the spheres around them, with room for the first
+// whether a body that falls along `ahead` might meet the other: by the spheres around them, with a margin
 template <int Dim>
 bool lies_below(const Model<Dim>& model, const State<Dim>& state, const Vector<Dim>& ahead, int falling, int other) {
   const Body<Dim>&first = model.bodies[falling], &second = model.bodies[other];
@@ -133,7 +134,7 @@ int tied_to_nothing(const Model<Dim>& model, const State<Dim>& state) {
   for (int b = 0; b < count; ++b)
     if (model.bodies[b].present && (!all_directions_free(model.bodies[b]) || other_load(b) || moves(b)))
       falls[chains.find(b)] = false;
-  // what is caught may catch others, what falls catches nothing
+  // a caught chain may catch others, a falling one catches nothing
   const Vector<Dim> ahead = model.gravity.normalized();
   const auto is_caught = [&](int b) {
     for (int other = 0; other < count; ++other)

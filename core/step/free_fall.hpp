@@ -1,4 +1,4 @@
-// Bodies whose motion says why a run finds no rest.
+// Bodies whose motion explains why a run does not reach equilibrium.
 #pragma once
 
 #include "core/model/model.hpp"
@@ -6,21 +6,21 @@
 
 namespace voussoir {
 
-// A body that can never come to rest, or -1: no contact, support or water exerts a force on it, other loads (weight,
-// stress, applied forces, relief) do, and it has come farther than the whole model is wide, all bodies included, is not
-// on its way back, and nothing lies below it in their direction; or it is a thousand times as far. What is prescribed
-// might catch it, so that with prescribed motions there is no such body.
+// A body that cannot reach equilibrium, or -1: no contact, support or water exerts a force on it, other loads (weight,
+// stress, applied forces, relief) do, and it has moved farther than the width of the whole model, does not return, and
+// has nothing below it in their direction; or it is a thousand times as far. A prescribed motion might catch it, so
+// that with prescribed motions there is no such body.
 template <int Dim>
 int falling_free(const Model<Dim>& model, const State<Dim>& state);
 
-// A body that can only fall, or -1: it has weight, no chain of candidate contacts, bolts and linings ties it to a body
-// that is held or driven, its weight alone acts on what it is tied to, and below none of that lies a body that does not
-// fall likewise. The state's candidates and loads have been found; where waters or prescribed motions may catch it
-// there is no such body.
+// A body that can only fall, or -1: it has weight, no chain of candidate contacts, bolts and linings connects it to a
+// fixed or driven body, only weight acts on the bodies of its chain, and there is no body below them that does not fall
+// likewise. The state's candidates and loads have been found; if waters or prescribed motions may catch it there is no
+// such body.
 template <int Dim>
 int tied_to_nothing(const Model<Dim>& model, const State<Dim>& state);
 
-// the free body with the fastest point, or -1 where all stand
+// the free body with the fastest point, or -1 if none moves
 template <int Dim>
 int fastest(const Model<Dim>& model, const State<Dim>& state);
 

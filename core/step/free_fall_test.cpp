@@ -1,4 +1,4 @@
-// Bodies that no rest can come to, before the first step and after they have left.
+// Bodies without an equilibrium, before the first step and after they have left.
 #include "core/step/free_fall.hpp"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ Matrix<Dim> random_axes(Engine& engine) {
 template <int Dim>
 using Cell = std::array<int, Dim>;
 
-// Unit cubes in cells of a lattice, under gravity along one of its axes, turned as a whole.
+// Unit cubes in cells of a lattice, under gravity along one of its axes, all rotated together.
 template <int Dim>
 struct Lattice {
   std::vector<Cell<Dim>> cells;
@@ -53,8 +53,8 @@ struct Lattice {
     }
   }
 
-  // the numbers of the chains of cells that lie no farther apart than this along any axis: 1 for those that touch;
-  // boxes along the axes around turned cubes may meet up to 3
+  // the numbers of the chains of cells that are no farther apart than this along any axis: 1 for those that touch;
+  // boxes aligned with the axes around rotated cubes may meet up to 3
   std::vector<int> chains(int reach) const {
     std::vector<int> chain(cells.size());
     for (std::size_t i = 0; i < chain.size(); ++i)
@@ -76,7 +76,7 @@ struct Lattice {
       if (chain[i] == number && fixed[i]) return true;
     return false;
   }
-  // how far aside another chain's cube that is no higher lies, at least, in cells
+  // least sideways distance of another chain's cube that is not higher, in cells
   int nearest_below(const std::vector<int>& chain, int number) const {
     int nearest = 1000;
     for (std::size_t i = 0; i < cells.size(); ++i)
@@ -90,7 +90,7 @@ struct Lattice {
     return nearest;
   }
 
-  // whether a fixed cube lies straight below one of a chain
+  // whether a fixed cube is vertically below one of a chain
   bool held_below(const std::vector<int>& chain, int number) const {
     for (std::size_t i = 0; i < cells.size(); ++i)
       for (std::size_t j = 0; j < cells.size(); ++j) {
@@ -140,9 +140,9 @@ void expect_named_when_it_can_only_fall(Engine& engine, std::array<int, 3>& seen
   EXPECT_FALSE(lattice.held_below(touching, touching[cell]));
 }
 
-// Random cubes, in the plane and in space, under gravity in any direction: whatever is tied, or has something straight
-// below, is never named; what is far from all others always is.
-TEST(FreeFall, BeforeTheFirstStepIsThatOfWhatNothingTiesOrCatches) {
+// Random cubes, in 2-D and 3-D, under gravity in any direction: cubes that are connected, or have another vertically
+// below, are never named; a cube far from all others always is.
+TEST(FreeFall, BeforeTheFirstStepIsThatOfUnconnectedBodies) {
   Engine engine(463);
   std::array<int, 3> seen{};
   for (int k = 0; k < 300; ++k) {
@@ -153,7 +153,7 @@ TEST(FreeFall, BeforeTheFirstStepIsThatOfWhatNothingTiesOrCatches) {
   EXPECT_GT(seen[1], 20);
 }
 
-TEST(FreeFall, BoltsAndOtherLoadsMayHoldWhatNothingTies) {
+TEST(FreeFall, BoltsAndOtherLoadsMayHoldUnconnectedBodies) {
   Model<2> model = shapes::model_of<2>({shapes::body_of<2>(box<2>({0, 0}, {1, 1}), false, "hung"),
                                         shapes::body_of<2>(box<2>({0, 3}, {1, 4}), true, "roof")});
   State<2> state = initial_state(model);
@@ -183,8 +183,8 @@ TEST(FreeFall, BoltsAndOtherLoadsMayHoldWhatNothingTies) {
   EXPECT_EQ(tied_to_nothing(weightless, state), -1);
 }
 
-// A block far away in any direction that nothing presses: a contact without force holds it no more than none.
-TEST(FreeFall, IsSeenWhereverABodyHasGone) {
+// A block far away in any direction without contact force: a contact without force is as good as none.
+TEST(FreeFall, IsFoundInAnyDirection) {
   Engine engine(16);
   Model<3> model = shapes::block_on_plate<3>(0, 0.5);
   const int block = shapes::index_of(model, "block");

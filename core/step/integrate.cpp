@@ -58,7 +58,7 @@ void drift_spin(const Body<2>& body, double dt, Motion<2>& motion) {
   motion.rotation.angle += dt * motion.angular_momentum[0] / body.inertia[0];
 }
 
-// some axes are held: the free components of the spin obey the free block of the inertia tensor
+// some axes are held: the free components of the angular velocity obey the free block of the inertia tensor
 void kick_partly(const Body<3>& body, const Spin<3>& moment, double keeps, double dt, Motion<3>& motion) {
   const Matrix<3> axes = matrix(motion.rotation) * body.principal_axes;
   Matrix<3> inertia = axes * body.inertia.asDiagonal() * axes.transpose();
@@ -92,14 +92,14 @@ void kick_spin(const Body<3>& body, const Load<3>& load, const KickRule& rule, S
   kick.kinetic += 0.5 * momentum_before.dot(motion.angular_momentum.cwiseQuotient(body.inertia));
 }
 
-// turns the body about its principal axis k by the fraction of a step; the momentum seen from the body turns back
+// rotates the body about its principal axis k for the fraction of a step; the momentum in body axes rotates back
 void turn_about(int k, double dt, const Body<3>& body, Motion<3>& motion) {
   Spin<3>& momentum = motion.angular_momentum;
   const double half_angle = 0.5 * dt * momentum[k] / body.inertia[k];
   const double c = std::cos(half_angle), s = std::sin(half_angle);
   const int i = (k + 1) % 3, j = (k + 2) % 3;
   const double mi = momentum[i], mj = momentum[j];
-  // as a change: a cosine near one is rounded the same way step after step, and the momentum would drift
+  // as an increment: a cosine near one is rounded in the same direction step after step, and the momentum would drift
   momentum[i] += 2 * s * (c * mj - s * mi);
   momentum[j] -= 2 * s * (c * mi + s * mj);
   const Vector<3> axis = s * body.principal_axes.col(k);
@@ -121,13 +121,13 @@ void drift_spin(const Body<3>& body, double dt, Motion<3>& motion) {
   motion.rotation.quaternion.normalize();
 }
 
-// N: what acts on a body and what its momentum still amounts to, the momentum times its highest frequency
+// N: the force on a body and the force equivalent of its momentum, momentum times highest frequency
 template <int Dim>
 double unbalanced_force(const Model<Dim>& model, const State<Dim>& state, int b) {
   const Body<Dim>& body = model.bodies[b];
   if (body.fixed) return 0;
   double frequency = static_cast<std::size_t>(b) < state.time_step.frequency.size() ? state.time_step.frequency[b] : 0;
-  // mass times frequency goes with the root of the mass
+  // mass times frequency is proportional to the root of the mass
   if (frequency > 0 && state.relaxation.under_way) frequency *= std::sqrt(state.relaxation.inertia[b]);
   double squares = 0, momentum = 0;
   for (int k = 0; k < Dim; ++k) {
@@ -143,7 +143,7 @@ double unbalanced_force(const Model<Dim>& model, const State<Dim>& state, int b)
   return std::sqrt(squares) + frequency * std::sqrt(momentum);
 }
 
-// N: of the free bodies that a load acts on, whichever of its sources it comes from
+// N: mean over the free bodies on which one of these sources acts
 template <int Dim>
 double mean_load(const Model<Dim>& model, const State<Dim>& state, std::initializer_list<Source> sources) {
   double forces = 0;
@@ -159,8 +159,8 @@ double mean_load(const Model<Dim>& model, const State<Dim>& state, std::initiali
   return loaded > 0 ? forces / loaded : 0;
 }
 
-// N: what is unbalanced is measured against this. Contacts may carry next to nothing of what acts: what floats touches
-// nothing, and relief loads or the water in a joint may hold all that its contacts held.
+// N: reference of the unbalanced force. Contacts may transfer almost nothing of the loads: a floating body touches
+// nothing, and relief loads or the water in a joint may support everything that contacts supported.
 template <int Dim>
 double force_at_rest(const Model<Dim>& model, int threads, const State<Dim>& state) {
   const auto add_contact = [&](int i, ForceSum& sum) {
@@ -176,7 +176,7 @@ double force_at_rest(const Model<Dim>& model, int threads, const State<Dim>& sta
   }
   for (const StepSupport<Dim>& row : step_supports<Dim>)
     if (row.add_forces) row.add_forces(state.supports, sums);
-  return std::max({sums.all.mean(), sums.supports.mean(), mean_load(model, state, {Source::let_off}),
+  return std::max({sums.all.mean(), sums.supports.mean(), mean_load(model, state, {Source::excavation_forces}),
                    mean_load(model, state, {Source::applied_forces}),
                    mean_load(model, state, {Source::water, Source::water_pressure})});
 }
@@ -215,7 +215,7 @@ std::vector<Kick<Dim>>& advance_bodies(const Model<Dim>& model, int threads, std
                                        StepTimes times, const std::vector<Load<Dim>>& loads,
                                        std::vector<Motion<Dim>>& motions) {
   static thread_local std::vector<Kick<Dim>> own;
-  std::vector<Kick<Dim>>& kicks = own;  // this thread's, filled by all
+  std::vector<Kick<Dim>>& kicks = own;  // of this thread, filled by all
   kicks.resize(model.bodies.size());
   each_on_threads(threads, kicks.size(), [&](int b) {
     kicks[b] = model.bodies[b].fixed

@@ -29,7 +29,7 @@ PairMotion<Dim> motion_of(const Model<Dim>& model, const BodiesState<Dim>& bodie
   return {between(a, b), b.velocity - a.velocity, a.spin, b.spin, a.inverse_mass + b.inverse_mass};
 }
 
-// where a joint is loaded
+// loading of a joint at a point
 template <int Dim>
 struct Bearing {
   Vector<Dim> point, normal;
@@ -39,17 +39,17 @@ struct Bearing {
   double stiffness_factor = 1;  // of a constant stiffness
 };
 
-// what some contacts add to the energy ledger, J
+// contribution of some contacts to the energy balance, J
 struct JointSums {
   double elastic = 0, friction = 0, lost_area = 0, dashpots = 0, stiffening = 0;
   long long snap_backs = 0, bonds_made = 0;
 };
 
-// of some joint properties as it is now
+// current friction of some joint properties
 struct Friction {
   double angle;            // rad
   double coefficient;      // its tangent
-  double strength_factor;  // divides cohesion; the tangent is divided already
+  double strength_factor;  // divides cohesion; the tangent is already divided
 };
 
 Friction friction_of(const Schedule& schedule, std::size_t properties) {
@@ -66,7 +66,7 @@ const std::vector<Friction>& frictions_of(const Schedule& schedule) {
   return frictions;
 }
 
-// the answer of a plain joint, inlined as below; `damping` over the root of the normal stiffness
+// the force of a plain joint, inlined as below; `damping` over the root of the normal stiffness
 template <int Dim>
 [[gnu::always_inline]] inline JointForce<Dim> plain_answer(const JointProperties& properties, double friction,
                                                            double damping, const JointKinematics<Dim>& k,
@@ -77,7 +77,7 @@ template <int Dim>
   return answer;
 }
 
-// the answer of a joint with laws of its own
+// the force of a joint with laws of its own
 template <int Dim>
 JointForce<Dim> answer_of_laws(const JointProperties& properties, double friction, double damping,
                                const JointKinematics<Dim>& k, double strength_factor, JointSums& sums,
@@ -91,7 +91,7 @@ JointForce<Dim> answer_of_laws(const JointProperties& properties, double frictio
 }
 
 // A contact's normal dashpot, 2ξ √(m kn A) (Eq. 6.9), over the root of its normal stiffness per area, N s/m; `fraction`
-// of the contact's mass goes with this area. Between two immobile bodies there is nothing to damp.
+// of the contact's mass belongs to this area. Between two immobile bodies there is nothing to damp.
 template <int Dim>
 [[gnu::always_inline]] inline double dashpot_of(const JointStep& step, const PairMotion<Dim>& motion, double area,
                                                 double fraction = 1) {
@@ -100,14 +100,14 @@ template <int Dim>
              : 0;
 }
 
-// Force on the second body; the history continues. Inlined by force: the call and what it passes would cost a plain
+// Force on the second body; the history continues. Inlined by force: the call and its arguments would cost a plain
 // joint some percent of its law (benchmarks/price_of_laws.sh).
 template <int Dim>
 [[gnu::always_inline]] inline Vector<Dim> joint_force(const JointProperties& properties, const JointStep& step,
                                                       const PairMotion<Dim>& motion, const Bearing<Dim>& at,
                                                       const Friction& friction, JointState<Dim>& history,
                                                       JointSums& sums) {
-  // the slip is the one of the step that led here
+  // the slip is that of the last step
   const double dt = step.length;
   const Vector<Dim>& n = at.normal;
   const Vector<Dim> velocity = motion.velocity_at(at.point);
@@ -120,18 +120,20 @@ template <int Dim>
   k.stiffness_factor = at.stiffness_factor;
   k.closing_speed = -velocity.dot(n);
 
-  // a new contact has no shear yet, and slips as long as it has been closed; a standing one carries its shear to the
-  // new plane
+  // a new contact has no shear yet, and slips for the time that it has been closed; an existing one rotates its shear
+  // to the new plane
   const bool standing = !history.normal.isZero(0);
   double closing_before = 0;
   if (standing) {
-    // the mean of where the contact was and where it is: what its shear force then takes is what the bodies lose
+    // the mean of the contact's old and new position: the work of its shear force then equals the energy that the
+    // bodies lose
     const Vector<Dim> before = motion.velocity_before_at(history.point, dt);
     closing_before = -before.dot(history.normal);
     const Vector<Dim> twice = velocity + before + closing_before * history.normal;
     k.slip = 0.5 * dt * (twice - twice.dot(n) * n);
     k.turn = spin_about(n, motion.spin_a, motion.spin_b) * dt;
-    // area that is lost takes its stress with it: the rest could not carry the force of a thousand times its size
+    // lost area takes its stress with it: the remaining area could not support the force of an area a thousand times as
+    // large
     if (k.area < history.area) {
       const double left = k.area / history.area;
       const double stiffness =
@@ -160,8 +162,7 @@ template <int Dim>
   return answer.force;
 }
 
-// The joint of a contact that is carried as a whole. Not inlined: what a scene does not ask for shall not lengthen its
-// loop.
+// The joint of an integrated face contact. Not inlined, so that scenes without it have a short loop.
 template <int Dim>
 [[gnu::noinline]] FaceForce<Dim> whole_face_force(const JointProperties& properties, const JointStep& step,
                                                   const PairMotion<Dim>& motion, const ContactGeometry<Dim>& geometry,
@@ -171,7 +172,7 @@ template <int Dim>
   return face_force<Dim>(properties, friction, dashpot, step.length, motion, geometry, face, history);
 }
 
-// Bonds what presses of a contact whose bond is due.
+// Bonds the compressed parts of a contact whose bond is due.
 template <int Dim>
 void bond_what_presses(const JointProperties& properties, std::size_t place, ContactsState<Dim>& contacts,
                        long long& made) {
@@ -192,7 +193,7 @@ void bond_what_presses(const JointProperties& properties, std::size_t place, Con
   }
 }
 
-// what the force of a contact that touches does to its bodies; the second one's centroid is `apart` from the first's
+// load of a touching contact on its bodies; the second one's centroid is `apart` from the first's
 template <int Dim>
 [[gnu::always_inline]] inline void note_load(const Contact<Dim>& c, std::span<const SubContact<Dim>> subs, int second,
                                              const Vector<Dim>& apart, ContactLoad<Dim>& load) {
@@ -240,7 +241,7 @@ template <int Dim>
     note_load<Dim>(c, {}, model.parts[c.part_b].body, motion.between, contacts.loads[place]);
     return;
   }
-  // each cell answers for itself; the contact keeps what they are together
+  // each cell has its own force; the contact keeps their sum
   double whole = 0;
   for (const SubContact<Dim>& s : subs_of(contacts, place))
     whole += s.area;
@@ -262,7 +263,7 @@ template <int Dim>
     c.history.plastic_slip += s.area / whole * s.history.plastic_slip;
     c.history.dashpot += s.history.dashpot;
     c.history.bonded = c.history.bonded && s.history.bonded;
-    if (bonded && !s.history.bonded) c.bond_due = false;  // where one breaks, none is made any more
+    if (bonded && !s.history.bonded) c.bond_due = false;  // if one breaks, none is made any more
   }
   note_load<Dim>(c, subs_of(std::as_const(contacts), place), model.parts[c.part_b].body, motion.between,
                  contacts.loads[place]);
@@ -333,7 +334,7 @@ void find_joint_forces(const Model<Dim>& model, const Settings& settings, const 
                        const JointStep& step, BodiesState<Dim>& bodies, ContactsState<Dim>& contacts, Ledger& ledger,
                        Counters& counters) {
   static thread_local std::vector<JointSums> own;
-  std::vector<JointSums>& sums = own;  // this thread's, filled by all
+  std::vector<JointSums>& sums = own;  // of this thread, filled by all
   sums.assign(groups_of(contacts.list.size()), {});
   const std::vector<Friction>& frictions = frictions_of(schedule);
   const auto answer_found = [&](int group, std::span<Contact<Dim>* const> found) {
@@ -361,7 +362,7 @@ template <int Dim>
 void make_bonds(const Model<Dim>& model, const Settings& settings, BodiesState<Dim>& bodies,
                 ContactsState<Dim>& contacts, BondTally& bonds, Counters& counters) {
   if (std::ranges::none_of(model.properties, [](const JointProperties& p) { return p.laws.bond; })) return;
-  // which of the pairs that are near are closed shows as each is looked at
+  // the closed ones of the near pairs are found as each is examined
   find_neighbours(model, settings, bodies, contacts, counters);
   for (Contact<Dim>& c : contacts.list)
     c.bond_due = true;

@@ -1,4 +1,4 @@
-// The step's second line: which candidate pairs touch, and what their joints answer.
+// The step's second line: contacts among the candidate pairs, and the forces of their joints.
 #pragma once
 
 #include "core/base/settings.hpp"
@@ -8,7 +8,7 @@
 
 namespace voussoir {
 
-// of the step that led here, over which joints slip
+// the last step, over which joints slip
 struct JointStep {
   double length;         // s
   double viscous_ratio;  // of their dashpots; 0: none, as under relaxation
@@ -19,14 +19,14 @@ JointStep joint_step(const Settings& settings, const TimeStep& last, const Relax
   return {last.length, relaxation.under_way ? 0 : settings.damping.viscous_ratio};
 }
 
-// Finds the contacts, and for each its joint's force from overlap and from the slip over the last step. The ledger's
-// elastic energy becomes theirs.
+// Finds the contacts, and for each its joint's force from the overlap and from the slip over the last step. The
+// ledger's elastic energy is set to theirs.
 template <int Dim>
 void find_joint_forces(const Model<Dim>& model, const Settings& settings, const Schedule& schedule,
                        const JointStep& step, BodiesState<Dim>& bodies, ContactsState<Dim>& contacts, Ledger& ledger,
                        Counters& counters);
 
-// the forces alone, of contacts that have been found
+// only the forces, of contacts that have been found
 template <int Dim>
 void apply_joint_laws(const Model<Dim>& model, const Settings& settings, const Schedule& schedule,
                       const JointStep& step, const BodiesState<Dim>& bodies, ContactsState<Dim>& contacts,
@@ -36,27 +36,26 @@ void apply_joint_laws(const Model<Dim>& model, const Settings& settings, const S
 template <int Dim>
 using PairWrench = typename PairStiffness<Dim>::Wrench;
 
-// What the joint of a contact would answer to this geometry and this motion of its bodies, from these histories, which
-// stay; those of the sub-contacts in their order. `face`: of a contact that is carried as a whole, else none.
+// The force of a contact's joint for this geometry and this motion of its bodies, from these histories, which are not
+// changed; those of the sub-contacts in their order. `face`: of an integrated face contact, else none.
 template <int Dim>
 PairWrench<Dim> joint_wrench(const Model<Dim>& model, const Schedule& schedule, const JointStep& step,
                              const Contact<Dim>& contact, std::span<const SubContact<Dim>> subs,
                              const IntegratedContact<Dim>* face, const PairMotion<Dim>& motion,
                              const JointState<Dim>& history, std::span<const JointState<Dim>> sub_histories);
 
-// Bonds every closed joint that has tensile strength or cohesion: where it presses at once, elsewhere as soon as it
-// first does, unless its faces part by more than a thousandth of the smallest inscribed radius before. No force
+// Bonds every closed joint that has tensile strength or cohesion: immediately if it is compressed, otherwise when it
+// first is, unless its faces have parted by more than a thousandth of the smallest inscribed radius before. No force
 // changes.
 template <int Dim>
 void make_bonds(const Model<Dim>& model, const Settings& settings, BodiesState<Dim>& bodies,
                 ContactsState<Dim>& contacts, BondTally& bonds, Counters& counters);
 
-// takes the bonds of bodies that the model no longer has out of the count of those whole
+// removes the bonds of bodies that the model no longer has from the count of intact ones
 template <int Dim>
 void remove_bonds(const Model<Dim>& model, ContactsState<Dim>& contacts, BondTally& bonds);
 
-// Sets the plastic slip of every joint to 0, so that friction that hardens or softens begins again. No force is
-// touched.
+// Sets the plastic slip of every joint to 0, so that hardening or softening of friction starts again. No force changes.
 template <int Dim>
 void zero_slip(ContactsState<Dim>& contacts);
 

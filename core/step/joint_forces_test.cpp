@@ -1,4 +1,5 @@
-// Sub-contacts carry what a distributed joint carries: normal force and rocking moment exactly, spin as n² grows.
+// Sub-contacts have the forces of a distributed joint: normal force and rocking moment exactly, twist with an error of
+// order 1/n².
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,7 +24,7 @@ constexpr double tilt = 1e-6;  // rad
 // the contact's normal lies between the two faces', half the tilt from each
 constexpr double tilt_tolerance = 3e-6;
 
-// its joint carried by `along` points along each direction of the face
+// its joint has `along` points along each direction of the face
 template <int Dim>
 struct Pressed : pressed::Block<Dim> {
   Pressed(int along, double depth, double angle) {
@@ -45,12 +46,12 @@ void expect_distributed_load() {
     }
 }
 
-TEST(SubContacts, CarryTheDistributedJointsForceAndMoment) {
+TEST(SubContacts, HaveTheDistributedJointsForceAndMoment) {
   expect_distributed_load<2>();
   expect_distributed_load<3>();
 }
 
-TEST(SubContacts, WithoutThemAFaceRocksSeveralTimesTooStiff) {
+TEST(SubContacts, WithoutThemRockingIsSeveralTimesTooStiff) {
   const Pressed<2> one(1, 4 * tilt, tilt);
   const Springs springs(one.model.properties[0].normal_stiffness, 4 * tilt, tilt);
   // the analytic centre moves towards the deeper side by more than the pressure does: 2.88 at this depth
@@ -58,7 +59,7 @@ TEST(SubContacts, WithoutThemAFaceRocksSeveralTimesTooStiff) {
   EXPECT_LT(one.moment() / springs.moment, 4);
 }
 
-TEST(SubContacts, SpinStiffnessConvergesWithTheSquareOfTheirNumber) {
+TEST(SubContacts, TwistStiffnessConvergesWithTheSquareOfTheirNumber) {
   constexpr double depth = 1e-4, speed = 1e-3, time_step = 1e-3;
   for (const int along : {1, 2, 4, 8}) {
     Pressed<3> pressed(along, depth, 0);
@@ -75,7 +76,7 @@ TEST(SubContacts, SpinStiffnessConvergesWithTheSquareOfTheirNumber) {
   }
 }
 
-// A block comes down aslant: whenever within a step it meets the plate, the shear is that of the slip since then.
+// A block descends obliquely: whenever it meets the plate within a step, the shear is that of the slip since then.
 TEST(NewContacts, CountTheSlipOfTheirFirstStep) {
   constexpr double down = 2e-2, along = 1e-2, time_step = 1e-3;
   const auto sheared = [&](double gap, int steps) {
@@ -94,22 +95,23 @@ TEST(NewContacts, CountTheSlipOfTheirFirstStep) {
     state.bodies.motions[block].displacement[1] = gap;
     Settings settings;
     settings.time.step = time_step;
-    for (int i = 0; i <= steps; ++i)  // the forces that a step finds are those before it
+    for (int i = 0; i <= steps; ++i)  // the forces of a step are those at its start
       step(model, settings, state);
     return -state.loads.total[block].force[0] / model.properties[0].shear_stiffness;
   };
-  // on the way of the first step, 20 µm: from the start, after a quarter, just before its end; then the next
+  // along the displacement of the first step, 20 µm: from the start, after a quarter, just before its end; then the
+  // next
   for (const double gap : {0.0, 5e-6, 19e-6})
     for (const int steps : {1, 2, 7})
       EXPECT_NEAR(sheared(gap, steps), along * (steps * time_step - gap / down), 1e-8 * along) << gap << " " << steps;
 }
 
-// What a linear distribution stores is counted whole, so that a rocking block keeps its energy; with one point the
-// contact has no potential. At a fiftieth of the stable step the elastic energy is known to some 1e-7.
+// The energy of a linear stress distribution is counted completely, so that a rocking block conserves energy; with one
+// point the contact has no potential. At a fiftieth of the stable step the elastic energy is known to about 1e-7.
 constexpr double conserved = 1e-6, not_conserved = 1e-3;
 
 template <int Dim>
-double closure_of_rocking(int along) {
+double energy_error_of_rocking(int along) {
   Pressed<Dim> pressed(along, 1e-4, 0);
   Settings& settings = pressed.settings;
   settings.damping.local = 0;
@@ -120,7 +122,7 @@ double closure_of_rocking(int along) {
   Spin<Dim> spin = Spin<Dim>::Zero();
   spin[Dim == 2 ? 0 : 1] = 0.01;
   motion.angular_momentum = angular_momentum(body, motion.rotation, spin);
-  // held down by what the overlap carries: the whole face touches all the time
+  // held down by the force of the overlap: the full face touches all the time
   pressed.model.gravity[Dim - 1] = -pressed.force() / body.mass;
   for (int i = 0; i < 2000; ++i)
     step(pressed.model, settings, state);
@@ -128,17 +130,17 @@ double closure_of_rocking(int along) {
   return state.ledger.energy.relative_error();
 }
 
-TEST(SubContacts, RockingKeepsItsEnergy) {
-  EXPECT_GT(closure_of_rocking<2>(1), not_conserved);
+TEST(SubContacts, RockingConservesEnergy) {
+  EXPECT_GT(energy_error_of_rocking<2>(1), not_conserved);
   for (const int along : {2, 8}) {
-    EXPECT_LT(closure_of_rocking<2>(along), conserved) << along;
-    EXPECT_LT(closure_of_rocking<3>(along), conserved) << along;
+    EXPECT_LT(energy_error_of_rocking<2>(along), conserved) << along;
+    EXPECT_LT(energy_error_of_rocking<3>(along), conserved) << along;
   }
 }
 
 // ---- laws under a block ---------------------------------------------------------------------------------------------
 
-// what a block pressed by `depth` answers through one point or several
+// the force of a block with overlap `depth` through one point or several
 template <int Dim>
 double force_at(Pressed<Dim>& pressed, double depth) {
   pressed.state.bodies.motions[pressed.block].displacement[Dim - 1] = -depth;
@@ -153,10 +155,10 @@ TEST(Bonds, AreMadeWhereAClosedJointPressesAndHoldUntilTheyBreak) {
     joint.laws.bond = true;
     joint.tension = 2e4;  // an offset of 20 µm
     joint.cohesion = 1e5;
-    EXPECT_NEAR(force_at(pressed, 1e-5), 0, 1e-6);  // never bonded: nothing below the offset
+    EXPECT_NEAR(force_at(pressed, 1e-5), 0, 1e-6);  // never bonded: no force below the offset
     make_bonds(pressed.model, pressed.settings, pressed.state.bodies, pressed.state.contacts,
                pressed.state.ledger.bonds, pressed.state.counters);
-    EXPECT_NEAR(force_at(pressed, 5e-6), 0, 1e-6) << "nothing is under compression";
+    EXPECT_NEAR(force_at(pressed, 5e-6), 0, 1e-6) << "no point is compressed";
     EXPECT_EQ(count_bonds(pressed.state.contacts, pressed.state.ledger.bonds).made, 0);
     EXPECT_EQ(count_bonds(pressed.state.contacts, pressed.state.ledger.bonds).due, 1);
 
@@ -170,12 +172,12 @@ TEST(Bonds, AreMadeWhereAClosedJointPressesAndHoldUntilTheyBreak) {
     force_at(pressed, -1e-6);  // apart: the bond is lost with the contact
     EXPECT_NEAR(force_at(pressed, 5e-6), 0, 1e-6);
     EXPECT_NEAR(force_at(pressed, 1e-4), 8e4, 1) << "the offset stays";
-    EXPECT_NEAR(force_at(pressed, 5e-6), 0, 1e-6) << "what is broken stays so";
+    EXPECT_NEAR(force_at(pressed, 5e-6), 0, 1e-6) << "a broken bond stays broken";
     EXPECT_EQ(count_bonds(pressed.state.contacts, pressed.state.ledger.bonds).broken, along);
   }
 }
 
-// Blocks that only touch have no contact yet; how far they may part before they press is a thousandth of their size.
+// Blocks that only touch have no contact yet; they may part by a thousandth of their size before they are compressed.
 TEST(Bonds, WaitForAClosedJointToPressUnlessItOpens) {
   for (const int along : {1, 4})
     for (const double gap : {0.0, 1e-12, 2e-4, 3e-4}) {

@@ -10,18 +10,18 @@
 namespace voussoir {
 namespace {
 
-// Of the length that half a node stands for: the tangent of its interface is found by such a motion, and where it is
-// open by no more it counts as closed, or the first loads would meet no stiffness.
+// Of the length that half a node represents: the tangent of its interface is found by a motion of this size, and an
+// interface open by no more counts as closed, or the first loads would meet no stiffness.
 constexpr double small_motion = 1e-8, closed_within = 1e-5;
 
-// half a node at its rock, world axes
+// half a node at its rock face, world axes
 struct AtRock {
   Vector<2> normal;      // into the rock
   Vector<2> along;       // t
   Vector<2> from_block;  // m, of the node from the block's centroid
   LiningMotion motion;
 
-  // `seconds`: of the step that led here
+  // `seconds`: of the last step
   AtRock(const LiningRock& rock, int node, const BodiesState<2>& bodies, double seconds = 0)
       : normal(bodies.poses[rock.body].axes * rock.normal),
         along(perpendicular(normal)),
@@ -53,7 +53,7 @@ void each_beam(const Lining& lining, const BodiesState<2>& bodies, const Work& w
   }
 }
 
-// calls what(contact, half's length, rock, body of the node) for every half node that has rock opposite
+// calls what(contact, half's length, rock, body of the node) for every half node with rock opposite
 template <class Supports, class Work>
 void each_at_rock(const Model<2>& model, Supports& supports, const Work& work) {
   for (auto& lined : supports.linings) {
@@ -65,8 +65,8 @@ void each_at_rock(const Model<2>& model, Supports& supports, const Work& work) {
   }
 }
 
-// Where a node has left its block's face, the next one takes over what the interface remembers; with none opposite,
-// nothing holds it any more.
+// If a node has left its block's face, the interface history passes to the next face; with none opposite, the node is
+// free.
 void follow_rock(const Model<2>& model, const BodiesState<2>& bodies, SupportsState<2>& supports, Ledger& ledger) {
   for (LiningState& lined : supports.linings) {
     const Lining& lining = model.linings[lined.lining];
@@ -85,7 +85,7 @@ void follow_rock(const Model<2>& model, const BodiesState<2>& bodies, SupportsSt
       }
       const int node = lining.first_body + static_cast<int>(i / 2);
       const LiningMotion now = AtRock(lined.rock[rock], node, bodies).motion;
-      // what it has moved since the last step, as the block it comes from sees it
+      // its displacement since the last step, relative to the block that it comes from
       double closed = 0, slipped = 0;
       if (contact.rock >= 0) {
         const LiningMotion last = AtRock(lined.rock[contact.rock], node, bodies).motion;
@@ -202,7 +202,7 @@ void add_lining_pairs(const Model<Dim>& model, const Settings&, const State<Dim>
         const int node = lining.first_body + static_cast<int>(i / 2);
         const AtRock at(rock, node, state.bodies, state.time_step.length);
         const LiningJoint joint = joint_of(model, state.schedule, 0, lining, length, 0);
-        // from where the increment began; at a block it came to since, from there
+        // from the start of the increment; at a block that it has reached since, from there
         const LiningContact begin = base.contacts[i].rock == contact.rock ? base.contacts[i] : contact;
         const auto force_at = [&](double closer, double farther) {
           LiningContact trial = begin;

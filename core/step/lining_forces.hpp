@@ -1,5 +1,5 @@
-// What linings do to their nodes and to the rock (core/support/lining.hpp): the entries of their row in
-// support_table.hpp. In the plane; elsewhere there are none.
+// Forces of linings on their nodes and on the rock (core/support/lining.hpp): the entries of their row in
+// support_table.hpp. In 2-D; in 3-D there are none.
 #pragma once
 
 #include <string>
@@ -50,7 +50,7 @@ void tell_touching_nodes(const Model<Dim>& model, const SupportsState<Dim>& supp
 template <int Dim>
 void scale_nodes(const Model<Dim>& model, const std::vector<int>& place, Eigen::VectorXd& scale);
 
-// a lining that had rock opposite and touches none any more
+// a lining that had rock opposite and does not touch any now
 template <int Dim>
 std::string loose_lining(const Model<Dim>& model, const SupportsState<Dim>& supports);
 

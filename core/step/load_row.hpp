@@ -8,7 +8,7 @@
 
 namespace voussoir {
 
-// what loads depend on, of one state
+// the data that loads depend on, of one state
 template <int Dim>
 struct LoadInputs {
   const Schedule& schedule;
@@ -23,8 +23,8 @@ LoadInputs<Dim> load_inputs(const State<Dim>& state) {
   return {state.schedule, state.bodies, state.contacts, state.supports, state.loads.relief};
 }
 
-// A load: whether there is any, what it does to the bodies, whose loads are zero before, and, where it changes with the
-// body's pose, by how much at most (for the time step) and how (for Newton's method).
+// A load: whether there is any, its forces on the bodies, whose loads are zero before, and, if it changes with the
+// body's pose, a bound of the change (for the time step) and the change itself (for Newton's method).
 template <int Dim>
 struct LoadRow {
   using Block = typename PairStiffness<Dim>::Block;

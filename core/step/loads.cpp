@@ -8,7 +8,7 @@
 namespace voussoir {
 namespace {
 
-// Each finds what its source does to the bodies; the loads are zero before.
+// Each computes the loads of its source on the bodies; the loads are zero before.
 template <int Dim>
 void contact_loads(const Model<Dim>&, int threads, const LoadInputs<Dim>& now, std::vector<Load<Dim>>& loads) {
   each_on_threads(threads, loads.size(), [&](int b) {
@@ -57,14 +57,14 @@ void applied_loads(const Model<Dim>& model, int, const LoadInputs<Dim>& now, std
   }
 }
 
-// A force that keeps its direction acts at a point that turns with the body: like the weight of a pendulum.
+// A force of constant direction acts at a point that rotates with the body, like the weight of a pendulum.
 template <int Dim>
 void applied_stiffness(const Model<Dim>& model, const LoadInputs<Dim>& now, std::vector<BodyStiffness>& stiffness) {
   for (const AppliedForce<Dim>& f : model.applied)
     if (!f.turns_with_body) stiffness[f.body].rotation += force_of(f, now).norm() * f.place.norm();
 }
 
-// the surfaces of now, this thread's, filled by it alone
+// the present surfaces, of this thread, filled only by it
 template <int Dim>
 const WaterSurfaces<Dim>& surfaces_of(const Model<Dim>& model, const LoadInputs<Dim>& now) {
   static thread_local WaterSurfaces<Dim> own;
@@ -108,8 +108,8 @@ bool has_water_by_faces(const Model<Dim>& model, const LoadInputs<Dim>&) {
 template <int Dim>
 using Block = typename PairStiffness<Dim>::Block;
 
-// Minus the change of a load as its body turns: of one that keeps its direction the moment changes, for its point
-// turns; one that turns with the body turns with its moment.
+// Minus the change of a load as its body rotates: if the force keeps its direction, the moment changes, because its
+// point rotates; if it turns with the body, force and moment rotate.
 template <int Dim>
 void add_turning(const Vector<Dim>& arm, const Vector<Dim>& force, bool with_body, Block<Dim>& stiffness) {
   for (int s = 0; s < spin_freedoms<Dim>; ++s) {
@@ -138,7 +138,7 @@ void applied_tangent(const Model<Dim>& model, const LoadInputs<Dim>& now, std::v
   }
 }
 
-// those that are known before the bodies move, in the order in which they are summed; those of supports follow
+// loads that are known before the bodies move, in the order of summation; those of supports follow
 template <int Dim>
 constexpr LoadRow<Dim> load_table[] = {
     {Source::contacts, [](const Model<Dim>&, const LoadInputs<Dim>&) { return true; }, contact_loads<Dim>},
@@ -150,7 +150,7 @@ constexpr LoadRow<Dim> load_table[] = {
      applied_loads<Dim>, applied_stiffness<Dim>, applied_tangent<Dim>},
     {Source::water, has_water_by_volume<Dim>, water_loads<Dim>, add_water_stiffness<Dim>},
     {Source::water_pressure, has_water_by_faces<Dim>, water_loads<Dim>, add_water_stiffness<Dim>},
-    {Source::let_off, [](const Model<Dim>&, const LoadInputs<Dim>& now) { return !now.relief.empty(); },
+    {Source::excavation_forces, [](const Model<Dim>&, const LoadInputs<Dim>& now) { return !now.relief.empty(); },
      held_loads<Dim>},
 };
 

@@ -1,4 +1,4 @@
-// Applied forces: where they act, for how long, what they do to a block in space and to its time step.
+// Applied forces: point of action, duration, and effect on a block in 3-D and on its time step.
 #include "core/step/loads.hpp"
 
 #include <gtest/gtest.h>
@@ -70,10 +70,11 @@ Load<Dim> applied_to(int body, const Model<Dim>& model, const State<Dim>& state)
   return loads[body];
 }
 
-// ---- where it acts --------------------------------------------------------------------------------------------------
+// ---- point of action
+// --------------------------------------------------------------------------------------------------
 
-// on a block far from the origin that has moved and turned: the point goes with the block, the force only if the scene
-// says so
+// on a block far from the origin that has moved and rotated: the point moves with the block, the force rotates only if
+// the scene states it
 TEST(AppliedForces, ActAtAPointOfTheirBlock) {
   Model<3> model = in_space<3>(box<3>({-1, -2, -3}, {1, 2, 3}));
   model.origin = {1e5, -2e5, 300};
@@ -95,7 +96,7 @@ TEST(AppliedForces, ActAtAPointOfTheirBlock) {
   EXPECT_LT((load.force - axes * force).norm(), rounding * force.norm());
   EXPECT_LT((load.moment - axes * place.cross(force)).norm(), 1e-9);
 
-  // without a point at the centroid; of different names they sum up
+  // without a point at the centroid; forces of different names are added
   ForcePlan at_centroid = force_on<3>("block", force);
   EXPECT_TRUE(applied_to(0, apply(model, with({at_centroid})), state).moment.isZero(0));
   at_centroid.name = "other";
@@ -110,7 +111,7 @@ TEST(AppliedForces, ActAtAPointOfTheirBlock) {
   EXPECT_NEAR(up.moment[0], 8 * std::cos(30 * degree), rounding * 8);
 }
 
-// A force lasts until one of its name replaces it; zero ends it, and so does the end of its block.
+// A force acts until one of the same name replaces it; zero ends it, and so does the excavation of its block.
 TEST(AppliedForces, LastUntilOneOfTheirNameReplacesThem) {
   const Model<2> model = in_space<2>(cube<2>(1));
   const State<2> state = initial_state(model);
@@ -126,15 +127,15 @@ TEST(AppliedForces, LastUntilOneOfTheirNameReplacesThem) {
   now = apply(now, with({first}));
   EXPECT_EQ(applied_to(0, now, state).force, Vector<2>(0, 4));
   other.force = {0, 0};
-  EXPECT_TRUE(apply(now, with({other})).applied.empty()) << "a scene pays for no force that is zero";
+  EXPECT_TRUE(apply(now, with({other})).applied.empty()) << "a zero force costs nothing";
 
   Change removed;
   removed.remove.push_back({.names = {"block"}, .above = {}, .below = {}, .inside = {}});
   EXPECT_TRUE(apply(now, removed).applied.empty());
 }
 
-// its factor runs while its stage does, and its last value stays, whichever stage follows
-TEST(AppliedForces, StayAsTheirStageLeftThem) {
+// its factor acts during its stage, and its last value stays, whichever stage follows
+TEST(AppliedForces, KeepTheLastValueOfTheirStage) {
   Model<2> model = in_space<2>(cube<2>(1));
   ForcePlan grows = force_on<2>("block", {8, 0});
   grows.factor = {.times = {0, 2}, .factors = {0, 1}};
@@ -154,7 +155,7 @@ TEST(AppliedForces, StayAsTheirStageLeftThem) {
   EXPECT_TRUE(apply(apply(model, with({grows})), with({})).applied.empty());
 }
 
-// ---- what it does to a block in space -------------------------------------------------------------------------------
+// ---- effect on a block in 3-D -------------------------------------------------------------------------------
 
 StagePlan run_of(double duration, std::vector<ForcePlan> forces) {
   StagePlan stage;
@@ -176,8 +177,8 @@ Prepared<Dim> scene_of(const Model<Dim>& model, const State<Dim>& state, std::ve
   return scene;
 }
 
-// A block that hangs by its weight from a constant force: its centroid stays, and it swings like a pendulum with
-// I d²θ/dt² = -F e sin θ, of the period 4 K(sin(θ₀/2)) (I/(F e))^1/2. Nothing but the force sets the time step.
+// A block that hangs from a constant force equal to its weight: its centroid stays, and it swings like a pendulum with
+// I d²θ/dt² = -F e sin θ, of the period 4 K(sin(θ₀/2)) (I/(F e))^1/2. Only the force determines the time step.
 struct Pendulum {
   double arm = 0.8, force = 0;  // m, N
   Model<2> model;
@@ -207,7 +208,7 @@ TEST(AppliedForces, SetTheTimeStepOfABlockThatHangsFromOne) {
                   pendulum.frequency(),
               2, rounding);
 
-  // one that turns with its block turns nothing back, and adds nothing
+  // a force that turns with its block has no restoring moment, and adds no stiffness
   ForcePlan jack = pendulum.hook();
   jack.turns_with_body = true;
   model = apply(pendulum.model, with({jack}));
@@ -225,8 +226,8 @@ double period_of(const std::vector<double>& time, const std::vector<double>& lea
   return 2 * (upright.back() - upright.front()) / static_cast<double>(upright.size() - 1);
 }
 
-// Small swings have leapfrog's own period, sin(ω' dt/2) = ω dt/2, and do not grow up to the limit itself; large ones,
-// which near the limit would be chaotic, differ by as much from the integral to second order.
+// Small swings have leapfrog's period, sin(ω' dt/2) = ω dt/2, and do not grow up to the stability limit; large ones,
+// which would be chaotic near the limit, differ from the integral by the second-order error.
 TEST(AppliedForces, SwingABlockLikeAPendulum) {
   for (const double lean : {1e-3, 1.0, 2.5})
     for (const double fraction : {1.0, 0.2, 0.02}) {
@@ -254,7 +255,7 @@ TEST(AppliedForces, SwingABlockLikeAPendulum) {
       EXPECT_LT(largest, pi) << lean << ", " << fraction;
       const double found = period_of(time, angle) / period;
       if (small) {
-        const double between_steps = 0.5 * step / (2 * pi) / swings;  // a swing's end is found so well
+        const double between_steps = 0.5 * step / (2 * pi) / swings;  // accuracy of a swing's end
         EXPECT_NEAR(found, 0.5 * step / std::asin(0.5 * step), between_steps) << fraction;
         EXPECT_LT(largest, lean / std::sqrt(1 - 0.25 * step * step) * (1 + 1e-6)) << fraction;
       } else {
@@ -267,8 +268,8 @@ TEST(AppliedForces, SwingABlockLikeAPendulum) {
 
 // ---- interruption and threads ---------------------------------------------------------------------------------------
 
-// a block that is shaken on a plate by a sine at its top, by two forces at once: in the same bits from any checkpoint
-// and for any number of threads
+// a block shaken on a plate by a sine at its top, by two forces together: identical bits from any checkpoint and for
+// any number of threads
 Prepared<3> shaken() {
   const Model<3> model = block_on_plate<3>(0, 35 * degree);
   const Vector<3> top = model.bodies[index_of(model, "block")].reference + Vector<3>(0.2, 0.1, 0.25);
@@ -280,7 +281,7 @@ Prepared<3> shaken() {
   return scene_of(model, initial_state(model), {run_of(12e-3, {sine, jack}), run_of(4e-3, {})});
 }
 
-TEST(AppliedForces, GoOnFromACheckpoint) {
+TEST(AppliedForces, ContinueFromACheckpoint) {
   const Prepared<3> scene = shaken();
   Progress<3> whole = initial_progress(scene);
   ASSERT_TRUE(simulate(scene, whole, {}));
@@ -295,7 +296,7 @@ TEST(AppliedForces, GoOnFromACheckpoint) {
 }
 
 TEST(AppliedForces, AreTheSameBitsForAnyNumberOfThreads) {
-  // a hundred blocks side by side, so that threads have something to share
+  // a hundred blocks side by side, so that threads share the work
   const Prepared<3> one = shaken();
   std::vector<Body<3>> bodies;
   for (int copy = 0; copy < 100; ++copy)

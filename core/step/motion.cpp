@@ -14,31 +14,31 @@
 namespace voussoir {
 namespace {
 
-// The next step of a motion: as long as allowed, or as much shorter as lets equal steps end the run when it shall end.
+// The next step of a motion: as long as allowed, or shorter so that equal steps end exactly at the end of the run.
 double next_step(const Schedule& schedule, const TimeStep& time_step) {
   if (!std::isfinite(schedule.ends)) return time_step.allowed;
-  constexpr double rounding = 1e-6;  // of a step: a million steps do not sum up to one more
+  constexpr double rounding = 1e-6;  // of a step: a million steps do not add up to one more
   const double left = schedule.ends - schedule.time;
   return left / std::max(1.0, std::ceil(left / time_step.allowed - rounding));
 }
 
 template <int Dim>
 void add_gravity_ramp(const Model<Dim>& model, const BodiesState<Dim>& bodies, Schedule& schedule,
-                      EnergyLedger& energy) {
+                      EnergyBalance& energy) {
   const double growth = schedule.gravity_factor - schedule.last_gravity_factor;
   schedule.last_gravity_factor = schedule.gravity_factor;
-  if (growth == 0 || energy.phase == LedgerPhase::not_begun) return;
+  if (growth == 0 || energy.phase == BalancePhase::not_begun) return;
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
     if (!model.bodies[b].immobile())
       energy.flows[Source::gravity_ramp] -=
           growth * model.bodies[b].mass * model.gravity.dot(bodies.motions[b].displacement);
 }
 
-// The same bodies under the water of now and under that of the step before. Of a water that grows with gravity counts
-// what it puts into the bodies' motion, as of gravity itself.
+// The same bodies under the present water and under that of the step before. For a water that grows with gravity only
+// its work on the bodies' motion counts, as for gravity itself.
 template <int Dim>
 void add_water_change(const Model<Dim>& model, int threads, const BodiesState<Dim>& bodies,
-                      const LoadsBySource<Dim>& by_source, Schedule& schedule, EnergyLedger& energy,
+                      const LoadsBySource<Dim>& by_source, Schedule& schedule, EnergyBalance& energy,
                       Relaxation<Dim>& relaxation) {
   std::vector<Load<Dim>>& imposed = relaxation.imposed;
   imposed.clear();
@@ -58,7 +58,7 @@ void add_water_change(const Model<Dim>& model, int threads, const BodiesState<Di
   const double growth = schedule.gravity_factor - schedule.last_gravity_factor;
   find_surfaces(model, schedule.water, growth, grown);
   schedule.last_water = schedule.water;
-  if (!model.water_by_volume || energy.phase == LedgerPhase::not_begun) return;
+  if (!model.water_by_volume || energy.phase == BalancePhase::not_begun) return;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     if (model.bodies[b].immobile() || !model.bodies[b].present) continue;
     const int body = static_cast<int>(b);
@@ -73,7 +73,7 @@ void add_water_change(const Model<Dim>& model, int threads, const BodiesState<Di
 
 template <int Dim>
 void add_ramps(const Model<Dim>& model, const Settings& settings, const BodiesState<Dim>& bodies,
-               const LoadsState<Dim>& loads, Schedule& schedule, EnergyLedger& energy, Relaxation<Dim>& relaxation) {
+               const LoadsState<Dim>& loads, Schedule& schedule, EnergyBalance& energy, Relaxation<Dim>& relaxation) {
   if (!model.waters.empty())
     add_water_change(model, settings.threads, bodies, loads.by_source, schedule, energy, relaxation);
   add_gravity_ramp(model, bodies, schedule, energy);
@@ -88,9 +88,9 @@ void move_bodies(const Model<Dim>& model, const Settings& settings, const Counte
     return relax_bodies(model, settings, bodies, contacts, loads, schedule, ledger, time_step, relaxation);
   }
 
-  // within a stage the step only shrinks, as soon as a contact is stiffer than it was chosen for
+  // within a stage the step only shrinks, as soon as a contact is stiffer than at its choice
   const double last = time_step.length;
-  if (counters.steps % steps_between_looks == 0) time_step.frequency.clear();  // rest is judged by them, too
+  if (counters.steps % steps_between_looks == 0) time_step.frequency.clear();  // equilibrium is judged by them, too
   if (const auto renewed = renew_time_step(model, settings, settings.damping, bodies, loads, contacts, time_step)) {
     time_step.allowed = time_step.allowed > 0 ? std::min(time_step.allowed, renewed->step) : renewed->step;
     demand_time_step(time_step);
@@ -121,7 +121,7 @@ void move_bodies(const Model<Dim>& model, const Settings& settings, const Counte
 
 #define VOUSSOIR_INSTANTIATE(Dim)                                                                                   \
   template void add_ramps<Dim>(const Model<Dim>&, const Settings&, const BodiesState<Dim>&, const LoadsState<Dim>&, \
-                               Schedule&, EnergyLedger&, Relaxation<Dim>&);                                         \
+                               Schedule&, EnergyBalance&, Relaxation<Dim>&);                                        \
   template void move_bodies<Dim>(const Model<Dim>&, const Settings&, const Counters&, BodiesState<Dim>&,            \
                                  ContactsState<Dim>&, LoadsState<Dim>&, Schedule&, Ledger&, TimeStep&,              \
                                  Relaxation<Dim>&);

@@ -1,4 +1,4 @@
-// The step's last line: where the loads take the bodies.
+// The step's last line: motion of the bodies under their loads.
 #pragma once
 
 #include "core/base/settings.hpp"
@@ -7,14 +7,14 @@
 
 namespace voussoir {
 
-// Gravity that grows lifts or lowers the potential energy of what has already moved, and a water that rises that of
-// what lies in it: counted where it is. Relaxation learns what of the loads' change the water has imposed.
+// Increasing gravity changes the potential energy of displaced bodies, and rising water that of submerged ones: counted
+// in their present position. Relaxation receives the change of loads that the water has imposed.
 template <int Dim>
 void add_ramps(const Model<Dim>& model, const Settings& settings, const BodiesState<Dim>& bodies,
-               const LoadsState<Dim>& loads, Schedule& schedule, EnergyLedger& energy, Relaxation<Dim>& relaxation);
+               const LoadsState<Dim>& loads, Schedule& schedule, EnergyBalance& energy, Relaxation<Dim>& relaxation);
 
-// A time step that today's contacts allow, then velocities, then positions; or one of relaxation. Contacts change in
-// nothing but the area that they are rated with.
+// A time step that the present contacts allow, then velocities, then positions; or a step of relaxation. Of contacts
+// only the rated area changes.
 template <int Dim>
 void move_bodies(const Model<Dim>& model, const Settings& settings, const Counters& counters, BodiesState<Dim>& bodies,
                  ContactsState<Dim>& contacts, LoadsState<Dim>& loads, Schedule& schedule, Ledger& ledger,

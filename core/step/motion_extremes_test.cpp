@@ -1,5 +1,5 @@
-// Rotation, energy, creep and the time step at their extremes. Suites named …Long hold the long siblings
-// of the tests before them (`make test-long`).
+// Rotation, energy, creep and the time step at their extremes. Suites named …Long contain the long versions of the
+// tests before them (`make test-long`).
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ using shapes::RandomAssembly;
 
 constexpr double pi = std::numbers::pi;
 
-// each step rounds a quaternion a few times; what a walk of 1e7 roundings leaves, with room
+// each step rounds a quaternion a few times; a random walk of 1e7 rounding errors, with a margin
 constexpr double turned_tolerance = 1e-10;  // rad
 
 // ---- rotation -------------------------------------------------------------------------------------------------------
@@ -49,7 +49,7 @@ void expect_constant_spin(std::uint64_t seed, long long steps) {
     const Eigen::Quaterniond expected = turn(body.principal_axes.col(axis), step_angle * steps);
     EXPECT_LT(apart(motion.rotation.quaternion, expected), turned_tolerance) << "axis " << axis;
   }
-  // about any axis, as a body with held freedoms turns
+  // about any axis, as a body with restrained rotations rotates
   const Vector<3> axis = shapes::direction<3>(random);
   const Spin<3> step_turn = 0.017 * axis;
   Rotation<3> rotation;
@@ -59,16 +59,16 @@ void expect_constant_spin(std::uint64_t seed, long long steps) {
   EXPECT_LT(apart(rotation.quaternion, turn(step_turn.normalized(), step_angle * steps)), turned_tolerance);
 }
 
-TEST(MotionExtremes, AConstantSpinEndsWhereItShould) {
+TEST(MotionExtremes, AConstantSpinEndsAtItsAngle) {
   expect_constant_spin(81, 200'000);
 }
-TEST(MotionExtremesLong, AConstantSpinEndsWhereItShouldAfter1e7Steps) {
+TEST(MotionExtremesLong, AConstantSpinEndsAtItsAngleAfter1e7Steps) {
   expect_constant_spin(81, 10'000'000);
 }
 
-// In the plane the angle is a sum: each of N additions rounds by half an ulp of the angle at worst, and the same way
+// In 2-D the angle is a sum: each of N additions rounds by at most half an ulp of the angle, in the same direction
 // while the angle stays in one binade.
-TEST(MotionExtremes, InThePlaneASpinLosesHalfAnUlpAStepAtMost) {
+TEST(MotionExtremes, InThePlaneASpinLosesHalfAnUlpPerStepAtMost) {
   Random random(82);
   const Body<2> body = shapes::random_body<2>(random, {});
   Motion<2> motion;
@@ -108,11 +108,11 @@ TEST(MotionExtremes, TumblingAboutTheUnstableAxisKeepsMomentumAndEnergy) {
       up = motion.angular_momentum[1] > 0;
     }
     EXPECT_NEAR(motion.angular_momentum.norm(), momentum.norm(), 1e-12 * momentum.norm()) << off;
-    // the principal axes are unit and square to rounding: every radian misses its direction by as much
+    // the principal axes are orthonormal to rounding: the direction error per radian is of the same size
     EXPECT_LT((momentum_of() - momentum).norm(), (1e-12 + 2e-16 * turned) * momentum.norm()) << off;
     EXPECT_LE(std::max(first, last), std::pow(3 * dt, 2)) << off;  // (ω dt)²: the order of the method
     EXPECT_LE(last, 1.01 * first + 1e-12) << off;                  // bounded: no growth from half to half
-    // it does turn over, again and again; exactly on the axis it stays
+    // it turns over again and again; exactly on the axis it does not
     if (off > 0) {
       EXPECT_GT(flips, 100);
     } else {
@@ -121,9 +121,10 @@ TEST(MotionExtremes, TumblingAboutTheUnstableAxisKeepsMomentumAndEnergy) {
   }
 }
 
-// ---- turns of any size ----------------------------------------------------------------------------------------------
+// ---- rotations of any size
+// ----------------------------------------------------------------------------------------------
 
-TEST(MotionExtremes, TurnsOfAnySizeAreRightAndFinite) {
+TEST(MotionExtremes, RotationsOfAnySizeAreRightAndFinite) {
   Random random(84);
   for (const double angle : {0.0, 1e-300, 1e-160, 1e-20, 1e-9, 9.9e-5, 1.01e-4, pi - 1e-15, pi, pi + 1e-15, 2 * pi,
                              2 * pi + 1e-9, 7.0, 1e3}) {
@@ -131,7 +132,7 @@ TEST(MotionExtremes, TurnsOfAnySizeAreRightAndFinite) {
     const Rotation<3> start = shapes::orientation<3>(random);
     const Rotation<3> end = turned(start, angle * axis);
     const Matrix<3> expected = Eigen::AngleAxisd(angle, axis).toRotationMatrix() * matrix(start);
-    // the angle itself carries half an ulp
+    // the angle itself has an error of half an ulp
     EXPECT_LT((matrix(end) - expected).norm(), 1e-14 * (1 + angle)) << angle;
     EXPECT_NEAR(end.quaternion.norm(), 1, 1e-15);
 
@@ -146,8 +147,8 @@ TEST(MotionExtremes, TurnsOfAnySizeAreRightAndFinite) {
   }
 }
 
-TEST(MotionExtremes, AStepMayTurnABodyMoreThanOnce) {
-  // about a principal axis one step is exact however far it turns; in the plane the turns are counted
+TEST(MotionExtremes, AStepMayRotateABodyMoreThanOnce) {
+  // about a principal axis one step is exact for any angle; in 2-D full turns are counted
   Random random(85);
   for (const double angle : {0.0, 1e-300, pi - 1e-15, 2 * pi, 50.0}) {
     const Body<3> solid = shapes::random_body<3>(random, {});
@@ -181,8 +182,8 @@ struct EnergyError {
   double largest = 0, drift = 0;  // relative to the energy at the start
 };
 
-// One freedom under a force that has a potential, undamped, at a fraction of the stable step. Energy is taken where
-// velocity and position belong to the same time.
+// One degree of freedom under a force with a potential, undamped, at a fraction of the stable step. Energy is taken
+// with velocity and position at the same time.
 template <class Force, class Potential>
 EnergyError energy_error(double start, double dt, long long steps, Force force, Potential potential) {
   Body<2> body;
@@ -217,7 +218,7 @@ EnergyError harmonic(double fraction, long long steps) {
       1, 2 * fraction, steps, [](double x) { return -x; }, [](double x) { return 0.5 * x * x; });
 }
 
-// the same mass under gravity 1 on the joint law's one-sided contact, where it would rest at an overlap of 1
+// the same mass under gravity 1 on the joint law's one-sided contact, whose static overlap is 1
 const JointProperties one_sided{"joint", 1, 1, 0.5, true};
 
 double weight_and_contact(double y) {
@@ -232,12 +233,12 @@ EnergyError bouncing(double height, double fraction, long long steps) {
                       [](double y) { return y + (y < 0 ? 0.5 * y * y : 0); });
 }
 
-// A spring keeps its energy at any stable step. A contact that opens does so only where the times of impact repeat: a
-// low bounce, here from a height of 2 static overlaps.
+// A spring conserves energy at any stable step. A contact that opens does so only if the times of impact repeat: a low
+// bounce, here from a height of 2 static overlaps.
 void expect_energy(long long steps) {
   for (const double fraction : {0.01, 0.05, 0.1}) {
     const EnergyError swing = harmonic(fraction, steps);
-    EXPECT_LE(swing.largest, 1.1 * fraction * fraction) << fraction;  // (ω dt / 2)² is the method's own
+    EXPECT_LE(swing.largest, 1.1 * fraction * fraction) << fraction;  // (ω dt / 2)² is the method's error
     EXPECT_LE(std::abs(swing.drift), 1e-6) << fraction;
     EXPECT_LE(std::abs(bouncing(2, fraction, steps).drift), fraction <= 0.05 ? 1e-6 : 1e-2) << fraction;
   }
@@ -247,7 +248,7 @@ TEST(MotionExtremes, EnergyDoesNotDriftAtASmallStep) {
   expect_energy(1'000'000);
 }
 
-TEST(MotionExtremesLong, EnergyOver1e7StepsAtEachShareOfTheLimit) {
+TEST(MotionExtremesLong, EnergyOver1e7StepsAtEachFractionOfTheLimit) {
   const long long steps = 10'000'000;
   expect_energy(steps);
   fmt::print("largest relative error and drift of the energy in 1e7 steps\n{:>8} {:>20} {:>20} {:>20}\n", "dt/limit",
@@ -265,9 +266,10 @@ TEST(MotionExtremesLong, EnergyOver1e7StepsAtEachShareOfTheLimit) {
   }
 }
 
-// Whatever the height, one bounce changes the energy by (ω dt)²/4 of it at most, with the phase at which the steps meet
-// the contact. From high up that phase is random from bounce to bounce: the changes have no mean, but add up like a
-// random walk. So bodies that fly far keep their energy only as long as bounces are few against 1 / (ω dt)⁴.
+// At any height, one bounce changes the energy by at most the fraction (ω dt)²/4, depending on the phase of the steps
+// at contact. From a large height that phase is random from bounce to bounce: the changes have zero mean, but add up
+// like a random walk. Bodies that fly far therefore conserve energy only while the number of bounces is small compared
+// with 1 / (ω dt)⁴.
 TEST(MotionExtremes, ABounceChangesTheEnergyByASquareOfTheStep) {
   Random random(91);
   Body<2> body;
@@ -297,7 +299,7 @@ TEST(MotionExtremes, ABounceChangesTheEnergyByASquareOfTheStep) {
         squares += change * change;
       }
       EXPECT_LE(largest, 1.01 * fraction * fraction) << "height " << height << ", share " << fraction;
-      EXPECT_GE(largest, 0.01 * fraction * fraction);  // it is of that order: the test sees what it bounds
+      EXPECT_GE(largest, 0.01 * fraction * fraction);  // it is of that order: the bound is not idle
       if (height >= 100) {
         EXPECT_LE(std::abs(sum), 5 * std::sqrt(squares)) << "height " << height << ", share " << fraction;
       }
@@ -322,7 +324,7 @@ void expect_creep() {
     EXPECT_NEAR(motion.displacement[k], increment * steps, 1e-6 * increment * steps);
 }
 
-TEST(MotionExtremes, CreepBelowTheSpacingOfCoordinatesIsKept) {
+TEST(MotionExtremes, CreepBelowTheSpacingOfCoordinatesIsNotLost) {
   expect_creep<2>();
   expect_creep<3>();
 }
@@ -350,7 +352,7 @@ void expect_safe_and_useful_step(std::uint64_t seed, int sets) {
     lowest = std::min(lowest, fraction);
     highest = std::max(highest, fraction);
   }
-  // two eigenvalue solvers, and moments of inertia that differ by 1e6: 1e6 roundings
+  // two eigenvalue solvers, and moments of inertia that differ by 1e6: 1e6 rounding errors
   EXPECT_LE(highest, 1 + 1e-9);
   EXPECT_GT(highest, 0.999);
   EXPECT_GE(lowest, 0.68);  // 0.97/√2 by theory (time_step.hpp)

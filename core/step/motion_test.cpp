@@ -16,10 +16,10 @@ namespace {
 using shapes::Random;
 using shapes::RandomAssembly;
 
-// roundings of 1e5 steps add up like a random walk: 1e5^(1/2) ulp, with room
+// rounding errors of 1e5 steps add up like a random walk: 1e5^(1/2) ulp, with a margin
 constexpr double conserved = 1e-12;
 
-// few-step results: some ulp
+// results of a few steps: some ulp
 constexpr double rounding = 1e-13;
 
 template <int Dim>
@@ -27,7 +27,7 @@ Body<Dim> body_of(const HalfSpaces<Dim>& planes, double density = 2500) {
   return make_body<Dim>({shapes::block<Dim>(planes)}, density);
 }
 
-// moments of inertia all different, principal axes askew
+// moments of inertia all different, principal axes oblique
 Body<3> askew_brick(Random& random) {
   return body_of<3>(shapes::placed<3>(shapes::box<3>({-1, -0.6, -0.3}, {1, 0.6, 0.3}),
                                       matrix(shapes::orientation<3>(random)), {0.3, -0.2, 0.1}));
@@ -87,7 +87,7 @@ TEST(Advance, ASpringIsOfSecondOrder) {
   EXPECT_NEAR(error[0] / error[1], 4, 0.1);
 }
 
-TEST(Advance, HeldFreedomsStay) {
+TEST(Advance, RestrainedDirectionsDoNotMove) {
   Random random(41);
   Body<3> body = askew_brick(random);
   body.free_translation = {true, false, true};
@@ -101,14 +101,14 @@ TEST(Advance, HeldFreedomsStay) {
   EXPECT_EQ(motion.rotation.quaternion.w(), 1);
 }
 
-TEST(Damped, LessensWhatDrivesAndAddsToWhatBrakes) {
+TEST(Damped, ReducesDrivingForcesAndIncreasesBrakingOnes) {
   EXPECT_EQ(damped(10, 0, 0.7), 10);
   EXPECT_NEAR(damped(10, 1e-300, 0.7), 3, rounding);
   EXPECT_NEAR(damped(10, -5, 0.7), 17, rounding);
   EXPECT_NEAR(damped(-10, 5, 0.7), -17, rounding);
   EXPECT_NEAR(damped(-10, -5, 0.7), -3, rounding);
   EXPECT_EQ(damped(-10, 5, 0), -10);
-  // never takes power out of nothing: the damping force's own power is not positive
+  // creates no energy: the power of the damping force is not positive
   for (const double f : {-2.0, 0.0, 2.0})
     for (const double v : {-3.0, 3.0})
       EXPECT_LE((damped(f, v, 0.7) - f) * v, 0);
@@ -134,7 +134,7 @@ TEST(Rotation, TorqueFreeMomentumIsConservedAndEnergyBounded) {
   EXPECT_GT(swing, 0.3);
   EXPECT_LT((world_momentum(body, motion) - momentum).norm(), conserved * momentum.norm());
   EXPECT_NEAR(motion.rotation.quaternion.norm(), 1, 1e-15);
-  // (ω dt)² = 9e-4 is the order of the method's own energy error; without drift it never gets past it
+  // (ω dt)² = 9e-4 is the order of the method's own energy error; without drift it never exceeds it
   EXPECT_LT(highest - lowest, 9e-4 * energy);
 }
 
@@ -179,7 +179,7 @@ TEST(Rotation, TumblingIsOfSecondOrder) {
 }
 
 TEST(Rotation, ASymmetricTopPrecessesExactly) {
-  // symmetric about the body's z axis; momentum askew: the axis circles the momentum at |L| / I
+  // symmetric about the body's z axis; momentum oblique: the axis precesses about the momentum at |L| / I
   const Body<3> body = body_of<3>(shapes::box<3>({-0.5, -0.5, -1}, {0.5, 0.5, 1}), 1000);
   Motion<3> motion;
   const Vector<3> momentum = body.inertia[0] * Vector<3>(1, 0, 2);
@@ -216,10 +216,10 @@ TEST(Rotation, AboutOneFreeAxisOnlyThatMomentCounts) {
     const double dt = 0.01;
     for (int i = 0; i < 100; ++i)
       advance<3>(body, load, {}, {i == 0 ? 0.5 * dt : dt, dt}, motion);
-    // turning about an axis leaves the moment of inertia about it alone
+    // rotation about an axis does not change the moment of inertia about it
     const Vector<3> expected = 0.5 * load.moment[axis] / tensor(axis, axis) * Vector<3>::Unit(axis);
     EXPECT_LT((rotation_vector(motion.rotation) - expected).norm(), 10 * rounding);
-    // the velocity stands half a step behind
+    // the velocity is half a step behind
     EXPECT_LT((angular_velocity(body, motion) - 2 * (1 - dt / 2) * expected).norm(), 10 * rounding);
   }
 }
@@ -236,7 +236,8 @@ TEST(Rotation, AboutTwoFreeAxesTheFreeBlockDecides) {
   EXPECT_LT((rotation_vector(motion.rotation) - 0.01 * Vector<3>(spin[0], spin[1], 0)).norm(), rounding);
 }
 
-// ---- rest -----------------------------------------------------------------------------------------------------------
+// ---- equilibrium -------
+// ----------------------------------------------------------------------------------------------------
 
 TEST(Unbalanced, ComparesForceAndMomentumWithTheContacts) {
   Model<2> model;
@@ -245,7 +246,7 @@ TEST(Unbalanced, ComparesForceAndMomentumWithTheContacts) {
   list_parts(model);
   State<2> state = initial_state(model);
   EXPECT_EQ(unbalanced_ratio(model, 1, state), 0);
-  state.loads.total[0].force = {1e9, 0};  // on the fixed one: no matter
+  state.loads.total[0].force = {1e9, 0};  // on the fixed one: no effect
   EXPECT_EQ(unbalanced_ratio(model, 1, state), 0);
   state.loads.total[1].force = {3, 4};
   EXPECT_EQ(unbalanced_ratio(model, 1, state), std::numeric_limits<double>::infinity());
@@ -260,7 +261,7 @@ TEST(Unbalanced, ComparesForceAndMomentumWithTheContacts) {
 
 // ---- time step ------------------------------------------------------------------------------------------------------
 
-// the 64th root of 1/6: six modes as stiff as each other
+// the 64th root of 1/6: six equally stiff modes
 const double least_of_limit = std::pow(6, -1.0 / 64);
 
 template <int Dim>
@@ -319,7 +320,7 @@ TEST(TimeStep, IsABoundCloseToTheLimitWhenOneBodyIsFree) {
   expect_close_for_one_free_body<2>(49);
 }
 
-TEST(TimeStep, OnlyBodiesOfGrownContactsAreLookedAtAnew) {
+TEST(TimeStep, OnlyBodiesOfGrownContactsAreUpdated) {
   Random random(51);
   RandomAssembly<3> assembly(random, 6, 1, 12);
   const Model<3>& model = assembly.model;
@@ -345,7 +346,7 @@ TEST(TimeStep, OnlyBodiesOfGrownContactsAreLookedAtAnew) {
     kept += !asked.contains(b);
   }
   EXPECT_GE(kept, 5);
-  // what a body counts on that was not asked stays rated as it was
+  // the rating on which a body relies that was not updated is unchanged
   for (std::size_t i = 0; i < rated.size(); ++i) {
     const Contact<3>& c = state.contacts.list[i];
     const auto counted = [&](int part) {
@@ -356,7 +357,7 @@ TEST(TimeStep, OnlyBodiesOfGrownContactsAreLookedAtAnew) {
   }
 }
 
-TEST(TimeStep, SettingsAndSilence) {
+TEST(TimeStep, TakesSettingsOrNothing) {
   Random random(50);
   RandomAssembly<3> assembly(random, 1, 1, 1);
   Settings settings;
@@ -373,7 +374,7 @@ TEST(TimeStep, SettingsAndSilence) {
   EXPECT_EQ(still.step, 0);
 }
 
-TEST(TimeStep, ACandidateOrAFlightIsAtLeastAsSlowAsItsContactWouldBe) {
+TEST(TimeStep, ACandidateOrAFlightHasAtMostTheStepOfItsContact) {
   // a cube above a plate: the estimate before the impact must not exceed the limit once the face is in contact
   for (const bool candidate : {true, false}) {
     Model<3> model;
@@ -399,9 +400,9 @@ TEST(TimeStep, ACandidateOrAFlightIsAtLeastAsSlowAsItsContactWouldBe) {
   }
 }
 
-TEST(TimeStep, WithADashpotTheLimitIsWhereTheStepBreaks) {
-  // one freedom, spring and dashpot at the lagged velocity: bounded below 2 (sqrt(1 + ξ²) - ξ)/ω, not above, where it
-  // grows past every number
+TEST(TimeStep, WithADashpotTheLimitIsThatOfStability) {
+  // one degree of freedom, spring and dashpot at the lagged velocity: bounded below 2 (sqrt(1 + ξ²) - ξ)/ω, unbounded
+  // above
   const WithoutTraps without_traps;
   Model<2> model;
   model.bodies = {body_of<2>(shapes::cube<2>(0.5)), body_of<2>(shapes::cube<2>(0.5))};

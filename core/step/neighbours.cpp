@@ -19,13 +19,13 @@
 namespace voussoir {
 namespace {
 
-// candidates are those within half a skin of either part, and a little: enough until one has moved that far
+// candidates are within half a skin of either part, plus a margin: enough until one has moved that far
 constexpr double candidate_reach = 0.5 * (1 + 1e-9);
 
-// faces that part by less than this times the smallest inscribed radius are a closed joint still, for make_bonds
+// faces that part by less than this times the smallest inscribed radius are still a closed joint, for make_bonds
 constexpr double closed_fraction = 1e-3;
 
-// a few roundings: what is multiplied by this is an upper bound of what it would be without any
+// a few rounding errors: a value multiplied by this is an upper bound of the exact value
 constexpr double upwards = 1 + 4 * std::numeric_limits<double>::epsilon();
 
 template <int Dim>
@@ -36,18 +36,18 @@ double smallest_size(const Model<Dim>& model) {
   return std::isfinite(smallest) ? smallest : 0;
 }
 
-// bounds on how far a rotation has turned, rad
+// bounds of the angle of a rotation, rad
 double turned_by(const Rotation<2>& from, const Rotation<2>& to) {
   return std::abs(to.angle - from.angle);
 }
 double turned_by(const Rotation<3>& from, const Rotation<3>& to) {
-  // |Δq| = 2 sin(angle/4); beyond a quarter of a turn the bound is only the longest way round
+  // |Δq| = 2 sin(angle/4); beyond a quarter of a turn the bound is only the largest angle
   constexpr double longest = 2 * std::numbers::pi;
   const double chord = (to.quaternion.coeffs() - from.quaternion.coeffs()).norm();
   return chord < 0.5 ? 2.1 * chord : longest;
 }
 
-// where the bodies stand; the list keeps its memory
+// poses of the bodies; the list keeps its memory
 template <int Dim>
 void note_placements(const BodiesState<Dim>& bodies, std::vector<Placement<Dim>>& placements) {
   placements.clear();
@@ -55,17 +55,17 @@ void note_placements(const BodiesState<Dim>& bodies, std::vector<Placement<Dim>>
     placements.push_back({m.displacement, m.rotation});
 }
 
-// how far any point of a body may have moved, at most
+// upper bound of the displacement of any point of a body
 template <int Dim>
 double moved(const Body<Dim>& body, const Placement<Dim>& then, const Motion<Dim>& now) {
   return (now.displacement - then.displacement).norm() + body.radius * turned_by(then.rotation, now.rotation);
 }
 
-// of a coordinate, what rounding may have cut off
+// rounding error of a coordinate
 constexpr double coordinate_rounding = 8 * std::numeric_limits<double>::epsilon();
 
-// the box around a part, from its vertices where they now are (Eq. C.1), widened by `margin` and by what rounding may
-// have cut off
+// the box around a part, from the present position of its vertices (Eq. C.1), widened by `margin` and the rounding
+// error
 template <int Dim>
 Box<Dim> bounds(const Model<Dim>& model, const BodiesState<Dim>& bodies, int part, double margin) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -87,7 +87,7 @@ Box<Dim> bounds(const Model<Dim>& model, const BodiesState<Dim>& bodies, int par
   return box;
 }
 
-// What each part spans along some directions across which parts are thin, as its box does along the axes.
+// The extent of each part along some directions in which parts are thin, like its box along the axes.
 template <int Dim>
 struct ThinSpans {
   struct Span {
@@ -105,7 +105,7 @@ struct ThinSpans {
   }
 };
 
-// enough of them show whether many parts lie alike
+// enough of them to find whether many parts have the same orientation
 constexpr std::size_t most_sampled = 32;
 
 template <int Dim>
@@ -149,7 +149,7 @@ Nearness nearness_of(const Model<Dim>& model, const BodiesState<Dim>& bodies, in
   return nearness(pair_of(model, bodies, a, b, QueryLevel::decision), radius_of(model, a), radius_of(model, b));
 }
 
-// places that ContactsState::subs has for each contact
+// number of entries of ContactsState::subs for each contact
 template <int Dim>
 std::size_t most_cells(const Model<Dim>& model, const ContactSettings& settings) {
   int most = 0;
@@ -170,7 +170,7 @@ bool outdated(const Model<Dim>& model, const Settings& settings, const BodiesSta
   return left;
 }
 
-// Of some pairs the part with most, and the middle of what its box has in common with all its partners' boxes.
+// The part with the most pairs, and the centre of the intersection of its box with all its partners' boxes.
 template <int Dim>
 std::string crowd_at(const Model<Dim>& model, const std::vector<Box<Dim>>& boxes,
                      const std::vector<std::pair<int, int>>& pairs) {
@@ -189,11 +189,11 @@ std::string crowd_at(const Model<Dim>& model, const std::vector<Box<Dim>>& boxes
   }
   Vector<Dim> middle = model.origin + 0.5 * (low + high);
   for (double& x : middle)
-    if (std::abs(x) < 1e-6 * radius_of(model, most)) x = 0;  // no digits that only rounding made
+    if (std::abs(x) < 1e-6 * radius_of(model, most)) x = 0;  // no digits that are only rounding errors
   return fmt::format(
-      "more than {} pairs of blocks lie near each other, {} of one block, around ({:.4g}) m: do many "
-      "joints pass through one point or line there? Move some of them apart, or drop the slivers "
-      "between them (slicing.smallest_inscribed_radius)",
+      "more than {} pairs of blocks are near each other, {} of one block, around ({:.4g}) m: do many joints pass "
+      "through one point or line "
+      "there? Move some of them apart, or remove the slivers between them (slicing.smallest_inscribed_radius)",
       most_candidates(boxes.size()), count[most], fmt::join(middle, ", "));
 }
 
@@ -203,7 +203,7 @@ std::size_t most_candidates(std::size_t parts) {
   return std::max<std::size_t>(2'000'000, 200 * parts);
 }
 
-// adds what each body has moved since the last step; rounded upwards, so that it bounds
+// adds the displacement of each body since the last step; rounded upwards, so that it is a bound
 template <int Dim>
 void count_travels(const Model<Dim>& model, const Settings& settings, BodiesState<Dim>& bodies) {
   if (bodies.path_bounds.size() != model.bodies.size()) {
@@ -240,7 +240,7 @@ bool is_near(const Model<Dim>& model, const BodiesState<Dim>& bodies, double gap
   bool near = meet(a, b), closed = -depth <= gap;
   if (near && !c.touching()) {
     const Nearness faces = nearness_of(model, bodies, c.part_a, c.part_b);
-    near = closed = faces.near;  // faces that keep parts apart do so by far more than the gap
+    near = closed = faces.near;  // faces that separate parts do so by far more than the gap
     lasts = near ? std::min(lasts, faces.lasts) : faces.lasts;
   }
   c.bond_due = c.bond_due && closed;
@@ -251,14 +251,14 @@ bool is_near(const Model<Dim>& model, const BodiesState<Dim>& bodies, double gap
 template <int Dim>
 void find_neighbours(const Model<Dim>& model, const Settings& settings, BodiesState<Dim>& bodies,
                      ContactsState<Dim>& contacts, Counters& counters) {
-  // no less than what a joint may open before it is bonded
+  // at least the gap by which a joint may open before it is bonded
   const double skin = std::max(settings.contact.skin * smallest_size(model), closed_gap(model));
   if (!outdated(model, settings, bodies, skin)) {
     if (contacts.by_body.first.empty()) list_by_body(model, contacts);  // read from a checkpoint
     return;
   }
 
-  // lists that keep their memory: this thread's, filled by all
+  // lists that keep their memory: of this thread, filled by all
   static thread_local std::vector<Box<Dim>> own_boxes;
   static thread_local ThinSpans<Dim> own_spans;
   static thread_local std::vector<std::pair<int, int>> own_pairs;
@@ -270,7 +270,7 @@ void find_neighbours(const Model<Dim>& model, const Settings& settings, BodiesSt
   std::vector<std::pair<int, int>>& pairs = own_pairs;
   std::vector<Contact<Dim>>& renewed = own_renewed;
   std::vector<SubContact<Dim>>& renewed_subs = own_subs;
-  std::vector<int>& origin = own_origin;  // of each pair: its place in the old list, or -1
+  std::vector<int>& origin = own_origin;  // of each pair: its index in the old list, or -1
   cache_poses(model, settings.threads, bodies);
   boxes.resize(model.parts.size());
   each_on_threads(settings.threads, boxes.size(),
@@ -288,7 +288,7 @@ void find_neighbours(const Model<Dim>& model, const Settings& settings, BodiesSt
   overlapping_pairs<Dim>(boxes, settings.threads, wanted, pairs);
   if (count > most) throw TooManyNeighbours(crowd_at(model, boxes, pairs));
 
-  // standing candidates keep their record: both lists are in ascending order
+  // continuing candidates keep their record: both lists are in ascending order
   const std::size_t stride = most_cells(model, settings.contact);
   origin.assign(pairs.size(), -1);
   auto old = contacts.list.begin();

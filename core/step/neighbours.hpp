@@ -14,32 +14,32 @@
 
 namespace voussoir {
 
-// No rock has so many pairs: in one line where so many blocks meet, and the repair.
+// Refusal of an impossible number of pairs: one line with the place where so many blocks meet, and the repair.
 class TooManyNeighbours : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Pairs that are listed at most, whatever the machine: two million (2 GB), or two hundred for each part where that is
-// more. Blocks have some twenty neighbours; joints through one point bring all of theirs together there.
+// Largest number of listed pairs, on any machine: two million (2 GB), or two hundred per part if that is more. Blocks
+// have about twenty neighbours; joints through one point bring all their blocks together there.
 std::size_t most_candidates(std::size_t parts);
 
 // Candidate pairs, listed again when a body may have moved out of its skin: all that may come near each other until
-// then. Throws TooManyNeighbours before it asks for memory for them.
+// then. Throws TooManyNeighbours before it allocates memory for them.
 template <int Dim>
 void find_neighbours(const Model<Dim>& model, const Settings& settings, BodiesState<Dim>& bodies,
                      ContactsState<Dim>& contacts, Counters& counters);
 
-// adds what each body has moved since the last step; rounded upwards, so that it bounds
+// adds the displacement of each body since the last step; rounded upwards, so that it is a bound
 template <int Dim>
 void count_travels(const Model<Dim>& model, const Settings& settings, BodiesState<Dim>& bodies);
 
-// m, of the bodies of a contact together
+// m, sum for the bodies of a contact
 template <int Dim>
 double travelled(const Model<Dim>& model, const BodiesState<Dim>& bodies, const Contact<Dim>& c) {
   return bodies.path_bounds[model.parts[c.part_a].body] + bodies.path_bounds[model.parts[c.part_b].body];
 }
 
-// two parts as the kernel sees them, where their bodies stand
+// two parts in the form that the kernel takes, in the poses of their bodies
 template <int Dim>
 void set_pair(const Model<Dim>& model, const BodiesState<Dim>& bodies, int part_a, int part_b, QueryLevel level,
               Pair<Dim>& pair) {
@@ -59,7 +59,7 @@ Pair<Dim> pair_of(const Model<Dim>& model, const BodiesState<Dim>& bodies, int p
   return pair;
 }
 
-// narrow_phase, or, where the model has potential particles, that of all kinds of pairs
+// narrow_phase, or, if the model has potential particles, that of all kinds of pairs
 template <int Dim>
 void resolve_pairs(const Model<Dim>& model, const ContactSettings& settings, std::span<const Pair<Dim>> pairs,
                    std::span<Contact<Dim>* const> contacts, KernelCounters& counters) {
@@ -67,7 +67,7 @@ void resolve_pairs(const Model<Dim>& model, const ContactSettings& settings, std
   resolve(pairs, settings, model.solvers, contacts, counters);
 }
 
-// The joint a contact lies on: of the two faces' joints the later cut. Contacts of potential particles lie on none.
+// The joint of a contact: of the two faces' joints the later cut. Contacts of potential particles have none.
 template <int Dim>
 int joint_of(const Model<Dim>& model, const Contact<Dim>& c) {
   if (model.joints.empty() || c.geometry.face_a < 0) return no_joint;
@@ -75,13 +75,14 @@ int joint_of(const Model<Dim>& model, const Contact<Dim>& c) {
                   model.polytope(c.part_b).joints[c.geometry.face_b]);
 }
 
-// m: a joint that is to be bonded (make_bonds) must not open by more before it presses; 0 where no joint has strength
+// m: a joint that is to be bonded (make_bonds) must not open by more before it is compressed; 0 if no joint has
+// strength
 template <int Dim>
 double closed_gap(const Model<Dim>& model);
 
-// Whether a pair is near: its boxes meet and, unless it touched the step before, no face keeps it apart
-// (contact/nearness). Looked at only when its bodies have moved by as much as decided it, and at every step where a
-// bond is due: it is no more when the pair is farther apart than `gap`, closed_gap.
+// Whether a pair is near: its boxes meet and, unless it touched in the step before, no face separates it
+// (contact/nearness). Examined only when its bodies have moved by the distance that decided it, and at every step if a
+// bond is due, which lapses when the pair is farther apart than `gap`, closed_gap.
 template <int Dim>
 bool is_near(const Model<Dim>& model, const BodiesState<Dim>& bodies, double gap, Contact<Dim>& c);
 

@@ -1,4 +1,4 @@
-// Candidate pairs against an oracle that judges all pairs: none that may come near is missed, few others are listed.
+// Candidate pairs against an oracle that checks all pairs: none that may come near is missed, few others are listed.
 #include "core/step/neighbours.hpp"
 
 #include <gtest/gtest.h>
@@ -79,7 +79,7 @@ TEST(Neighbours, OfASlabAreFewAtAnyDip) {
 
 // ---- packs ----------------------------------------------------------------------------------------------------------
 
-// polyhedra of some decade of sizes, crowded; with `clumps` some bodies have two parts
+// polyhedra with sizes over a decade, densely packed; with `clumps` some bodies have two parts
 template <int Dim>
 Model<Dim> pack(Random& random, int count, bool clumps) {
   std::vector<Body<Dim>> bodies;
@@ -114,7 +114,7 @@ bool may_touch(const Model<Dim>& model, int part_a, int part_b) {
   return a != b && !(model.bodies[a].fixed && model.bodies[b].fixed);
 }
 
-// of all pairs, by the narrow phase alone
+// all pairs, by the narrow phase only
 template <int Dim>
 Pairs touching_pairs(const Model<Dim>& model, State<Dim> state) {
   cache_poses(model, 1, state.bodies);
@@ -144,7 +144,7 @@ Box<Dim> box_around(const Model<Dim>& model, const State<Dim>& state, int part, 
   return box;
 }
 
-// what boxes alone would list
+// the pairs that boxes only would list
 template <int Dim>
 int count_boxes_that_meet(const Model<Dim>& model, const State<Dim>& state, double margin) {
   int count = 0;
@@ -213,7 +213,7 @@ TEST(Neighbours, NoneOfAClumpsPartsIsMissed) {
 
 // ---- how near -------------------------------------------------------------------------------------------------------
 
-// a body displaced and turned so that none of its points moves by more than `way`
+// a body displaced and rotated so that none of its points moves by more than `way`
 template <int Dim>
 void move_within(Random& random, const Body<Dim>& body, double way, Motion<Dim>& motion) {
   const double turn = shapes::uniform(random, 0, 1) * way / body.radius;
@@ -225,7 +225,7 @@ void move_within(Random& random, const Body<Dim>& body, double way, Motion<Dim>&
     motion.rotation.angle += turn;
 }
 
-// What was found of a pair holds for as long as it says, and what was left out of the list does not come near.
+// The result for a pair is valid for the stated distance, and pairs that are not listed do not come near.
 template <int Dim>
 void expect_that_it_lasts(std::uint64_t seed) {
   Random random(seed);
@@ -263,13 +263,13 @@ void expect_that_it_lasts(std::uint64_t seed) {
   EXPECT_GT(left_out, 300);
 }
 
-TEST(Neighbours, HowNearAPairIsLastsAsLongAsItSays) {
+TEST(Neighbours, NearnessIsValidForItsStatedDistance) {
   expect_that_it_lasts<3>(406);
   expect_that_it_lasts<2>(407);
 }
 
-// a sliver whose vertices may lie anywhere: nothing keeps it apart
-TEST(Neighbours, WhatItsVerticesDoNotTellIsNear) {
+// a sliver whose vertices may be anywhere: nothing separates it
+TEST(Neighbours, PartsWithUncertainVerticesAreNear) {
   Random random(408);
   Model<3> model = pack<3>(random, 2, false);
   for (Body<3>& body : model.bodies)
@@ -306,7 +306,7 @@ TEST(Neighbours, BlocksThatAllMeetInAPointAreListed) {
   EXPECT_EQ(listed(model).contacts.list.size(), blocks * (blocks - 1) / 2);
 }
 
-TEST(Neighbours, TooManyAreRefusedWithTheirPlace) {
+TEST(Neighbours, TooManyAreRefusedWithTheirPosition) {
   const Model<3> model = shapes::model_of<3>(star(46, {7, 8, 9}));
   const std::size_t blocks = model.bodies.size();
   ASSERT_GT(blocks * (blocks - 1) / 2, most_candidates(blocks));

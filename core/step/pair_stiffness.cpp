@@ -13,15 +13,16 @@
 namespace voussoir {
 namespace {
 
-// A difference takes this fraction of the overlap: by as much its slope is off, and the soft motions of a stack are
-// sums of stiff ones that all but cancel (of the stack of the case overhang a thousandth of the stiffest). It takes at
-// least this fraction of the blocks' size, for below it the rounding of coordinates shows.
+// A difference uses this fraction of the overlap: the slope has an error of this size, and the soft modes of a stack
+// are sums of stiff ones that nearly cancel (in the stack of the case overhang to a thousandth of the stiffest). It
+// uses at least this fraction of the blocks' size, because below it the rounding of coordinates matters.
 constexpr double of_overlap = 1e-6, of_size = 1e-13;
 
-// narrower contacts turn as if they were as wide as this fraction of the size
+// narrower contacts rotate as if their width were this fraction of the size
 constexpr double least_width = 1e-3;
 
-// how far a pair is drawn together to see whether it is closed, over the smaller free body's inscribed radius
+// displacement by which a pair is moved together to test whether it is closed, over the smaller free body's inscribed
+// radius
 constexpr double probe_of_size = 1e-5;
 
 template <int Dim>
@@ -54,7 +55,7 @@ void add(Counters& total, const KernelCounters& k) {
   total.axis_hits += k.axis_hits;
 }
 
-// the pair as its second body, which stands at `b`, moves by `step` along one of its freedoms, world axes
+// the pair after its second body, with pose `b`, has moved by `step` along one of its degrees of freedom, world axes
 template <int Dim>
 Pair<Dim> moved(Pair<Dim> pair, const CachedPose<Dim>& b, int freedom, double step) {
   if (freedom < Dim) {
@@ -70,7 +71,7 @@ Pair<Dim> moved(Pair<Dim> pair, const CachedPose<Dim>& b, int freedom, double st
 // contacts together in one batch of the kernel
 constexpr int together = 40;
 
-// the contact as its second body moves by `step` along a freedom, to first order
+// the contact after its second body has moved by `step` along a degree of freedom, to first order
 template <int Dim>
 void move_contact(const ContactSensitivity<Dim>& sensitivity, const Matrix<Dim>& axes, int freedom, double step,
                   Contact<Dim>& c) {
@@ -83,15 +84,15 @@ void move_contact(const ContactSensitivity<Dim>& sensitivity, const Matrix<Dim>&
   c.geometry.area += step * sensitivity.area[freedom];
 }
 
-// Contacts after small motions of their second bodies, one after the other along each freedom: by their sensitivities,
-// or, where they have none, by the kernel.
+// Contacts after small motions of their second bodies, one after the other along each degree of freedom: by their
+// sensitivities, or, if they have none, by the kernel.
 template <int Dim>
 struct MovedContacts {
-  std::vector<Pair<Dim>> pairs, asked;  // all; those that the kernel resolves
+  std::vector<Pair<Dim>> pairs, asked;  // all; those resolved by the kernel
   std::vector<Contact<Dim>> contacts;
   std::vector<double> steps;  // m, rad
   std::vector<Contact<Dim>*> places;
-  std::vector<std::size_t> of_kernel;  // places in `contacts`
+  std::vector<std::size_t> of_kernel;  // indices in `contacts`
 
   void find(const Model<Dim>& model, const Settings& settings, const BodiesState<Dim>& bodies,
             const ContactsState<Dim>& candidates, std::span<const PairStiffness<Dim>> batch, KernelCounters& counters) {
@@ -116,14 +117,14 @@ struct MovedContacts {
     const double way = std::max(of_overlap * c.geometry.overlap, of_size * size);
     const Pair<Dim> here = pair_of(model, bodies, c.part_a, c.part_b, QueryLevel::area);
     ContactSensitivity<Dim> sensitivity;
-    const bool whole = is_integrated(settings.contact, model.properties[c.properties]);  // pressed again, by whom asks
+    const bool whole = is_integrated(settings.contact, model.properties[c.properties]);  // recomputed by the caller
     const bool closed_form = !whole && c.proof.kind != ProofKind::least_point && has_sensitivity(settings.contact) &&
                              find_sensitivity<Dim>(here, settings.contact, c, sensitivity);
     for (int f = 0; f < freedoms<Dim>; ++f) {
       steps.push_back(f < Dim ? way : way / std::max(width, least_width * size));
       pairs.push_back(moved(here, bodies.poses[p.body_b], f, steps.back()));
       contacts.push_back(c);
-      if (f >= Dim && !turns(model, p.body_a) && !turns(model, p.body_b)) continue;  // held: what it says is not used
+      if (f >= Dim && !turns(model, p.body_a) && !turns(model, p.body_b)) continue;  // held: its result is not used
       if (closed_form) {
         move_contact(sensitivity, here.axes, f, steps.back(), contacts.back());
       } else if (!whole) {
@@ -188,7 +189,7 @@ void difference(const Model<Dim>& model, const Settings& settings, const Schedul
   }
 }
 
-// the stiffness of one point whose geometry is held
+// the stiffness of one point of constant geometry
 template <int Dim>
 void add_point(const JointProperties& properties, const Vector<Dim>& normal, const Vector<Dim>& lever, double area,
                typename PairStiffness<Dim>::Block& stiffness) {
@@ -201,7 +202,7 @@ void add_point(const JointProperties& properties, const Vector<Dim>& normal, con
                (area * (properties.normal_stiffness * along + properties.shear_stiffness * across)) * motion;
 }
 
-// and of a face around it: `polar` resists twist, at most as much as `rocking` rocking
+// and of a face around it: `polar` resists twist, at most as much as `rocking` resists rocking
 template <int Dim>
 void add_turning(const JointProperties& properties, const Vector<Dim>& normal, double polar, double rocking,
                  typename PairStiffness<Dim>::Block& stiffness) {

@@ -1,4 +1,4 @@
-// How the forces of the contacts change as bodies move: what Newton's method on the joints needs of every pair.
+// The change of contact forces as bodies move: the stiffness of each pair for the implicit static solver.
 #pragma once
 
 #include "core/base/settings.hpp"
@@ -8,19 +8,19 @@
 
 namespace voussoir {
 
-// StaticSystem::stiffness: of every contact that touches and has a free body, over the freedoms of its second body,
-// from the histories of the increment's base. Geometry of this step and its sensitivity; the law, and the kernel where
-// a contact has no sensitivity, by differences.
+// StaticSystem::stiffness: of every contact that touches and has a free body, over the degrees of freedom of its second
+// body, from the histories of the increment's base. Geometry of this step and its sensitivity; the law by differences,
+// and the kernel too if a contact has no sensitivity.
 template <int Dim>
 void find_pair_stiffness(const Model<Dim>& model, const Settings& settings, const Schedule& schedule,
                          const JointStep& joint_step, const BodiesState<Dim>& bodies,
                          const ContactsState<Dim>& contacts, const JointHistories<Dim>& histories, Counters& counters,
                          std::vector<PairStiffness<Dim>>& stiffness);
 
-// StaticSystem::closed: joints that are closed where the increment begins but carry nothing, as blocks just cut do:
-// their faces lie on each other without overlap, so they have no stiffness and no history, and what they slip until
-// they press would meet no resistance. Found by drawing each pair together by a hundred-thousandth of its size; they
-// get a history without force.
+// StaticSystem::closed: joints that are closed at the start of the increment but without force, as between blocks just
+// cut: their faces touch without overlap, so they have no stiffness and no history, and slip before compression would
+// meet no resistance. Found by moving each pair together by a hundred-thousandth of its size; they get a history
+// without force.
 template <int Dim>
 void find_closed_joints(const Model<Dim>& model, const Settings& settings, const BodiesState<Dim>& bodies,
                         const ContactsState<Dim>& contacts, JointHistories<Dim>& histories, Counters& counters,

@@ -10,7 +10,7 @@ Load<Dim> apply_prescribed_motion(const Body<Dim>& body, const PrescribedMotion<
                                   double middle, StepTimes times, Motion<Dim>& motion, Kick<Dim>& kick) {
   Load<Dim> reaction;
   const double factor = value_at(prescribed.factor, middle);
-  // at the start there is no velocity before: it counts as having moved so already
+  // at the start there is no earlier velocity: the present one is used
   for (int k = 0; k < Dim; ++k) {
     if (!prescribed.translation[k]) continue;
     const double after = factor * prescribed.velocity[k], before = times.at_start() ? after : motion.velocity[k];

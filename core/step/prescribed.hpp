@@ -1,5 +1,5 @@
-// Prescribed motion: bodies, or some of their freedoms, that move as the scene says whatever the load. Displacement
-// control and base shaking.
+// Prescribed motion: bodies, or some of their degrees of freedom, that move as the scene states whatever the load.
+// Displacement control and base shaking.
 #pragma once
 
 #include "core/model/model.hpp"
@@ -8,15 +8,16 @@
 
 namespace voussoir {
 
-// Moves the forced freedoms of a body by one step at the velocity of the middle of the step, `middle` seconds after the
-// motion began. Returns what holds against the load along them, N and N m: its work is what the motion costs. The
-// body's own inertia along a forced freedom is left out, with its kinetic energy, for a shaken base of any mass is the
-// same base.
+// Moves a body along its prescribed directions by one step at the velocity of the middle of the step, `middle` seconds
+// after the motion began. Returns the force that balances the load along them, N and N m: its work is that of the
+// prescribed motion. The body's inertia along these directions is left out, with its kinetic energy, because the mass
+// of a shaken base does not matter.
 template <int Dim>
 Load<Dim> apply_prescribed_motion(const Body<Dim>& body, const PrescribedMotion<Dim>& prescribed, const Load<Dim>& load,
                                   double middle, StepTimes times, Motion<Dim>& motion, Kick<Dim>& kick);
 
-// When a run begins: stops whatever is held and not forced, also what a motion that has ended left moving.
+// When a run begins: stops everything that is held and not prescribed, also bodies left moving by a prescribed motion
+// that has ended.
 template <int Dim>
 void stop_held(const Model<Dim>& model, std::vector<Motion<Dim>>& motions);
 

@@ -1,4 +1,5 @@
-// Prescribed motion: it goes where the scene says, pays for it, ends with its stage and survives an interruption.
+// Prescribed motion: path as stated in the scene, work in the energy balance, end with its stage, continuation after an
+// interruption.
 #include "core/step/prescribed.hpp"
 #include "core/load/time_factor.hpp"
 
@@ -16,10 +17,10 @@ namespace {
 using shapes::block_on_plate;
 using shapes::index_of;
 
-// roundings of some thousand steps, each an ulp of the largest value
+// rounding errors of some thousand steps, each an ulp of the largest value
 constexpr double rounding = 1e-12;
 
-// an overlap of some 1e-5 m carries an ulp of the block's size
+// an overlap of about 1e-5 m has an error of an ulp of the block's size
 constexpr double overlap_rounding = 1e-9;
 
 template <int Dim>
@@ -62,7 +63,7 @@ TEST(TimeFactor, IsLinearBetweenItsTimesAndTimesASine) {
   EXPECT_NEAR(value_at(sine, 0.5), std::cos(5 * std::numbers::pi), rounding);
 }
 
-// a joint pressed together by a prescribed way: force, work and spring energy are those of the spring
+// a joint compressed by a prescribed displacement: force, work and spring energy are those of the spring
 template <int Dim>
 void expect_press() {
   Model<Dim> model = block_on_plate<Dim>(0, 35 * degree);
@@ -85,13 +86,13 @@ void expect_press() {
   EXPECT_LT(state.ledger.energy.relative_error(), overlap_rounding);
 }
 
-TEST(Prescribed, PressesAJointAndPaysForIt) {
+TEST(Prescribed, CompressesAJointAndCountsItsWork) {
   expect_press<3>();
   expect_press<2>();
 }
 
-// only the named axis is forced: along the other the block is as free as before
-TEST(Prescribed, LeavesTheOtherFreedomsFree) {
+// only the named axis is prescribed: along the other the block is as free as before
+TEST(Prescribed, LeavesTheOtherDirectionsFree) {
   Model<2> model = block_on_plate<2>(0, 35 * degree);
   model.gravity = {3, 0};
   const int block = index_of(model, "block");
@@ -104,8 +105,8 @@ TEST(Prescribed, LeavesTheOtherFreedomsFree) {
   EXPECT_LT(end.state.ledger.energy.relative_error(), rounding);
 }
 
-// a base that shakes: its way is the integral of what the scene says, a block that sticks goes with it, and the energy
-// balance close
+// a shaking base: its displacement is the integral of the stated velocity, a block that sticks moves with it, and the
+// energy balance closes
 template <int Dim>
 void expect_shaken() {
   const Model<Dim> model = block_on_plate<Dim>(0, 60 * degree);
@@ -120,7 +121,7 @@ void expect_shaken() {
   const double shaken = end.state.schedule.time - end.state.schedule.started;
   const double way = 0.1 / (4 * std::numbers::pi) * (1 - std::cos(4 * std::numbers::pi * shaken));
   EXPECT_NEAR(end.state.bodies.motions[plate].displacement[0], way,
-              1e-9);  // the midpoint rule errs by (ω dt)²/24 of 16 mm
+              1e-9);  // the error of the midpoint rule is (ω dt)²/24 of 16 mm
   EXPECT_EQ(end.state.bodies.motions[plate].displacement[Dim - 1], 0);
   // the block's acceleration of ω v shears the joint by micrometres
   EXPECT_NEAR(end.state.bodies.motions[block].displacement[0], way, 2e-5);
@@ -132,9 +133,9 @@ TEST(Prescribed, ShakesABase) {
   expect_shaken<2>();
 }
 
-// a fixed block that moves is looked at: it meets a free block and another fixed one, far from where it began, whether
-// the list of neighbours holds them from the start or has to be renewed
-TEST(Prescribed, MeetsWhatIsInItsWay) {
+// contacts of a moving fixed block are found: it meets a free block and another fixed one, far from its start, whether
+// the list of neighbours contains them from the start or has to be renewed
+TEST(Prescribed, MeetsBlocksInItsPath) {
   using shapes::body_of;
   using shapes::box;
   Model<2> model = shapes::model_of<2>({body_of<2>(box<2>({-3, -1}, {3, 0}), true, "plate"),
@@ -152,7 +153,7 @@ TEST(Prescribed, MeetsWhatIsInItsWay) {
   }
 }
 
-// nothing can be damped between two blocks of which none can be moved
+// nothing can be damped between two blocks that both cannot move
 TEST(Prescribed, OverlapsAFixedBlockUnderDashpots) {
   Model<2> model = block_on_plate<2>(0, 35 * degree);
   model.bodies[index_of(model, "block")].fixed = true;
@@ -165,8 +166,9 @@ TEST(Prescribed, OverlapsAFixedBlockUnderDashpots) {
               1e-3);
 }
 
-// two squares on their corners, side by side: their boxes meet all the time, so only the way gone tells when to look
-TEST(Prescribed, WakesAPairThatWasProvenApart) {
+// two squares on their corners, side by side: their boxes always meet, so only the displacement decides when the pair
+// is examined
+TEST(Prescribed, ExaminesAPairThatWasProvenApart) {
   const Matrix<2> turn = matrix(Rotation<2>{45 * degree});
   const auto square = [&](double at, bool fixed, const char* name) {
     return shapes::body_of<2>(shapes::placed<2>(shapes::cube<2>(0.5), turn, {at, at}), fixed, name);
@@ -179,7 +181,7 @@ TEST(Prescribed, WakesAPairThatWasProvenApart) {
   EXPECT_TRUE(end.state.contacts.list[0].touching());
 }
 
-TEST(Prescribed, TurnsABlockInSpace) {
+TEST(Prescribed, RotatesABlockInThreeDimensions) {
   Model<3> model = block_on_plate<3>(0, 35 * degree);
   model.gravity.setZero();
   const int block = index_of(model, "block");
@@ -192,8 +194,8 @@ TEST(Prescribed, TurnsABlockInSpace) {
   EXPECT_NEAR(angular_velocity(model.bodies[block], end.state.bodies.motions[block])[2], 2, rounding);
 }
 
-// whatever the step: the stage ends when it shall
-TEST(Prescribed, GoesAsFarAsItsSpeedAndDurationSay) {
+// for any step the stage ends at its stated time
+TEST(Prescribed, MovesByItsVelocityTimesDuration) {
   Model<2> model = block_on_plate<2>(0, 35 * degree);
   model.gravity.setZero();
   const int block = index_of(model, "block");
@@ -208,7 +210,7 @@ TEST(Prescribed, GoesAsFarAsItsSpeedAndDurationSay) {
   }
 }
 
-// being held in the next stage does not take back the slip of the last step
+// being fixed in the next stage does not revoke the slip of the last step
 TEST(Prescribed, LeavesAllItsSlipInTheJoint) {
   Model<2> model = block_on_plate<2>(0, 40 * degree);
   model.gravity.setZero();
@@ -233,7 +235,7 @@ TEST(Prescribed, EndsWithItsStage) {
   const Progress<2> end = whole_run(scene);
   EXPECT_NEAR(end.state.bodies.motions[block].displacement[1], end.state.schedule.time,
               rounding);                                      // free, it keeps moving
-  EXPECT_EQ(end.state.bodies.motions[plate].velocity[1], 0);  // fixed, it stands
+  EXPECT_EQ(end.state.bodies.motions[plate].velocity[1], 0);  // fixed, it stops
   const Model<2> last = apply(apply(model, scene.stages[0].change), scene.stages[1].change);
   EXPECT_TRUE(last.prescribed.empty());
   EXPECT_FALSE(last.bodies[block].free_translation[0]);
@@ -241,8 +243,8 @@ TEST(Prescribed, EndsWithItsStage) {
   EXPECT_TRUE(last.bodies[plate].immobile());
 }
 
-// all that is left at the end but for the clock
-TEST(Prescribed, GoesOnFromACheckpoint) {
+// the complete final state, except the clock
+TEST(Prescribed, ContinuesFromACheckpoint) {
   const Model<2> model = block_on_plate<2>(0, 35 * degree);
   const TimeFactor factor{.times = {0, 0.01}, .factors = {0, 1}, .frequency = 30, .phase = 0.3};
   const Prepared<2> scene =

@@ -11,29 +11,30 @@
 namespace voussoir {
 namespace {
 
-// The step as a fraction of a body's stability limit: near one, since work goes with its inverse. A body that may turn
-// takes less: its face's contact point moves as it rocks, which makes rocking up to √3 times as fast as the limit knows
-// (in the plane: the centre of a gap of width w and overlap u, turned by θ, moves by θ w²/(4u); moment k w³ θ/4).
+// The step as a fraction of a body's stability limit: near one, since the work is proportional to its inverse. A body
+// that may rotate takes less: its face's contact point moves as it rocks, which makes rocking up to √3 times as fast as
+// the limit assumes (in 2-D: the centre of a contact of width w and overlap u, rotated by θ, moves by θ w²/(4u); moment
+// k w³ θ/4).
 constexpr double fraction_of_limit = 0.9, fraction_turning = 0.5;
 
-// A body at rest is first only nudged, by this fraction of a kick: blocks that just touch have no joint yet, and what
-// they slip before it closes would meet no resistance.
+// A body at rest first gets only this fraction of a kick: blocks that just touch have no joint yet, and slip before it
+// closes would meet no resistance.
 constexpr double nudge = 1e-3;
 
-// Damping times step, at least. Sliding meets no stiffness, so what slides at constant speed would slide for ever; a
-// thousand steps stop it. Less than the critical damping of a column of 2,000 blocks.
+// Lower bound of damping times step. Sliding meets no stiffness, so a body sliding at constant speed would never stop;
+// this stops it in a thousand steps. Less than the critical damping of a column of 2,000 blocks.
 constexpr double least_damping = 1e-3;
 
-// Steps between two renewals of every body's inertia; what outgrows its rating does not wait for them. Inertia kept
-// from a stiffer state lets a stack swing on its way to rest, and swings wear off shear: with a hundred steps the top
-// block of the case overhang turned by 0.16 % too little, with twenty by 0.04 %, with ten by 0.01 %.
+// Steps between two renewals of every body's inertia; bodies that outgrow their rating do not wait for it. Inertia kept
+// from a stiffer state lets a stack oscillate before equilibrium, and oscillations reduce shear by slip: with a hundred
+// steps the top block of the case overhang rotated by 0.16 % too little, with twenty by 0.04 %, with ten by 0.01 %.
 constexpr int steps_between_renewals = 10;
 
-// what relaxation and motion do not share: the time step, and the energy that stopping takes
-void change_ways(EnergyLedger& energy, TimeStep& time_step) {
+// differences of relaxation and motion: the time step, and the energy removed by stopping
+void change_ways(EnergyBalance& energy, TimeStep& time_step) {
   time_step.frequency.clear();
   time_step.allowed = 0;
-  if (energy.phase == LedgerPhase::running) energy.phase = LedgerPhase::model_changed;
+  if (energy.phase == BalancePhase::running) energy.phase = BalancePhase::model_changed;
 }
 
 template <int Dim>
@@ -43,7 +44,7 @@ double fraction_of_own_limit(const Body<Dim>& body) {
              : fraction_of_limit;
 }
 
-// The inertia with which a body's limit 2/ω times its fraction is the common step, stiffness having grown by the area
+// The inertia for which a body's limit 2/ω times its fraction is the common step, with stiffness increased by the area
 // margin. A body keeps its own until one of its contacts outgrows its rating; at every tenth step all are renewed.
 template <int Dim>
 void scale_inertia(const Model<Dim>& model, const Settings& settings, const BodiesState<Dim>& bodies,
@@ -57,7 +58,7 @@ void scale_inertia(const Model<Dim>& model, const Settings& settings, const Bodi
     time_step.allowed =
         settings.time.step.value_or(std::isfinite(renewed->limit) ? fraction_of_limit * renewed->limit : 0);
   demand_time_step(time_step);
-  // a body that was not looked at has its frequency still, and so the same inertia to the bit
+  // a body that was not updated still has its frequency, and so the same inertia to the bit
   relaxation.inertia.assign(model.bodies.size(), 1);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const double to_limit = 0.5 * time_step.allowed * time_step.frequency[b] / fraction_of_own_limit(model.bodies[b]);
@@ -65,9 +66,9 @@ void scale_inertia(const Model<Dim>& model, const Settings& settings, const Bodi
   }
 }
 
-// Critical damping of the present motion, 1/s, by Rayleigh's quotient: K v is what the forces of contacts and water
-// lost over the last step, but for what water that rises or falls has imposed; what excavated rock still holds is
-// imposed. Sums in the order of the bodies.
+// Critical damping of the present motion, 1/s, by Rayleigh's quotient: K v is the decrease of the forces of contacts
+// and water over the last step, except the part imposed by rising or falling water; relief loads are imposed. Sums in
+// the order of the bodies.
 template <int Dim>
 double critical_damping(const Model<Dim>& model, const Schedule& schedule, const BodiesState<Dim>& bodies,
                         const LoadsState<Dim>& loads, double dt, Relaxation<Dim>& r) {
@@ -79,11 +80,12 @@ double critical_damping(const Model<Dim>& model, const Schedule& schedule, const
     const Motion<Dim>& m = bodies.motions[b];
     const Spin<Dim> spin = angular_velocity(model.bodies[b], m);
     Load<Dim> now{loads.total[b].force - weight(model, schedule, b), loads.total[b].moment};
-    if (const std::vector<Load<Dim>>& held = loads.by_source[Source::let_off]; !held.empty()) {
+    if (const std::vector<Load<Dim>>& held = loads.by_source[Source::excavation_forces]; !held.empty()) {
       now.force -= held[b].force;
       now.moment -= held[b].moment;
     }
-    const bool counts = bodies.left_behind.empty() || !bodies.left_behind[b];  // else what falls would end all damping
+    const bool counts =
+        bodies.left_behind.empty() || !bodies.left_behind[b];  // else falling bodies would end all damping
     if (!first && counts) {
       stiffness -= m.velocity.dot(now.force - r.contact_load[b].force);
       stiffness -= spin.dot(now.moment - r.contact_load[b].moment);
@@ -94,7 +96,7 @@ double critical_damping(const Model<Dim>& model, const Schedule& schedule, const
                                  m.angular_momentum.dot(m.angular_momentum.cwiseQuotient(model.bodies[b].inertia)));
     r.contact_load[b] = now;
   }
-  const double least = least_damping / dt, most = 4 / dt;  // 2 ω at the limit of stability
+  const double least = least_damping / dt, most = 4 / dt;  // 2 ω at the stability limit
   if (!(stiffness > 0 && inertia > 0)) return least;
   return std::clamp(2 * std::sqrt(stiffness / (inertia * dt)), least, most);
 }
@@ -111,12 +113,12 @@ bool at_constant_rate(const StagePlan& stage) {
 
 }  // namespace
 
-bool begins_relaxing(const StagePlan& stage, const DampingSettings& damping) {
-  return relaxes(!std::holds_alternative<RunPlan>(stage.plan), damping);
+bool begins_relaxing(const StagePlan& stage, const StaticsSettings& statics) {
+  return relaxes(!std::holds_alternative<RunPlan>(stage.plan), statics);
 }
 
-bool ends_relaxed(const StagePlan& stage, const DampingSettings& damping) {
-  return begins_relaxing(stage, damping) && !at_constant_rate(stage);
+bool ends_relaxed(const StagePlan& stage, const StaticsSettings& statics) {
+  return begins_relaxing(stage, statics) && !at_constant_rate(stage);
 }
 
 template <int Dim>
@@ -155,7 +157,7 @@ void relax_bodies(const Model<Dim>& model, const Settings& settings, BodiesState
   const double dt = time_step.allowed;
   const double half = 0.5 * dt * critical_damping(model, schedule, bodies, loads, dt, relaxation);
 
-  // the kick is central: damping acts at the mean of the velocities before and after it
+  // the kick is centred: damping acts at the mean of the velocities before and after it
   static thread_local std::vector<KickRule> rules;
   rules.clear();
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
@@ -163,7 +165,7 @@ void relax_bodies(const Model<Dim>& model, const Settings& settings, BodiesState
     rules.push_back({.keeps = (1 - half) / (1 + half), .gain = fraction / (relaxation.inertia[b] * (1 + half))});
   }
   const auto& kicks = advance_bodies<Dim>(model, settings.threads, rules, {dt, dt}, loads.total, bodies.motions);
-  std::vector<Load<Dim>>& taken = loads.by_source[Source::relaxation];  // all that the loads do
+  std::vector<Load<Dim>>& taken = loads.by_source[Source::relaxation];  // all work of the loads
   taken.resize(model.bodies.size());
   each_on_threads(settings.threads, taken.size(), [&](int b) {
     taken[b] = {-loads.total[b].force, -loads.total[b].moment};

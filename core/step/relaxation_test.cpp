@@ -1,4 +1,4 @@
-// Relaxation comes to the rest that the true motion comes to, in fewer steps, whatever the masses.
+// Relaxation finds the equilibrium of the true motion, in fewer steps, for any masses.
 #include "core/step/relaxation.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ using shapes::box;
 using shapes::gravity;
 using shapes::index_of;
 
-// what rest leaves of a column's overlap: each of its blocks 1e-6 of the mean contact force
+// error of a column's overlap in equilibrium: each of its blocks 1e-6 of the mean contact force
 constexpr double left_by_rest = 1e-6;
 
 // squares on a fixed base, one above the other, that cannot turn; `heavier`: every other one has this times the density
@@ -39,7 +39,7 @@ struct Rest {
 
 Rest rest_of(const Model<2>& model, Statics statics, int threads = 1) {
   Settings settings;
-  settings.damping.statics = statics;
+  settings.statics.method = statics;
   settings.damping.local = 0.8;
   settings.threads = threads;
   Rest rest{{}, initial_state(model)};
@@ -60,8 +60,8 @@ TEST(Relaxation, AColumnSettlesOnItsSprings) {
   EXPECT_NEAR(-top, settled, 10 * 10 * left_by_rest * settled);
 }
 
-// a hundred times the mass is ten times the steps of the true motion, and none of relaxation's
-TEST(Relaxation, AlikeForLightAndHeavyBlocks) {
+// a hundred times the mass needs ten times the steps of true motion, but no more of relaxation
+TEST(Relaxation, IsTheSameForLightAndHeavyBlocks) {
   const long long even = rest_of(column(10), Statics::adaptive).report.steps,
                   uneven = rest_of(column(10, 100), Statics::adaptive).report.steps,
                   true_motion = rest_of(column(10, 100), Statics::local).report.steps;
@@ -84,7 +84,7 @@ TEST(Relaxation, RenewsTheInertiaOfTheBodiesOfAnOutgrownContact) {
   };
   const std::vector<double> before = state.time_step.frequency, inertia = state.relaxation.inertia;
   for (double& frequency : state.time_step.frequency)
-    frequency *= 2;  // a mark that an estimate wipes out
+    frequency *= 2;  // a mark that an estimate overwrites
   std::vector<int> renewed_after(model.bodies.size(), 0);
   for (int i = 1; i <= 10; ++i) {
     outgrow();
@@ -98,12 +98,12 @@ TEST(Relaxation, RenewsTheInertiaOfTheBodiesOfAnOutgrownContact) {
     EXPECT_NEAR(state.relaxation.inertia[b], inertia[b], 1e-9 * inertia[b]) << "the mark is gone";
 }
 
-// gravity put on gently: a block that turns freely, on a slope that it does not slide down
-TEST(Relaxation, ABlockThatMayTurnComesToTheSameRest) {
+// gravity applied slowly: a block that rotates freely, on a slope that it does not slide down
+TEST(Relaxation, ABlockThatMayRotateComesToTheSameEquilibrium) {
   const Model<3> model = block_on_plate<3>(20 * degree, 35 * degree);
   const auto rest = [&](Statics statics) {
     Settings settings;
-    settings.damping.statics = statics;
+    settings.statics.method = statics;
     State<3> state = initial_state(model);
     const RunReport report = run<3>(model, settings, {.rest = true, .step_limit = 200'000},
                                     {.gravity = {.ramp = 0.2}, .properties = {}}, state);
@@ -111,11 +111,11 @@ TEST(Relaxation, ABlockThatMayTurnComesToTheSameRest) {
     return state.bodies.motions[index_of(model, "block")].displacement;
   };
   const Vector<3> relaxed = rest(Statics::adaptive), moved = rest(Statics::local);
-  // the same path up to what inertia adds to it
+  // the same path except for the effect of inertia
   EXPECT_LT((relaxed - moved).norm(), 0.01 * moved.norm());
 }
 
-TEST(Relaxation, TimeAndThreadsLeaveNoTrace) {
+TEST(Relaxation, DoesNotDependOnTimeAndThreads) {
   const Model<2> model = column(10);
   const Rest one = rest_of(model, Statics::adaptive), three = rest_of(model, Statics::adaptive, 3);
   EXPECT_EQ(state_hash(model, one.state), state_hash(model, three.state));
@@ -123,24 +123,24 @@ TEST(Relaxation, TimeAndThreadsLeaveNoTrace) {
     EXPECT_TRUE(m.velocity.isZero(0) && m.angular_momentum.isZero(0));
 }
 
-// what weight has given is in the springs or taken out; no kinetic energy is claimed
-TEST(Relaxation, TheLedgerSaysWhatItCan) {
+// the work of weight is in the springs or removed; there is no kinetic energy
+TEST(Relaxation, TheEnergyBalanceIsThatOfSprings) {
   const Rest rest = rest_of(column(10), Statics::adaptive);
-  const EnergyLedger& e = rest.state.ledger.energy;
+  const EnergyBalance& e = rest.state.ledger.energy;
   EXPECT_EQ(e.kinetic, 0);
   EXPECT_EQ(e.flows[Source::local_damping], 0);
   EXPECT_LT(e.flows[Source::friction],
-            1e-30 * e.flows[Source::gravity]);  // none slips; areas round, and what is lost takes its shear
+            1e-30 * e.flows[Source::gravity]);  // none slips; areas are rounded, and lost area takes its shear
   EXPECT_GT(e.flows[Source::relaxation], 0);
-  // springs under a weight hold half of what it gave; rest leaves its fraction, the touching faces' first step a little
-  // more
+  // springs under a weight store half of its work; the equilibrium tolerance leaves its fraction, the first step of
+  // touching faces a little more
   EXPECT_NEAR(e.elastic, 0.5 * e.flows[Source::gravity], 1e-3 * e.elastic);
   EXPECT_NEAR(e.flows[Source::relaxation], 0.5 * e.flows[Source::gravity], 1e-3 * e.elastic);
   EXPECT_LT(e.relative_error(), 1e-3);
 }
 
-// what rests after a relaxation starts to move at its own time: v = g t after the first full kick, no half step ahead
-TEST(Relaxation, MotionAfterwardsStartsFromRest) {
+// after a relaxation bodies start to move from zero: v = g t after the first full kick, no half step ahead
+TEST(Relaxation, MotionAfterwardsStartsFromZeroVelocity) {
   Model<2> model = column(1);
   State<2> state = rest_of(model, Statics::adaptive).state;
   Settings settings;

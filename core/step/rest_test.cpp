@@ -1,4 +1,4 @@
-// When a run is at rest: against which of its forces what is unbalanced is measured.
+// Equilibrium of a run: the forces with which unbalanced forces are compared.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ Vector<Dim> direction(Engine& engine) {
   return v.normalized();
 }
 
-// Bodies that no step has met, with forces of random size from every source; the oracle takes the means apart.
+// Bodies before any step, with forces of random size from every source; the oracle computes the means separately.
 template <int Dim>
 void expect_largest_mean(Engine& engine) {
   Model<Dim> model = shapes::block_on_plate<Dim>(0, 0.5);
@@ -66,7 +66,8 @@ void expect_largest_mean(Engine& engine) {
     supports.add(spring.force);
   }
   means = {contacts_and_supports.value(), supports.value()};
-  for (const Source source : {Source::let_off, Source::applied_forces, Source::water_pressure, Source::gravity}) {
+  for (const Source source :
+       {Source::excavation_forces, Source::applied_forces, Source::water_pressure, Source::gravity}) {
     if (chance(0.5)) continue;
     state.loads.by_source[source].resize(count);
     Mean mean;
@@ -88,7 +89,7 @@ void expect_largest_mean(Engine& engine) {
     EXPECT_TRUE(std::isinf(ratio));
 }
 
-TEST(Rest, IsMeasuredAgainstTheLargestMeanOfWhatActs) {
+TEST(Rest, IsMeasuredAgainstTheLargestMeanForce) {
   Engine engine(5204);
   for (int k = 0; k < 500; ++k) {
     expect_largest_mean<2>(engine);
@@ -101,7 +102,7 @@ Progress<Dim> run_of(const std::string& text, const std::vector<std::string>& ov
   return simulated(scene_of<Dim>(text, overrides));
 }
 
-// A slab that hangs in the roof of an opening, by the forces of the rock that was below it, then by two bolts.
+// A slab in the roof of an opening, supported by the forces of the rock that was below it, then by two bolts.
 const std::string hung_slab = R"(
 dimension = 2
 gravity = [0, -9.81]
@@ -126,12 +127,12 @@ name = "dig"
 kind = "settle"
 excavate = ["hole"]
 install = ["b"]
-let_off = { share = 1, duration_s = 1 }
+excavation_forces = { remaining = 1, duration_s = 1 }
 step_limit = 100000
 [[stage]]
 name = "off"
 kind = "settle"
-let_off = { share = 0.4, duration_s = 1 }
+excavation_forces = { remaining = 0.4, duration_s = 1 }
 )";
 
 // A share of 1 changes nothing. What is let off then comes on the bolts: (1 - share) of the slab's weight, 2 m by 1 m.
@@ -139,27 +140,27 @@ TEST(Rest, OfRockThatReliefLoadsHoldComesAtOnce) {
   const double weight = 2600 * 9.81 * 2;
   for (const std::string statics : {"local", "adaptive", "newton"})
     for (const double share : {0.4, 0.9}) {
-      const Progress<2> progress =
-          run_of<2>(hung_slab, {"damping.statics=" + statics, "stage.off.let_off.share=" + std::to_string(share)});
+      const Progress<2> progress = run_of<2>(
+          hung_slab, {"statics=" + statics, "stage.off.excavation_forces.remaining=" + std::to_string(share)});
       const Results& results = progress.results;
       ASSERT_EQ(results.outcome, Outcome::done) << results.message;
       for (const BoltRow& bolt : results.bolts) {
         const double carried = bolt.stage == 3 ? 0.5 * (1 - share) * weight : 0;
         EXPECT_NEAR(bolt.force, carried, 1e-5 * weight) << statics << ' ' << share << ' ' << bolt.stage;
       }
-      // the stage lasts as long as its ramp, 1 s, and the few steps of rest
+      // the stage takes its ramp, 1 s, and the few steps of the equilibrium window
       EXPECT_LT(results.stages[1].time, 1.05) << statics;
-      EXPECT_EQ(results.relief_left, share);
+      EXPECT_EQ(results.forces_remaining, share);
     }
 }
 
-// Water in the joint below a block lifts it by all but a share of its weight: the contact carries what is left, and is
-// at rest however little that is.
-TEST(Rest, ComesHoweverLittleTheWaterInAJointLeaves) {
+// Water in the joint below a block supports all but a fraction of its weight: the contact supports the rest, and is in
+// equilibrium however small that is.
+TEST(Rest, IsReachedHoweverLittleTheWaterInAJointLeaves) {
   Engine engine(147);
   const double weight = 4 * 2 * 2000 * 10, area = 4;  // N, m² for each metre
   for (int k = 0; k < 24; ++k) {
-    // true motion lifts what weighs next to nothing, and time brings it back
+    // true motion lifts the almost weightless block, which returns in time
     const std::string statics = std::vector{"adaptive", "newton", "local"}[k % 3];
     const double left = std::pow(10, std::uniform_real_distribution<>(statics == "local" ? -3 : -9, -1)(engine));
     const std::string scene = fmt::format(R"(
@@ -170,7 +171,7 @@ domain = {{ box = {{ min = [0, 0], max = [4, 3] }} }}
 joints = [{{ name = "bed", dip = 0, point = [0, 1] }}]
 joint_properties = [{{ name = "rock", normal_stiffness = 1e9, shear_stiffness = 1e8, friction_deg = 40 }}]
 fix = [{{ below = "bed" }}]
-damping = {{ statics = "{}" }}
+statics = "{}"
 water = [{{ name = "seep", pressure = 0, faces = ["bed"] }}]
 monitors = [{{ name = "bed", joint = "bed", quantities = ["contact_force"] }}]
 [[stage]]
@@ -186,13 +187,13 @@ water = [{{ name = "seep", pressure = {:.17g}, duration_s = 0.1 }}]
                                           statics, weight / area * (1 - left));
     const Progress<2> progress = run_of<2>(scene);
     ASSERT_EQ(progress.results.outcome, Outcome::done) << left << ' ' << progress.results.message;
-    // 1e-6 of the water's force may be left, and the water's force and the weight are rounded
+    // 1e-6 of the water's force may be unbalanced, and the water's force and the weight are rounded
     EXPECT_NEAR(progress.results.find("bed_normal_force")->value, left * weight, 2e-6 * weight) << left;
   }
 }
 
-// A lining that its rock leaves on all sides has nothing to rest on.
-TEST(Rest, IsNotAwaitedOfALiningThatHasLeftItsRock) {
+// A lining that has lost contact with the rock on all sides has no equilibrium.
+TEST(Rest, IsNotExpectedOfALiningThatHasLeftItsRock) {
   const Prepared<2> prepared =
       scene_of(lined_opening::rock + lined_opening::held + lined_opening::shell + lined_opening::dig);
   Progress<2> progress = initial_progress(prepared);
@@ -215,8 +216,8 @@ TEST(Rest, IsNotAwaitedOfALiningThatHasLeftItsRock) {
   EXPECT_NE(report.detail.find("'shell'"), std::string::npos) << report.detail;
 }
 
-// What a limit of steps cut off is said: each ramp with how far it has come, else how long rest has lasted.
-TEST(Rest, WhatALimitOfStepsCutOffIsSaid) {
+// Unfinished work at a limit of steps is reported: each ramp with its progress, else the duration of equilibrium.
+TEST(Rest, UnfinishedWorkAtALimitOfStepsIsReported) {
   const std::string scene = R"(
 dimension = 2
 gravity = [0, -10]
@@ -244,7 +245,7 @@ water = [{ name = "seep", pressure = 2e4, duration_s = 1 }]
   const std::string both = message({"stage.settle.step_limit=10", "stage.settle.gravity_ramp_s=0.1"});
   EXPECT_NE(both.find("; not reached: gravity (at 10 % of 0.1 s)"), std::string::npos) << both;
   const std::string window = message({"stage.settle.step_limit=2000", "equilibrium.window=10000"});
-  EXPECT_NE(window.find("; not reached: rest in 10000 steps in a row (equilibrium.window), it lasted for"),
+  EXPECT_NE(window.find("; not reached: equilibrium in 10000 consecutive steps (equilibrium.window), it lasted for"),
             std::string::npos)
       << window;
 }

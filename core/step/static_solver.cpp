@@ -24,50 +24,50 @@ namespace {
 
 constexpr double first_regularisation = 1, least_regularisation = 1e-9;
 
-// Accepted iterations of an increment until it is left to relaxation.
+// Accepted iterations of an increment before it is left to relaxation.
 constexpr int iteration_limit = 150;
 
-// Accepted iterations after which an increment lingers. It then follows a valley: a motion softer than the joints
-// beside it by many powers of ten, such as the sway of an arch on four hinges. Stiff joints resist the square of a step
-// along it, so the residual grows tenfold where the step is right, and regularisation that avoids this leaves next to
-// nothing of the step. Columns, walls and sliced rock of thousands of blocks rest in fewer.
+// Accepted iterations after which an increment counts as slow. It then follows a valley: a mode softer than the joints
+// by many powers of ten, such as the sway of an arch on four hinges. Stiff joints resist the square of a step along it,
+// so the residual grows tenfold even if the step is right, and regularisation that avoids this leaves almost nothing of
+// the step. Columns, walls and sliced rock of thousands of blocks converge in fewer.
 constexpr int lingering_after = 50;
 
-// An increment that lingers judges a step by the residual's work along it: the step is shortened where less of that
-// work is left than this, the joints driving it back; by no more than the second factor at once.
+// A slow increment judges a step by the residual's work along it: the step is shortened if less of that work remains
+// than this (negative: the joints drive it back); by no more than the second factor in one iteration.
 constexpr double may_drive_back = -0.5, most_shortening = 0.1;
 
-// Refused steps in a row until one is taken as it comes; accepted ones until the increment so far is kept.
+// Consecutive refused steps before one is accepted unconditionally; accepted ones before the increment so far is kept.
 constexpr int most_tries = 12, most_since_commit = 25;
 
-// Joints that are closed but carry nothing count as stiff for so many iterations; without, a load would reach one more
-// row of blocks with each. And as long as the pairs that touch become by this factor more with an iteration: while
-// lambda falls, a column of n blocks shortens from its ends, and only at n^-2 does its middle press.
+// Closed joints without force count as stiff for this many iterations; otherwise a load would reach only one more row
+// of blocks with each iteration. Also as long as the number of touching pairs grows by this factor per iteration: while
+// lambda falls, a column of n blocks shortens from its ends, and its middle is compressed only at n^-2.
 constexpr int closed_iterations = 6;
 constexpr double still_reaching = 1.1;
 
-// Forces in contacts that the base does not know, over all: they have no shear, so the increment so far is kept.
+// Forces in contacts that the base does not have, over all forces: they have no shear, so the increment so far is kept.
 constexpr double most_in_new_contacts = 0.1;
 
-// A residual counts as no larger within this factor of the largest of the last three; one that drives on the same way
-// may double.
+// A residual counts as not larger within this factor of the largest of the last three; one in the same direction may
+// double.
 constexpr double may_rise = 1.05, may_double = 2;
 
-// What a step was just refused without is not given up at once: lambda falls by no more than this factor after.
+// After a refused step regularisation is reduced slowly: lambda falls by at most this factor.
 constexpr double after_refusal = 0.5;
 
-// Of the residual, for the linear systems; their iterations. What is left in the softest directions moves joints that
-// carry next to nothing: at 1e-3 they open and close in turn, and a wall of 1,000 bricks takes three times the
+// Of the residual, for the linear systems; their iterations. The remaining error in the softest directions moves joints
+// with almost no force: at 1e-3 they open and close alternately, and a wall of 1,000 bricks takes three times the
 // evaluations.
 constexpr double linear_tolerance = 1e-6;
 constexpr int linear_limit = 100;
 
-// Of the residual: a system of which more is left within the iterations is too far from definite. Joints that only just
-// touch make it so; more regularisation mends it.
+// Of the residual: a system of which more remains after the iterations is too far from definite. Joints that only just
+// touch cause it; more regularisation repairs it.
 constexpr double most_unsolved = 1e-3;
 
-// What is left out of balance drives the softest motion, whose momentum relaxation weighs with the stiffest frequency:
-// rest is left with this fraction of what relaxation must confirm, or, where no more can be had of it, after so many
+// Unbalanced forces drive the softest mode, whose momentum relaxation weighs with the stiffest frequency: convergence
+// is to this fraction of the criterion that relaxation must confirm, or, if that cannot be reached, after this many
 // more iterations.
 constexpr double of_unbalanced = 1e-3;
 constexpr int most_polishing = 4;
@@ -130,7 +130,7 @@ struct Newton {
 
   // ---- linear system ------------------------------------------------------------------------------------------------
 
-  // what loads other than the contacts add, by body
+  // stiffness of the loads other than contacts, by body
   std::vector<typename PairStiffness<Dim>::Block> stiffness_of_loads() const {
     std::vector<typename PairStiffness<Dim>::Block> blocks = load_stiffness(model, state);
     if (blocks.empty()) return system.of_water;
@@ -147,7 +147,7 @@ struct Newton {
       if (!state.contacts.list[p.contact].touching()) pairs.push_back(&p);
     const Eigen::VectorXd& free = unknowns.free;
     BlockMatrix<F> k = tangent_of<Dim>(settings.threads, pairs, stiffness_of_loads(), unknowns.place, free);
-    // what is held goes nowhere
+    // restrained directions do not move
     k.add_diagonal(regularisation * unknowns.scale.cwiseProduct(free) +
                    unknowns.scale.cwiseProduct(Eigen::VectorXd::Ones(free.size()) - free));
     return k;
@@ -163,7 +163,7 @@ struct Newton {
     find_water_stiffness(model, settings, state.schedule, state.bodies, system.of_water);
   }
 
-  // A step along which the residual drives; where the tangent gives none, more regularisation.
+  // A step along which the residual does positive work; if the tangent gives none, more regularisation.
   Eigen::VectorXd next_step(const Eigen::VectorXd& residual) {
     for (int tries = 0; tries < most_tries; ++tries) {
       const LinearAnswer answer =
@@ -177,7 +177,7 @@ struct Newton {
 
   // ---- judgement ----------------------------------------------------------------------------------------------------
 
-  // of the residual's work along the last step: 1 before it, 0 where the step ends at its least energy
+  // the fraction left of the residual's work along the last step: 1 before it, 0 if the step ends at the least energy
   double work_left(const Eigen::VectorXd& residual) const {
     const Eigen::VectorXd change = numbers(progress.change);
     return residual.dot(change) / numbers(progress.residual).dot(change);
@@ -191,13 +191,13 @@ struct Newton {
         progress.merits.end() - std::min<std::ptrdiff_t>(3, std::ssize(progress.merits)), progress.merits.end());
     const double left = work_left(residual);
     if (!std::isfinite(now) || !(now <= may_rise * largest || (left > 0 && now <= may_double * largest))) return false;
-    // the better the residual falls, the less is needed
+    // the faster the residual falls, the less is needed
     const double last = progress.merits.back();
     progress.flat = progress.overshoot <= 1 && left <= 0.5 && now > 0.7 * last ? progress.flat + 1 : 0;
     const double fall = progress.overshoot > 1 ? 0.5 : left > 0.5 ? 0.1 : std::clamp(now / last, 0.02, 0.5);
     progress.regularisation *= progress.tries > 0 ? std::max(fall, after_refusal) : fall;
     if (progress.regularisation < least_regularisation) progress.regularisation = 0;
-    // contacts that open and close in turn: a short step breaks the ring
+    // contacts that open and close alternately: a short step breaks the cycle
     if (progress.flat > 0) {
       progress.regularisation = std::max(0.1, 4 * progress.regularisation);
       progress.flat = 0;
@@ -209,7 +209,7 @@ struct Newton {
     if (!std::isfinite(now) || !(work_left(residual) >= may_drive_back)) return false;
     if (progress.tries == 0) progress.regularisation *= progress.overshoot > 1 ? 0.5 : 0.1;
     if (progress.tries > 1)
-      progress.regularisation = std::max(8 * progress.regularisation, 1e-6);  // a kink: a step that is short pays
+      progress.regularisation = std::max(8 * progress.regularisation, 1e-6);  // a kink: a shorter step is better
     if (progress.regularisation < least_regularisation) progress.regularisation = 0;
     return true;
   }
@@ -227,8 +227,8 @@ struct Newton {
 
   // ---- work ---------------------------------------------------------------------------------------------------------
 
-  // Of the loads over the increment so far, by the mean of those at its ends: exact for what is linear. All of it
-  // counts as taken out, as under relaxation.
+  // Of the loads over the increment so far, by the mean of those at its ends: exact for linear loads. All of it counts
+  // as removed, as under relaxation.
   void add_work() {
     const Eigen::VectorXd q = numbers(progress.accepted);
     for (std::size_t i = 0; i < load_count; ++i) {
@@ -250,13 +250,13 @@ struct Newton {
 
   void take_base() {
     stop(state.bodies.motions);
-    cache_poses(model, settings.threads, state.bodies);  // they stand still
+    cache_poses(model, settings.threads, state.bodies);  // they are stopped
     base = base_of(state);
     progress.accepted.assign(static_cast<std::size_t>(unknowns.free.size()), 0);
     progress.since_commit = 0;
   }
 
-  // what the accepted trial, which has just been evaluated, has come to is the new base
+  // the accepted trial, just evaluated, is the new base
   void commit() {
     add_work();
     take_base();
@@ -275,7 +275,7 @@ struct Newton {
     progress.merits.clear();
     system.closed.clear();
     find_closed_joints(model, settings, state.bodies, state.contacts, base.histories, state.counters, system.closed);
-    // origins of the ledger's balances, where they are new
+    // origins of the ledger's balances, if they are new
     const EnergyFlows before = base.ledger.energy.flows;
     state.ledger.energy.kinetic = 0;
     balance(state.ledger.energy);
@@ -345,13 +345,13 @@ struct Newton {
     leave();
   }
 
-  // A broken bond lets go at once of what it carried: how, is relaxation's to find.
+  // A broken bond loses its force suddenly: relaxation finds the path.
   bool breaks_bonds() const {
     const long long expected = base.whole_bonds + state.ledger.bonds.made - base.ledger.bonds.made;
     return expected > 0 && whole_bonds(state.contacts) < expected;
   }
 
-  // Back on the step to where a line through its work at both ends says that none is left.
+  // Back on the step to the point where its work, interpolated between both ends, is zero.
   void shorten_lingering(const Eigen::VectorXd& residual) {
     const double left = work_left(residual), factor = std::isfinite(left) ? 1 / (1 - left) : 0;
     keep(std::clamp(factor, most_shortening, 0.5) * numbers(progress.change), progress.change);
@@ -444,8 +444,8 @@ void begin_newton(const Model<Dim>& model, const Settings& settings, double ramp
   Newton<Dim>(model, settings, state).take_base();
   if (!(ramp > 0)) return;
   n.trial = StaticIncrement<Dim>::Trial::waiting;
-  n.increments_left = settings.damping.increments - 1;
-  n.increment_time = ramp / settings.damping.increments;
+  n.increments_left = settings.statics.increments - 1;
+  n.increment_time = ramp / settings.statics.increments;
   n.ends = state.schedule.time + ramp;
 }
 
@@ -464,7 +464,7 @@ std::string progress_of_newton(const State<Dim>& state) {
 
 template <int Dim>
 double memory_of_newton(const State<Dim>& state) {
-  // of the linear system, its lists and factors, which in the plane are complete: measured with 20,000 blocks
+  // of the linear system, its lists and factors, which are complete in 2-D: measured with 20,000 blocks
   constexpr double blocks_of_a_pair = Dim == 2 ? 60 : 10;
   using Pair = PairStiffness<Dim>;
   return static_cast<double>(state.contacts.list.size()) *
@@ -475,7 +475,7 @@ double memory_of_newton(const State<Dim>& state) {
 template <int Dim>
 std::vector<Placement<Dim>> accepted_placements(const Model<Dim>& model, const StaticIncrement<Dim>& increment) {
   std::vector<Placement<Dim>> placed;
-  const double* q = increment.progress.accepted.data();  // of the free bodies, in their order
+  const double* q = increment.progress.accepted.data();  // of the free bodies, in order
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     placed.push_back({increment.base.motions[b].displacement, increment.base.motions[b].rotation});
     if (model.bodies[b].fixed || !model.bodies[b].present) continue;

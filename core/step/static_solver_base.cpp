@@ -25,7 +25,7 @@ Unknowns<Dim>::Unknowns(const Model<Dim>& model) : place(model.bodies.size(), -1
     for (const Polytope<Dim>& part : body.parts)
       face = std::max(face, part.largest_face);
     for (int f = 0; f < F; ++f) {
-      // a body that turns about its middle: a third of the square of its radius
+      // a body that rotates about its centre: a third of the square of its radius
       scale[F * i + f] = stiffest * face * (f < Dim ? 1 : body.radius * body.radius / 3);
       free[F * i + f] = f < Dim ? body.free_translation[f] : body.free_rotation[f - Dim];
     }

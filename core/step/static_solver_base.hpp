@@ -1,4 +1,4 @@
-// The base that Newton's method on the joints starts from, and the trials that it sets beside it.
+// The base state from which the implicit static solver starts, and the trials near it.
 #pragma once
 
 #include <vector>
@@ -8,12 +8,12 @@
 
 namespace voussoir {
 
-// The unknowns: all freedoms of the bodies that are free, in their order.
+// The unknowns: all degrees of freedom of the free bodies, in order.
 template <int Dim>
 struct Unknowns {
   static constexpr int F = freedoms<Dim>, S = spin_freedoms<Dim>;
-  std::vector<int> bodies, place;  // the free ones; by body: among them, or -1
-  Eigen::VectorXd scale, free;     // by freedom: D, N/m and N m; 1, or 0 where it is held
+  std::vector<int> bodies, place;  // the free ones; by body: index among them, or -1
+  Eigen::VectorXd scale, free;     // by degree of freedom: D, N/m and N m; 1, or 0 if it is restrained
 
   // D: the stiffest joint times the body's largest face
   explicit Unknowns(const Model<Dim>& model);
@@ -21,18 +21,18 @@ struct Unknowns {
   std::size_t count() const { return bodies.size(); }
 };
 
-// The state, whose bodies are at rest, as a base: nothing has moved from it yet.
+// The state, with its bodies stopped, as a base: nothing has moved from it yet.
 template <int Dim>
 StaticBase<Dim> base_of(const State<Dim>& state);
 
-// Puts the base's histories in the order of the contacts if they have been listed again since; `listed`:
-// Counters::neighbour_builds. Of closed joints stay those that are still listed.
+// Sorts the base's histories in the order of the contacts if these have been listed again since; `listed`:
+// Counters::neighbour_builds. Closed joints are kept if they are still listed.
 template <int Dim>
 void follow_list(const ContactsState<Dim>& contacts, long long listed, StaticBase<Dim>& base,
                  std::vector<PairStiffness<Dim>>& closed);
 
-// Sets bodies at base + q and all else as the base has it, ready to be evaluated: the velocities are q per time step of
-// one.
+// Sets bodies to base + q and the rest to the state of the base, ready to be evaluated: the velocities are q per time
+// step of one.
 template <int Dim>
 void set_trial(const Model<Dim>& model, const Unknowns<Dim>& unknowns, const StaticBase<Dim>& base,
                const Eigen::VectorXd& q, BodiesState<Dim>& bodies, ContactsState<Dim>& contacts,

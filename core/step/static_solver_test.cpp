@@ -1,5 +1,6 @@
-// Newton's method on the joints comes to the rests that relaxation comes to, in a number of iterations that does not
-// grow with the blocks; what it cannot do, it leaves; its bits are the same for any interruption and any threads.
+// The implicit static solver finds the equilibria of relaxation, in a number of iterations that does not grow with the
+// number of blocks; it leaves unsupported problems to relaxation; its bits are the same for any interruption and any
+// threads.
 #include "core/step/static_solver.hpp"
 
 #include <gtest/gtest.h>
@@ -26,16 +27,17 @@ using shapes::box;
 using shapes::gravity;
 using shapes::index_of;
 
-constexpr double rounding = 1e-9;  // what relaxation's window of ten steps adds, of a displacement
+constexpr double rounding = 1e-9;  // relative displacement in relaxation's window of ten steps
 
-// ---- rest -----------------------------------------------------------------------------------------------------------
+// ---- equilibrium -------
+// ----------------------------------------------------------------------------------------------------
 
 template <int Dim>
 std::pair<RunReport, State<Dim>> rest_of(const Model<Dim>& model, Statics statics, int threads = 1,
                                          const RunSchedule& schedule = {}, int increments = 1) {
   Settings settings;
-  settings.damping.statics = statics;
-  settings.damping.increments = increments;
+  settings.statics.method = statics;
+  settings.statics.increments = increments;
   settings.threads = threads;
   State<Dim> state = initial_state(model);
   const RunReport report = run<Dim>(model, settings, {.rest = true, .step_limit = 1'000'000}, schedule, state);
@@ -43,7 +45,7 @@ std::pair<RunReport, State<Dim>> rest_of(const Model<Dim>& model, Statics static
   return {report, std::move(state)};
 }
 
-// squares one above the other that cannot turn
+// squares one above the other that cannot rotate
 Model<2> column(int blocks) {
   std::vector<Body<2>> bodies{body_of<2>(box<2>({-0.5, -1}, {1.5, 0}), true)};
   for (int i = 0; i < blocks; ++i) {
@@ -53,7 +55,7 @@ Model<2> column(int blocks) {
   return shapes::model_of<2>(std::move(bodies));
 }
 
-// Linear springs: the whole weight at once, whatever the height. Stiff enough that no step is shortened.
+// Linear springs: the full weight in one increment, for any height. Stiff enough that no step is shortened.
 void expect_columns_take_as_many_iterations(const std::vector<int>& heights) {
   for (const int blocks : heights) {
     Model<2> model = column(blocks);
@@ -67,18 +69,19 @@ void expect_columns_take_as_many_iterations(const std::vector<int>& heights) {
     EXPECT_NEAR(-state.bodies.motions.back().displacement[1], settled, rounding * settled) << blocks;
     EXPECT_LE(state.counters.static_iterations, 15) << blocks;
     EXPECT_EQ(state.counters.static_fallbacks, 0) << blocks;
-    // the certificate's ten steps included
+    // including the ten steps of relaxation that confirm it
     EXPECT_LE(state.counters.contact_evaluations, 100 * blocks) << blocks;
     EXPECT_LT(state.ledger.energy.relative_error(), 1e-9) << "the mean of the loads at both ends is exact for springs";
   }
 }
 
-TEST(Newton, AColumnOfAnyHeightTakesAsManyIterations) {
+TEST(Newton, AColumnOfAnyHeightTakesTheSameIterations) {
   expect_columns_take_as_many_iterations({10, 100, 1000});
 }
 
-// 10,000 blocks high the middle presses only after more iterations than it counts as stiff for by their number alone
-TEST(NewtonLong, AColumnOfAnyHeightTakesAsManyIterations) {
+// with 10,000 blocks the middle is compressed only after more iterations than the number for which closed joints count
+// as stiff
+TEST(NewtonLong, AColumnOfAnyHeightTakesTheSameIterations) {
   expect_columns_take_as_many_iterations({10'000, 20'000});
 }
 
@@ -98,7 +101,7 @@ Model<2> wall(int courses) {
   return model;
 }
 
-// Joints between bricks of a course carry next to nothing and open and close as the wall settles.
+// Joints between bricks of a course have almost no force, and open and close as the wall settles.
 void expect_walls_take_as_many_evaluations_a_pair(const std::vector<int>& sizes) {
   std::vector<double> a_pair, blocks;
   for (const int courses : sizes) {
@@ -109,17 +112,17 @@ void expect_walls_take_as_many_evaluations_a_pair(const std::vector<int>& sizes)
     a_pair.push_back(static_cast<double>(state.counters.contact_evaluations) / static_cast<double>(touching));
     blocks.push_back(static_cast<double>(model.bodies.size() - 1));
     EXPECT_EQ(state.counters.static_fallbacks, 0) << courses;
-    EXPECT_LE(state.counters.linear_iterations, 2 * state.counters.static_iterations) << "factors are complete";
+    EXPECT_LE(state.counters.linear_iterations, 2 * state.counters.static_iterations) << "the factors are complete";
     EXPECT_LT(a_pair.back(), 50) << courses;
   }
   EXPECT_LT(a_pair.back() / a_pair.front(), std::pow(blocks.back() / blocks.front(), 0.15));
 }
 
-TEST(Newton, AWallOfAnySizeTakesAsManyEvaluationsAPair) {
+TEST(Newton, AWallOfAnySizeTakesTheSameEvaluationsPerPair) {
   expect_walls_take_as_many_evaluations_a_pair({5, 17});
 }
 
-TEST(NewtonLong, AWallOfAnySizeTakesAsManyEvaluationsAPair) {
+TEST(NewtonLong, AWallOfAnySizeTakesTheSameEvaluationsPerPair) {
   expect_walls_take_as_many_evaluations_a_pair({5, 55, 141});
 }
 
@@ -137,8 +140,8 @@ void expect_same_rest(const Model<Dim>& model, double allowed) {
   EXPECT_LT(found.steps, marched.steps);
 }
 
-// what relaxation leaves: 1e-6 of the contact force, and the shear that its swings wear off
-TEST(Newton, ABlockOnASlopeRestsWhereRelaxationPutsIt) {
+// error of relaxation: 1e-6 of the contact force, and the shear lost by slip in its oscillations
+TEST(Newton, ABlockOnASlopeHasTheEquilibriumOfRelaxation) {
   expect_same_rest<2>(block_on_plate<2>(20 * degree, 35 * degree), 1e-4);
   expect_same_rest<3>(block_on_plate<3>(20 * degree, 35 * degree), 1e-4);
 }
@@ -150,11 +153,11 @@ TEST(Newton, EverySubContactHasItsStiffness) {
   }
 }
 
-// A block that slides is followed until it has gone as far as the run says, not declared to fail.
+// A sliding block is followed up to the displacement that the run states, not declared to fail.
 TEST(Newton, ASlideIsFollowed) {
   const Model<2> model = block_on_plate<2>(30 * degree, 20 * degree);
   Settings settings;
-  settings.damping.statics = Statics::newton;
+  settings.statics.method = Statics::newton;
   State<2> state = initial_state(model);
   const RunReport report =
       run<2>(model, settings, {.rest = true, .step_limit = 100'000, .moved_away = 0.05}, {}, state);
@@ -162,7 +165,7 @@ TEST(Newton, ASlideIsFollowed) {
   EXPECT_GT(state.bodies.motions[index_of(model, "block")].displacement.norm(), 0.05);
 }
 
-TEST(Newton, GravityComesInIncrements) {
+TEST(Newton, AppliesGravityInIncrements) {
   const Model<2> model = block_on_plate<2>(20 * degree, 35 * degree);
   const RunSchedule ramp{.gravity = {.ramp = 2}, .properties = {}};
   const auto [one, at_once] = rest_of(model, Statics::newton, 1, ramp);
@@ -173,7 +176,7 @@ TEST(Newton, GravityComesInIncrements) {
   EXPECT_GT(in_four.counters.static_iterations, at_once.counters.static_iterations);
   EXPECT_LT((in_four.bodies.motions[block].displacement - at_once.bodies.motions[block].displacement).norm(),
             1e-6 * at_once.bodies.motions[block].displacement.norm())
-      << "nothing slips on the way";
+      << "nothing slips in between";
 }
 
 // ---- loads that change with the pose -------------------------------------------------------------------------------
@@ -192,7 +195,7 @@ Model<3> loaded_block() {
   return model;
 }
 
-TEST(Newton, KnowsHowLoadsChangeWithThePose) {
+TEST(Newton, KnowsTheChangeOfLoadsWithThePose) {
   const Model<3> model = loaded_block();
   const int block = index_of(model, "block");
   State<3> state = initial_state(model);
@@ -214,29 +217,29 @@ TEST(Newton, KnowsHowLoadsChangeWithThePose) {
     const Spin<3> e = step * Spin<3>::Unit(s);
     const Eigen::Matrix<double, 6, 1> slope = (load_at(e) - load_at(-e)) / (2 * step);
     EXPECT_LT((stiffness[block].col(3 + s) + slope).norm(), 1e-7 * slope.norm()) << s;
-    EXPECT_EQ(stiffness[block].col(s).norm(), 0) << "no load changes where the body goes";
+    EXPECT_EQ(stiffness[block].col(s).norm(), 0) << "no load changes with the position";
   }
   EXPECT_TRUE(
       load_stiffness(block_on_plate<3>(0, 35 * degree), initial_state(block_on_plate<3>(0, 35 * degree))).empty());
 }
 
-TEST(Newton, ForcesAtALeverRestWhereRelaxationPutsThem) {
+TEST(Newton, ForcesAtALeverHaveTheEquilibriumOfRelaxation) {
   Model<3> model = loaded_block();
   model.properties[0].sub_contacts = 3;
   expect_same_rest<3>(model, 2e-3);
 }
 
-// ---- what has no rest -----------------------------------------------------------------------------------------------
+// ---- no equilibrium -----------------------------------------------------------------------------------------------
 
 template <int Dim>
 RunReport no_rest_of(const Model<Dim>& model) {
   Settings settings;
-  settings.damping.statics = Statics::newton;
+  settings.statics.method = Statics::newton;
   State<Dim> state = initial_state(model);
   return run<Dim>(model, settings, {.rest = true, .step_limit = 20'000}, {}, state);
 }
 
-TEST(Newton, ABlockOverNothingIsNamed) {
+TEST(Newton, ABlockWithoutSupportIsNamed) {
   Model<2> model = block_on_plate<2>(0, 35 * degree);
   std::vector<Body<2>> bodies = model.bodies;
   bodies.push_back(body_of<2>(box<2>({20, 0}, {21, 1}), false, "over nothing"));
@@ -246,15 +249,15 @@ TEST(Newton, ABlockOverNothingIsNamed) {
 }
 
 TEST(Newton, AMechanismIsNamed) {
-  Model<2> model = block_on_plate<2>(20 * degree, 0);  // without friction, but for a slide without end
+  Model<2> model = block_on_plate<2>(20 * degree, 0);  // without friction, for unlimited sliding
   const RunReport report = no_rest_of(model);
   EXPECT_NE(report.reason, StopReason::equilibrium);
   EXPECT_NE(report.detail.find("block"), std::string::npos) << report.detail;
 }
 
-// One point carries the face: nothing resists a turn about the normal. A couple that turns with the block spins it
-// without end, though it goes nowhere.
-TEST(Newton, ABodyThatNothingKeepsFromTurningIsNamed) {
+// The face has one contact point: nothing resists a rotation about the normal. A couple that rotates with the block
+// spins it without bound, although its centroid does not move.
+TEST(Newton, ABodyThatRotatesFreelyIsNamed) {
   Model<3> model = block_on_plate<3>(0, 35 * degree);
   const int block = index_of(model, "block");
   for (const double side : {0.5, -0.5})
@@ -267,11 +270,11 @@ TEST(Newton, ABodyThatNothingKeepsFromTurningIsNamed) {
   const RunReport report = no_rest_of(model);
   EXPECT_EQ(report.reason, StopReason::step_limit);
   EXPECT_NE(report.detail.find("block"), std::string::npos) << report.detail;
-  EXPECT_NE(report.detail.find("turned by"), std::string::npos) << report.detail;
+  EXPECT_NE(report.detail.find("rotated by"), std::string::npos) << report.detail;
 }
 
-// One point carries the face, and nothing turns the block.
-TEST(Newton, AFreeTurnThatNothingDrivesIsAtRest) {
+// The face has one contact point, and nothing rotates the block.
+TEST(Newton, AFreeRotationWithoutLoadIsInEquilibrium) {
   const auto [report, state] = rest_of(block_on_plate<3>(0, 35 * degree), Statics::newton);
   EXPECT_EQ(state.counters.static_fallbacks, 0);
 }
@@ -296,8 +299,8 @@ void harden(JointProperties& joint) {
   joint.hardening_slip = 1e-6;
 }
 
-// each joint closes by the weight on it, as its own law says
-TEST(Newton, AColumnClosesAsStressStiffensIt) {
+// each joint closes under the weight above it, by its own law
+TEST(Newton, AColumnClosesByStressDependentStiffness) {
   for (const auto& law : {stiffen_by_stress, stiffen_by_a_power}) {
     Model<2> model = column(30);
     law(model.properties[0]);
@@ -313,7 +316,7 @@ TEST(Newton, AColumnClosesAsStressStiffensIt) {
   }
 }
 
-TEST(Newton, OtherLawsRestWhereRelaxationPutsThem) {
+TEST(Newton, OtherLawsHaveTheEquilibriumOfRelaxation) {
   for (const auto& law : {stiffen_by_stress, stiffen_by_a_power, harden}) {
     Model<3> model = block_on_plate<3>(20 * degree, 35 * degree);
     law(model.properties[0]);
@@ -324,9 +327,9 @@ TEST(Newton, OtherLawsRestWhereRelaxationPutsThem) {
   }
 }
 
-// Shear and normal stress grow together, so that du = dτ/ks(σ) can be integrated. An increment takes all of its shear
-// at the stiffness of its end.
-TEST(Newton, ShearThatStressStiffensComesToItsClosedFormInIncrements) {
+// Shear and normal stress grow together, so that du = dτ/ks(σ) can be integrated. An increment adds all of its shear at
+// the stiffness of its end.
+TEST(Newton, ShearWithStressDependentStiffnessConvergesInIncrements) {
   const double slope = 20 * degree;
   Model<2> model = block_on_plate<2>(slope, 35 * degree);
   const int block = index_of(model, "block");
@@ -342,7 +345,8 @@ TEST(Newton, ShearThatStressStiffensComesToItsClosedFormInIncrements) {
     const auto [report, state] = rest_of(model, Statics::newton, 1, ramp, increments);
     const double slip = std::abs(state.bodies.motions[block].displacement.dot(down));
     EXPECT_LT(slip, exact) << increments;
-    EXPECT_GT(slip, exact - (shear / joint.shear_stiffness - shear / last) / increments) << "of a sum for an integral";
+    EXPECT_GT(slip, exact - (shear / joint.shear_stiffness - shear / last) / increments)
+        << "error of a sum for an integral";
   }
 }
 
@@ -359,9 +363,9 @@ TEST(Newton, LeavesSofteningToRelaxation) {
   EXPECT_EQ(state_hash(model, by_newton), state_hash(model, by_steps));
 }
 
-// Blocks that are to carry tension once they are bonded first close by tension over normal stiffness, as far as their
-// weight closes the lowest of them, and carry nothing on that way.
-TEST(Newton, AColumnClosesByTheRoomOfItsBonds) {
+// Blocks that will be bonded with tensile strength first close by tension over normal stiffness, as far as their weight
+// closes the lowest of them, without any force on that path.
+TEST(Newton, AColumnClosesByTheOffsetOfItsBonds) {
   Model<2> model = column(30);
   JointProperties& joint = model.properties[0];
   joint.laws.bond = true;
@@ -386,12 +390,12 @@ TEST(Newton, ThreadsChangeNoBit) {
     EXPECT_EQ(state_hash(model, rest_of(model, Statics::newton, threads).second), state_hash(model, one)) << threads;
 }
 
-TEST(Newton, EveryEvaluationMayBeTheLastBeforeAnInterruption) {
+TEST(Newton, MayBeInterruptedAfterEveryEvaluation) {
   Prepared<2> scene;
   scene.model = block_on_plate<2>(20 * degree, 35 * degree);
   scene.state = initial_state(scene.model);
-  scene.settings.damping.statics = Statics::newton;
-  scene.settings.damping.increments = 3;
+  scene.settings.statics.method = Statics::newton;
+  scene.settings.statics.increments = 3;
   StagePlan settle;
   settle.name = "settle";
   settle.plan = SettlePlan{.gravity = {.ramp = 1}};

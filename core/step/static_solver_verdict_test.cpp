@@ -1,6 +1,6 @@
-// No wrong verdict: whether random slopes, stacks and wedges stand just above and just below their critical friction is
-// said alike by searches that come to rest by Newton's method on the joints and by relaxation, which hand over to true
-// motion; and by the closed form, where that is farther off than the path of loading may move the critical friction.
+// No wrong verdict: searches by the implicit static solver and by relaxation, both continued by true motion, agree on
+// the stability of random slopes, stacks and wedges just above and just below their critical friction; and agree with
+// the closed form, if the distance from it exceeds the effect of the loading path.
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
@@ -25,7 +25,7 @@ struct Example {
   double critical = 0;  // tangent of the critical friction angle, closed form
 };
 
-constexpr double stands = 70 * degree;  // all examples do
+constexpr double stands = 70 * degree;  // all examples are stable
 
 // so stiff that joints close by less than 1e-4 of a block
 void make_stiff(Random& random, JointProperties& joint) {
@@ -42,7 +42,7 @@ Matrix<Dim> tilt(double dip) {
     return matrix(Rotation<2>{dip});
 }
 
-// a box about the line up the middle, from one height to another, turned by the dip
+// a box about the vertical centre line, from one height to another, rotated by the dip
 template <int Dim>
 HalfSpaces<Dim> layer(double half_width, double low, double high, double dip) {
   Vector<Dim> from = Vector<Dim>::Constant(-half_width), to = Vector<Dim>::Constant(half_width);
@@ -51,7 +51,7 @@ HalfSpaces<Dim> layer(double half_width, double low, double high, double dip) {
   return shapes::placed<Dim>(box<Dim>(from, to), tilt<Dim>(dip), Vector<Dim>::Zero());
 }
 
-// one block, free to turn, on a plane
+// one block, free to rotate, on a plane
 template <int Dim>
 Example<Dim> slope(Random& random) {
   const double dip = uniform(random, 8, 45) * degree;
@@ -60,7 +60,7 @@ Example<Dim> slope(Random& random) {
   return {std::move(model), std::tan(dip)};
 }
 
-// blocks above each other on a plane; they cannot turn, for the closed form knows no moments
+// blocks above each other on a plane; they cannot rotate, because the closed form has no moments
 Example<2> stack(Random& random) {
   const double dip = uniform(random, 8, 45) * degree;
   std::vector<Body<2>> bodies{body_of<2>(layer<2>(3, -3, 0, dip), true)};
@@ -76,8 +76,8 @@ Example<2> stack(Random& random) {
   return {std::move(model), std::tan(dip)};
 }
 
-// A wedge on two joints that daylight in a slope's face a metre below its crest; it cannot turn. The normal forces
-// balance what of the weight acts across the line of intersection, friction what acts along it.
+// A wedge on two joints that daylight in a slope's face a metre below its crest; it cannot rotate. The normal forces
+// balance the weight's component across the line of intersection, friction that along it.
 Example<3> wedge(Random& random) {
   while (true) {
     const Vector<3> a = upward_normal_3d(uniform(random, 40, 65) * degree, uniform(random, 110, 145) * degree);
@@ -112,14 +112,14 @@ Example<3> wedge(Random& random) {
 
 struct Verdict {
   SearchTrial outcome = SearchTrial::broken;
-  bool without_newton = false;  // it left the decision, in whole or in part, to others
+  bool without_newton = false;  // it left the decision, or a part of it, to other methods
 };
 
-// as a search would find it, from rest at a high friction angle
+// as in a search, from equilibrium at a high friction angle
 template <int Dim>
 Verdict verdict(const Model<Dim>& model, double tangent, Statics statics) {
   Settings settings;
-  settings.damping.statics = statics;
+  settings.statics.method = statics;
   State<Dim> state = initial_state(model);
   RunGoal goal{.rest = true, .step_limit = 1'000'000};
   const RunReport settled = run<Dim>(model, settings, goal, {}, state);

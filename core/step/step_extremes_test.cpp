@@ -1,5 +1,5 @@
-// Whole steps at their extremes: masses and stiffnesses far apart, any damping, places far away, long rest, NaN. Suites
-// named …Long hold the long siblings of the tests before them (`make test-long`).
+// Steps at their extremes: very different masses and stiffnesses, any damping, positions far away, long equilibrium,
+// NaN. Suites named …Long contain the long versions of the tests before them (`make test-long`).
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -41,7 +41,7 @@ struct Stack {
     std::vector<Body<Dim>> bodies{block(20, -40, 2600, "floor"), block(half_lower, 0, 2600, "lower"),
                                   block(half_upper, 2 * half_lower, 2600 * mass_ratio / volumes, "upper")};
     bodies[0].fixed = true;
-    // the upper block's faces belong to the joint that the model has, the others to none
+    // the upper block's faces belong to the model's joint, the others to none
     for (int& joint : bodies[2].parts[0].joints)
       joint = 0;
     model = shapes::model_of<Dim>(std::move(bodies));
@@ -50,7 +50,7 @@ struct Stack {
     lower = index_of(model, "lower");
     upper = index_of(model, "upper");
     state = initial_state(model);
-    // where it will rest
+    // its equilibrium position
     state.bodies.motions[lower].displacement[Dim - 1] = -(mass(lower) + mass(upper)) * gravity / k_lower;
     state.bodies.motions[upper].displacement[Dim - 1] = height(lower) - mass(upper) * gravity / k_upper;
   }
@@ -93,7 +93,7 @@ double measured_frequency(Stack<Dim> stack, int body, double speed, int swings) 
   return 2 * std::numbers::pi * swings / (last - first);
 }
 
-// far below the overlap that the weight makes, so that no contact opens
+// far below the overlap due to weight, so that no contact opens
 template <int Dim>
 void expect_light_frequency(const Stack<Dim>& stack, int light) {
   const double frequency = stack.frequencies().second;
@@ -102,7 +102,7 @@ void expect_light_frequency(const Stack<Dim>& stack, int light) {
   EXPECT_NEAR(measured_frequency(stack, light, 0.3 * overlap * frequency, 50), frequency, 1e-3 * frequency);
 }
 
-// in balance nothing moves but by rounding: the heavy one stays
+// in equilibrium nothing moves except by rounding: the heavy one stays
 template <int Dim>
 void expect_no_drift(Stack<Dim> stack, int heavy, int steps) {
   const Settings settings = undamped(0.1);
@@ -149,8 +149,8 @@ TEST(StepExtremesLong, APebbleAndAMountainFor1e6Steps) {
   expect_pebble_and_mountain<3>(1'000'000);
 }
 
-// the mountain's own swing takes 1e5 times as many steps as the pebble's
-TEST(StepExtremesLong, AMountainSwingsOnAPebble) {
+// the mountain's own oscillation takes 1e5 times as many steps as the pebble's
+TEST(StepExtremesLong, AMountainOscillatesOnAPebble) {
   const Stack<2> stack = mountain_on_pebble<2>(4e13, 4e13);
   const double frequency = stack.frequencies().first, overlap = stack.mass(stack.upper) * gravity / stack.k_upper;
   EXPECT_NEAR(measured_frequency(stack, stack.upper, 0.3 * overlap * frequency, 2), frequency, 1e-3 * frequency);
@@ -159,15 +159,15 @@ TEST(StepExtremesLong, AMountainSwingsOnAPebble) {
 // ---- damping --------------------------------------------------------------------------------------------------------
 
 // At the estimated step the block neither gains energy nor sticks to the plate, whatever the dashpot. Undamped, only
-// while the contact stays closed: an open one may gain energy from a fifth of the limit on (settings.hpp).
+// while the contact stays closed: one that opens may gain energy from a fifth of the limit on (settings.hpp).
 template <int Dim>
 void expect_bounded() {
   for (const double ratio : {0.0, 1e-6, 0.1, 1.0, 10.0, 1000.0})
-    for (const double speed : {0.005, 1.0}) {  // m/s: half of what opens the contact, and far more
+    for (const double speed : {0.005, 1.0}) {  // m/s: half of the speed that opens the contact, and far more
       if (ratio < 0.1 && speed > 0.1) continue;
       const Model<Dim> model = block_on_plate<Dim>(0, 35 * degree);
       const int block = index_of(model, "block");
-      const double overlap = shapes::density * 0.5 * gravity / 1e9;  // at rest
+      const double overlap = shapes::density * 0.5 * gravity / 1e9;  // in equilibrium
       State<Dim> state = initial_state(model);
       state.bodies.motions[block].displacement[Dim - 1] = -overlap;
       state.bodies.motions[block].velocity[Dim - 1] = speed;
@@ -207,7 +207,7 @@ Model<Dim> moved(Model<Dim> model, double shift) {
   return model;
 }
 
-// a sliding, tilting block far from the origin moves as it does at the origin, to the bit where coordinates are exact
+// a sliding, tilting block far from the origin moves as it does at the origin, to the bit if coordinates are exact
 template <int Dim>
 void expect_same_motion_far_away() {
   State<Dim> expected;
@@ -234,7 +234,7 @@ TEST(StepExtremes, FarFromTheOriginTheMotionIsTheSame) {
   expect_same_motion_far_away<3>();
 }
 
-// a block too heavy to be stopped creeps into a plate, at 1e4 m from the origin by less than a coordinate resolves
+// a block too heavy to be stopped creeps into a plate, 1e4 m from the origin by less than the resolution of coordinates
 template <int Dim>
 void expect_overlap_of_creep() {
   Model<Dim> model = moved(block_on_plate<Dim>(0, 20 * degree), 1e4);
@@ -262,7 +262,7 @@ TEST(StepExtremes, CreepFarFromTheOriginClosesAContact) {
 
 // ---- rest -----------------------------------------------------------------------------------------------------------
 
-// on a slope a hundredth of a degree below its friction the block comes to rest, and stays
+// on a slope a hundredth of a degree below its friction angle the block comes to equilibrium, and stays there
 template <int Dim>
 void expect_rest(double local_damping, int steps) {
   const double slope = 30 * degree;
@@ -270,7 +270,7 @@ void expect_rest(double local_damping, int steps) {
   const int block = index_of(model, "block");
   State<Dim> state = initial_state(model);
   RunSchedule ramp;
-  ramp.gravity.ramp = 0.5;  // s: slow against a swing, or inertia carries the block past its friction
+  ramp.gravity.ramp = 0.5;  // s: slow compared with an oscillation, or inertia exceeds the block's friction
   Settings settings;
   settings.equilibrium.unbalanced = 1e-9;
   ASSERT_EQ(run<Dim>(model, settings, {.rest = true, .step_limit = 100'000}, ramp, state).reason,
@@ -285,19 +285,19 @@ void expect_rest(double local_damping, int steps) {
     fastest = std::max(fastest, state.bodies.motions[block].velocity.norm());
   }
   EXPECT_LT(farthest, 1e-9) << local_damping;
-  // what the equilibrium left of the weight, as a swing of the shear spring; ten times that
+  // the unbalanced fraction of the weight, as an oscillation of the shear spring; ten times that
   const double left = settings.equilibrium.unbalanced * model.bodies[block].mass * gravity;
   EXPECT_LT(model.bodies[block].mass * fastest * fastest, 10 * left * left / 5e8) << local_damping;
   EXPECT_EQ(state.contacts.list.front().history.plastic_slip, slipped) << local_damping;
 }
 
-TEST(StepExtremes, ABlockAtRestOnASlopeStays) {
+TEST(StepExtremes, ABlockInEquilibriumOnASlopeStays) {
   for (const double local_damping : {0.7, 0.0}) {
     expect_rest<2>(local_damping, 100'000);
     expect_rest<3>(local_damping, 100'000);
   }
 }
-TEST(StepExtremesLong, ABlockAtRestOnASlopeStaysFor1e7Steps) {
+TEST(StepExtremesLong, ABlockInEquilibriumOnASlopeStaysFor1e7Steps) {
   for (const double local_damping : {0.7, 0.0}) {
     expect_rest<2>(local_damping, 10'000'000);
     expect_rest<3>(local_damping, 10'000'000);
@@ -306,7 +306,7 @@ TEST(StepExtremesLong, ABlockAtRestOnASlopeStaysFor1e7Steps) {
 
 // ---- NaN ------------------------------------------------------------------------------------------------------------
 
-// a velocity that is no number stops the run in its first step, and the message names the body
+// a velocity that is not a number stops the run in its first step, and the message names the body
 template <int Dim>
 void expect_stop_at_nan(double height) {
   const WithoutTraps without_traps;
@@ -323,7 +323,7 @@ void expect_stop_at_nan(double height) {
   EXPECT_NE(report.detail.find("block"), std::string::npos) << report.detail;
 }
 
-TEST(StepExtremes, ANaNStopsTheRunAtOnceAndNamesTheBody) {
+TEST(StepExtremes, ANaNStopsTheRunImmediatelyAndNamesTheBody) {
   for (const double height : {0.0, 1.0}) {  // m: in contact, and in flight
     expect_stop_at_nan<2>(height);
     expect_stop_at_nan<3>(height);

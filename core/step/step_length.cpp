@@ -7,21 +7,21 @@
 namespace voussoir {
 namespace {
 
-// The longest step of neighbours against each other, of the smaller one's inscribed radius: beyond it contacts have
-// another geometry.
+// The longest relative step of neighbours, over the smaller one's inscribed radius: beyond it contacts have another
+// geometry.
 constexpr double longest_step = 0.02;
 
-// m: the inscribed radius of a body's largest part. What an outline cuts off its corners, and holds, is no measure of
-// it: splinters of millimetres would hold back the steps of all.
+// m: the inscribed radius of a body's largest part. Pieces that an outline cuts off its corners and that stay joined to
+// it are not relevant: splinters of millimetres would shorten the steps of all bodies.
 template <int Dim>
 double size_of(const Body<Dim>& body) {
-  double largest = body.size;  // all that there is of a body without parts
+  double largest = body.size;  // the only size of a body without parts
   for (const Polytope<Dim>& part : body.parts)
     largest = std::max(largest, part.inscribed_radius);
   return largest;
 }
 
-// more than so many free bodies: a few loose ones do not hold back the others
+// with more free bodies than this, a few loose ones do not shorten the steps of the others
 constexpr std::size_t many = 100;
 constexpr std::ptrdiff_t one_loose_of = 50;
 
@@ -30,8 +30,8 @@ Vector<Dim> way_of(const Eigen::VectorXd& dq, int at) {
   return at < 0 ? Vector<Dim>(Vector<Dim>::Zero()) : Vector<Dim>(dq.segment<Dim>(freedoms<Dim> * at));
 }
 
-// Over what it may be: of a body against its neighbours, since a column may sink by far more than its blocks are wide;
-// of one without neighbours, by itself.
+// Step over the allowed one: of a body relative to its neighbours, since a column may sink by far more than the width
+// of its blocks; of one without neighbours, absolute.
 template <int Dim>
 std::vector<double> excess_by_body(const Model<Dim>& model, const Unknowns<Dim>& unknowns, const State<Dim>& state,
                                    const Eigen::VectorXd& dq) {

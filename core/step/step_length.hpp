@@ -1,4 +1,4 @@
-// How long a step of Newton's method on the joints may be.
+// The bound of a step of the implicit static solver.
 #pragma once
 
 #include "core/model/model.hpp"
@@ -7,9 +7,9 @@
 
 namespace voussoir {
 
-// Shortens a step so that no body moves or turns against its neighbours by more than a small fraction of its size, for
-// beyond it contacts have another geometry. Where few of many bodies are loose, they alone are held back. Returns how
-// many times as long it would have been.
+// Shortens a step so that no body moves or rotates relative to its neighbours by more than a small fraction of its
+// size, because beyond it contacts have another geometry. If few of many bodies are loose, only their steps are
+// shortened. Returns the ratio of the original to the new length.
 template <int Dim>
 double shorten(const Model<Dim>& model, const Unknowns<Dim>& unknowns, const State<Dim>& state, Eigen::VectorXd& dq);
 

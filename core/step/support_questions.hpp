@@ -1,4 +1,4 @@
-// What supports are asked for by those who do not know their kinds.
+// Questions to supports that do not depend on their kinds.
 #pragma once
 
 #include <functional>
@@ -14,9 +14,9 @@ struct ForceSum {
   double mean() const { return acting > 0 ? forces / static_cast<double>(acting) : 0; }
 };
 
-// what unbalanced forces are measured against: the mean force of contacts and supports
+// the reference of unbalanced forces: the mean force of contacts and supports
 struct ForcesAtRest {
-  ForceSum all, supports;  // contacts and supports; supports alone
+  ForceSum all, supports;  // contacts and supports; supports only
 
   void add_support(double force, long long acting) {
     for (ForceSum* const sum : {&all, &supports}) {

@@ -1,4 +1,4 @@
-// What supports do in a step, a row for each kind.
+// Supports in a step, a row for each kind.
 #pragma once
 
 #include <string>
@@ -13,28 +13,29 @@
 
 namespace voussoir {
 
-// An entry may be empty where a kind has nothing of its own: the joints of a grouted bar are springs of bolts, and the
-// row of bolts does what all springs have in common.
+// An entry may be empty if a kind has nothing of its own: the joints of a grouted bar are springs of bolts, and the row
+// of bolts handles what all springs have in common.
 template <int Dim>
 struct StepSupport {
   SupportKind kind;
-  // Forces and histories at the poses of now, which must be cached; the ledger gets the energy that they hold, which it
-  // must already have of the contacts, and what was lost.
+  // Forces and histories at the present poses, which must be cached; the ledger gets their stored energy, added to that
+  // of the contacts, and the lost energy.
   void (*find_forces)(const Model<Dim>&, const Schedule&, const JointStep&, const BodiesState<Dim>&,
                       SupportsState<Dim>&, Ledger&, Counters&);
-  // what they do to the bodies, and at most stiffen each by; `find` is empty where the bodies get it by another row
+  // loads on the bodies, and an upper bound of their stiffness; `find` is empty if another row gives the loads
   LoadRow<Dim> load;
-  // adds pairs without contact (-1) to what Newton's method solves; the state is that of a trial
+  // adds pairs without contact (-1) to the system of Newton's method; the state is that of a trial
   void (*add_pairs)(const Model<Dim>&, const Settings&, const State<Dim>&, std::vector<PairStiffness<Dim>>&);
-  // tells each two bodies that they tie together
+  // reports every two bodies that they connect
   void (*tie)(const Model<Dim>&, const SupportsState<Dim>&, const TwoBodies&);
-  // adds what they carry to what unbalanced forces are measured against
+  // adds their forces to the reference of unbalanced forces
   void (*add_forces)(const SupportsState<Dim>&, ForcesAtRest&) = nullptr;
-  // tells each two bodies whose step against each other must be short, as that of bodies in contact
+  // reports every two bodies whose relative step must be short, like that of bodies in contact
   void (*touch)(const Model<Dim>&, const SupportsState<Dim>&, const TwoBodies&) = nullptr;
-  // whether a body hangs on one of them though it touches no other
+  // whether a body is supported by one of them without touching another body
   bool (*hangs)(const SupportsState<Dim>&, int body) = nullptr;
-  // typical stiffness of the unknowns of bodies of their own; `place` by body, each `freedoms` of `scale` those of one
+  // typical stiffness of the unknowns of their own bodies; `place` by body, each `freedoms` entries of `scale` for one
+  // body
   void (*scale_unknowns)(const Model<Dim>&, const std::vector<int>& place, Eigen::VectorXd& scale) = nullptr;
   // the support that has left its rock, as a sentence; empty: none
   std::string (*loose)(const Model<Dim>&, const SupportsState<Dim>&) = nullptr;

@@ -6,7 +6,7 @@ namespace {
 template <int Dim>
 using Block = typename PairStiffness<Dim>::Block;
 
-// how the first body's motion moves what lies at the second's centroid
+// displacement at the second body's centroid due to the first body's motion
 template <int Dim>
 Block<Dim> lever(const Vector<Dim>& apart) {
   Block<Dim> j = Block<Dim>::Identity();
@@ -15,8 +15,8 @@ Block<Dim> lever(const Vector<Dim>& apart) {
   return j;
 }
 
-// The forces turn with the first body and keep their lines of action: what that adds to the two blocks of its column,
-// and to the first body's row in the second's column.
+// The forces rotate with the first body and keep their lines of action: the contribution to the two blocks of its
+// column, and to the first body's row in the second's column.
 template <int Dim>
 struct Turning {
   Block<Dim> aa = Block<Dim>::Zero(), ba = Block<Dim>::Zero(), ab = Block<Dim>::Zero();

@@ -1,4 +1,4 @@
-// The tangent of all contacts: how the loads on the free bodies change as they move.
+// The tangent of all contacts: the change of the loads on the free bodies as they move.
 #pragma once
 
 #include <vector>
@@ -9,9 +9,9 @@
 namespace voussoir {
 
 // Minus the derivative of the contacts' forces and moments, a row of blocks for each free body: the stiffness of every
-// pair, and the turning of its forces with its first body; and what other loads add of each body alone (`own`, by body;
-// none without). `place`: of a body among the free ones, or -1; `free`: 1, or 0 for a freedom that is held, by freedom
-// of the free bodies.
+// pair, and the rotation of its forces with its first body; and the contribution of other loads for each single body
+// (`own`, by body; may be empty). `place`: index of a body among the free ones, or -1; `free`: 1, or 0 for a restrained
+// direction, by degree of freedom of the free bodies.
 template <int Dim>
 BlockMatrix<freedoms<Dim>> tangent_of(int threads, const std::vector<const PairStiffness<Dim>*>& pairs,
                                       const std::vector<typename PairStiffness<Dim>::Block>& own,

@@ -17,7 +17,7 @@ namespace {
 
 template <int Dim>
 using Stiffness = FixedMatrix<freedoms<Dim>, freedoms<Dim>>;
-// velocity of a point at lever arm r from the body's spin
+// velocity of a point at lever arm r from the body's angular velocity
 Vector<2> turning(const Vector<2>& r) {
   return {-r[1], r[0]};
 }
@@ -36,12 +36,12 @@ struct Tangent {
 
 Tangent tangent(const JointProperties& p, double overlap) {
   if (p.laws.is_plain()) return {p.normal_stiffness, p.shear_stiffness};
-  // as if bonded: a bond's loss makes nothing stiffer
+  // as if bonded: the loss of a bond increases no stiffness
   const NormalAnswer answer = normal_answer(p, overlap, true);
   return {answer.stiffness, shear_stiffness_at(p, answer.stress)};
 }
 
-// how much stress stiffens a contact, against what its joint's properties state; 1 for the plain law
+// factor by which stress stiffens a contact, relative to its joint's properties; 1 for the plain law
 template <int Dim>
 double stiffening(const JointProperties& p, const Contact<Dim>& c, std::span<const SubContact<Dim>> subs) {
   if (!p.laws.depends_on_stress()) return 1;
@@ -59,7 +59,7 @@ double stiffest_joint(const std::vector<JointProperties>& properties, double are
   return stiffest;
 }
 
-// of run-time size within fixed storage: no memory is asked for, and one solver serves both dimensions
+// of run-time size in fixed storage: no memory is allocated, and one solver serves both dimensions
 using FreeBlock = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, freedoms<3>, freedoms<3>>;
 
 double largest_eigenvalue(const FreeBlock& stiffness, const FreeBlock& inertia) {
@@ -68,8 +68,8 @@ double largest_eigenvalue(const FreeBlock& stiffness, const FreeBlock& inertia) 
       .maxCoeff();
 }
 
-// Of a symmetric matrix without negative eigenvalues, at least the largest and at most 6 % more: the 32nd root of the
-// sum of their 32nd powers, the trace of the matrix's. Where the second is nine tenths of the largest or less, 0.1 %
+// For a symmetric matrix without negative eigenvalues, at least the largest and at most 6 % more: the 32nd root of the
+// sum of their 32nd powers, the trace of the matrix's power. If the second is nine tenths of the largest or less, 0.1 %
 // more.
 template <int Size>
 double bound_of_largest_eigenvalue(FixedMatrix<Size, Size> s) {
@@ -84,7 +84,8 @@ double bound_of_largest_eigenvalue(FixedMatrix<Size, Size> s) {
   return trace * root;
 }
 
-// to a body's velocities from those that its kinetic energy has half the sum of squares of; none along what is held
+// maps velocities for which the kinetic energy is half the sum of squares to a body's velocities; zero along restrained
+// directions
 template <int Dim>
 Matrix<spin_freedoms<Dim>> spins_of_unit_energy(const Body<Dim>& body, const Rotation<Dim>& rotation) {
   if constexpr (Dim == 3)
@@ -93,7 +94,7 @@ Matrix<spin_freedoms<Dim>> spins_of_unit_energy(const Body<Dim>& body, const Rot
     return Matrix<1>(1 / std::sqrt(body.inertia[0]));
 }
 
-// the same by the eigenvalue itself, for a body that may turn about some axes alone: of M⁻¹K over its free freedoms
+// the same by the eigenvalue itself, for a body that may rotate only about some axes: of M⁻¹K over its free directions
 template <int Dim>
 double largest_eigenvalue(const Body<Dim>& body, const Rotation<Dim>& rotation, const Stiffness<Dim>& k) {
   Stiffness<Dim> mass = Stiffness<Dim>::Zero();
@@ -120,14 +121,14 @@ double largest_eigenvalue(const Body<Dim>& body, const Rotation<Dim>& rotation, 
   return largest_eigenvalue(stiffness, inertia);
 }
 
-// stiffest square frequency of a body, at least: a bound for M⁻¹K over its free freedoms
+// upper bound of a body's largest squared frequency: of M⁻¹K over its free directions
 template <int Dim>
 double stiffest_square(const Body<Dim>& body, const Rotation<Dim>& rotation, const Stiffness<Dim>& k) {
   constexpr int S = spin_freedoms<Dim>;
   if (k.isZero(0)) return 0;  // in flight
   const auto turns = std::count(body.free_rotation.begin(), body.free_rotation.end(), true);
   if (turns > 0 && turns < S) return largest_eigenvalue<Dim>(body, rotation, k);
-  Vector<Dim> moves;  // 1/√kg, 0 where it is held
+  Vector<Dim> moves;  // 1/√kg, 0 if it is held
   for (int i = 0; i < Dim; ++i)
     moves[i] = body.free_translation[i] ? 1 / std::sqrt(body.mass) : 0;
   Stiffness<Dim> scaled = Stiffness<Dim>::Zero();
@@ -143,16 +144,16 @@ double stiffest_square(const Body<Dim>& body, const Rotation<Dim>& rotation, con
   return bound_of_largest_eigenvalue<freedoms<Dim>>(scaled);
 }
 
-// λ of a body: of its contacts, of what may strike it with the stiffness `impact`, N/m, and of what its other loads
-// add; `force`, N, is what moves it from rest, 0 once it moves
+// λ of a body: of its contacts, of bodies that may strike it with the stiffness `impact`, N/m, and of its other loads;
+// `force`, N, moves it from rest, 0 once it moves
 template <int Dim>
 double stiffest(const Model<Dim>& model, int i, const Rotation<Dim>& rotation, const Stiffness<Dim>& stiffness,
                 double impact, const BodyStiffness& loads, double force) {
   const Body<Dim>& body = model.bodies[i];
   double eigenvalue = stiffest_square<Dim>(body, rotation, stiffness);
-  // A body in flight may hit something with its largest face. So may one that begins with a touch by a corner or an
-  // edge hardly larger than rounding, 1e-28 of a face: that is no joint yet, the force would press it in by more than
-  // its width.
+  // A body in flight may hit something with its largest face. So may one that starts with a contact at a corner or an
+  // edge hardly larger than rounding, 1e-28 of a face: that is not a joint yet, the force would compress it by more
+  // than its width.
   const bool in_flight = eigenvalue == 0 || eigenvalue * body.mass * body.radius < force;
   if (in_flight && impact == 0)
     for (const Polytope<Dim>& part : body.parts)
@@ -165,9 +166,9 @@ double stiffest(const Model<Dim>& model, int i, const Rotation<Dim>& rotation, c
   return eigenvalue + loads.translation / body.mass + loads.rotation / body.inertia.minCoeff();
 }
 
-// Adds one contact to a body at lever arm r, N/m: the shear stiffness in all directions, what the normal one is more
-// along the normal. With X the point's velocity from the spin, Jᵀ C J = shear [1 X; Xᵀ XᵀX] + more (n; r × n)(n; r ×
-// n)ᵀ.
+// Adds one contact to a body at lever arm r, N/m: the shear stiffness in all directions, and the excess of the normal
+// one along the normal. With X the point's velocity from the angular velocity, Jᵀ C J = shear [1 X; Xᵀ XᵀX] + more (n;
+// r × n)(n; r × n)ᵀ.
 template <int Dim>
 void add(Stiffness<Dim>& k, const Tangent& now, double area, const Vector<Dim>& n, const Vector<Dim>& r) {
   constexpr int S = spin_freedoms<Dim>;
@@ -183,14 +184,14 @@ void add(Stiffness<Dim>& k, const Tangent& now, double area, const Vector<Dim>& 
     k.col(j) += more * along[j] * along;
 }
 
-// m²: the overlap of two potential particles times how far their contact's point walks as one turns; the normal
-// stiffness times it is what rocking meets beside the springs
+// m²: the overlap of two potential particles times the displacement of their contact point per rotation; the normal
+// stiffness times it adds to the springs' resistance to rocking
 template <int Dim>
 double rocking(const Contact<Dim>& c) {
   return c.proof.kind == ProofKind::least_point ? c.geometry.overlap * c.proof.margin : 0;
 }
 
-// stiffer than it was rated, or new to the rating
+// stiffer than its rating, or not rated yet
 template <int Dim>
 bool outgrown(const Model<Dim>& model, const ContactsState<Dim>& contacts, const Contact<Dim>& c) {
   if (c.status == ContactStatus::apart) return false;
@@ -203,7 +204,7 @@ bool outgrown(const Model<Dim>& model, const ContactsState<Dim>& contacts, const
 
 // Free bodies whose estimate is to be renewed.
 struct BodiesToUpdate {
-  std::vector<int> place;  // by body: in `bodies`, or -1
+  std::vector<int> place;  // by body: index in `bodies`, or -1
   std::vector<int> bodies;
 
   void begin(std::size_t count) {
@@ -219,8 +220,8 @@ struct BodiesToUpdate {
   }
 };
 
-// What a contact adds to one of the bodies to update: stiffness, or what may strike it. The first of its bodies that is
-// updated rates the contact again.
+// The contribution of a contact to one of the bodies to update: stiffness, or a possible impact. The first of its
+// bodies that is updated rates the contact again.
 template <int Dim>
 void add_contact(const Model<Dim>& model, const ContactSettings& settings, const BodiesToUpdate& updated,
                  const BodiesState<Dim>& bodies, int place, int body, ContactsState<Dim>& contacts,
@@ -233,13 +234,13 @@ void add_contact(const Model<Dim>& model, const ContactSettings& settings, const
   const double factor = fixed_a || fixed_b ? 1 : 2;
   const auto rate = [&](double area) {
     if (body == ib && updates_a) return;
-    // a body that is not updated has counted on no more than the rating so far
+    // a body that is not updated relies on the rating so far
     const bool both = (updates_a || fixed_a) && (updates_b || fixed_b);
     c.area_rated = both ? area_margin * area : std::min(c.area_rated, area_margin * area);
   };
   if (!c.touching()) {
     const double face = std::min(model.polytope(c.part_a).largest_face, model.polytope(c.part_b).largest_face);
-    rate(c.proof.kind == ProofKind::least_point ? 0 : face);  // how far it rocks is not known before
+    rate(c.proof.kind == ProofKind::least_point ? 0 : face);  // its rocking is not known before
     impact += factor * stiffest_joint(model.properties, face);
     return;
   }
@@ -247,7 +248,7 @@ void add_contact(const Model<Dim>& model, const ContactSettings& settings, const
   const auto subs = subs_of(std::as_const(contacts), static_cast<std::size_t>(place));
   rate(std::max(c.geometry.area * stiffening<Dim>(p, c, subs), rocking(c)));
   const Vector<Dim> apart = between(bodies.poses[ia], bodies.poses[ib]);
-  // `gyration2` times the area: what the cell about its own point adds to rocking and spin, at most
+  // `gyration2` times the area: upper bound of the cell's contribution to rocking and twist about its own point
   const auto add_cell = [&](const Vector<Dim>& point, double overlap, double area, double gyration2) {
     const Tangent now = tangent(p, overlap);
     add<Dim>(stiffness, now, factor * area, c.geometry.normal, body == ia ? point : Vector<Dim>(point - apart));
@@ -320,7 +321,7 @@ std::optional<TimeStepEstimate> renew_time_step(const Model<Dim>& model, const S
     return estimate_time_step(model, settings, damping, bodies, loads, contacts, time_step);
   static thread_local std::vector<char> own_grown;
   static thread_local BodiesToUpdate updated;
-  std::vector<char>& grown = own_grown;  // by contact: this thread's, filled by all
+  std::vector<char>& grown = own_grown;  // by contact: of this thread, filled by all
   grown.resize(contacts.list.size());
   each_on_threads(settings.threads, grown.size(),
                   [&](int i) { grown[i] = outgrown(model, contacts, contacts.list[i]); });

@@ -6,8 +6,8 @@
 namespace voussoir {
 namespace {
 
-// Of the radius: the third power of the relative rounding of a load, where truncation and rounding of a central
-// difference_step are least.
+// Of the radius: the cube root of the relative rounding of a load, at which truncation and rounding of a central
+// difference are least.
 constexpr double difference_step = 1e-5;
 
 template <int Dim>

@@ -1,4 +1,5 @@
-// Water in the step: what floats, what the ledger says of it, how it rises, and that no thread or pause changes a bit.
+// Water in the step: floating bodies, their energy balance, rising levels, and identical bits for any threads and
+// interruptions.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,7 +24,7 @@ void flood(Model<Dim>& model, double level) {
   assign_waters(model, {{"lake", unit_weight, false, numbers}}, {0, 0});
 }
 
-// 2 x 1 m (x 3 m), 600 kg/m³, floating at rest: its draught is 0.6 m; nothing else is there, not even a joint's
+// 2 x 1 m (x 3 m), 600 kg/m³, floating in equilibrium: its draught is 0.6 m; there is nothing else, not even a joint's
 // stiffness
 template <int Dim>
 Model<Dim> raft() {
@@ -67,13 +68,14 @@ void heave() {
   EXPECT_EQ(state.ledger.energy.flows[Source::water_change], 0);
 }
 
-// Without a joint or a stated step the water alone chooses the time step.
-TEST(RaftInWater, HeavesInItsPeriodWithAClosedLedger) {
+// Without a joint or a stated step only the water determines the time step.
+TEST(RaftInWater, HeavesInItsPeriodWithAClosedEnergyBalance) {
   heave<2>();
   heave<3>();
 }
 
-// What is asked of one model after another, as in a program that runs several scenes, holds nothing of the one before.
+// Surfaces requested for one model after another, as in a program that runs several scenes, contain nothing of the
+// previous one.
 TEST(WaterSurfaces, OfAPressureAreThoseOfNoTableBefore) {
   const Model<2> lake = raft<2>();
   Model<2> pressed = raft<2>();
@@ -84,13 +86,13 @@ TEST(WaterSurfaces, OfAPressureAreThoseOfNoTableBefore) {
   find_surfaces(pressed, initial_water(pressed), 1, fresh);
   const Standing<2> tilted{.centroid = Vector<2>(0, -2)};
   EXPECT_EQ(water_load(pressed, surfaces, 0, tilted).force, water_load(pressed, fresh, 0, tilted).force);
-  EXPECT_NEAR(water_load(pressed, surfaces, 0, tilted).force.norm(), 0, 1e-9);  // the same all round
+  EXPECT_NEAR(water_load(pressed, surfaces, 0, tilted).force.norm(), 0, 1e-9);  // the same on all sides
   EXPECT_EQ(water_stiffness(pressed, surfaces, 0, tilted).translation,
             water_stiffness(pressed, fresh, 0, tilted).translation);
 }
 
-// The work of the water against the change of its potential, from a tilted start out of balance: what is left falls
-// with the square of the step.
+// The work of the water against the change of its potential, from a tilted start out of equilibrium: the error is
+// proportional to the square of the step.
 TEST(RaftInWater, HasAPotentialThatClosesWithTheSquareOfTheStep) {
   const Model<2> model = raft<2>();
   WaterSurfaces<2> surfaces;
@@ -101,7 +103,7 @@ TEST(RaftInWater, HasAPotentialThatClosesWithTheSquareOfTheStep) {
     cache_poses(model, 1, state.bodies);
     const double before = water_potential(model, surfaces, 0, standing(state.bodies.poses[0]));
     run(model, undamped(step), {.end_time = 0.4}, {}, state);
-    // the ledger's work reaches to half a step before these positions
+    // the ledger's work is up to half a step before these positions
     find_forces(model, undamped(step), state);
     const Load<2>& load = state.loads.by_source[Source::water][0];
     const Spin<2> spin = angular_velocity(model.bodies[0], state.bodies.motions[0]);
@@ -115,8 +117,8 @@ TEST(RaftInWater, HasAPotentialThatClosesWithTheSquareOfTheStep) {
   EXPECT_NEAR(std::log2(middle / fine), 2, 0.1);
 }
 
-// Rest is measured against the force of the water where nothing touches.
-TEST(RaftInWater, ComesToRestByRelaxation) {
+// Unbalanced forces are compared with the force of the water if nothing touches.
+TEST(RaftInWater, ReachesEquilibriumByRelaxation) {
   const Model<2> model = raft<2>();
   State<2> state = lifted(model, 0.15);
   state.bodies.motions[0].rotation.angle = 5 * degree;
@@ -126,7 +128,7 @@ TEST(RaftInWater, ComesToRestByRelaxation) {
   EXPECT_NEAR(state.bodies.motions[0].rotation.angle, 0, 1e-5);
 }
 
-// A level on all faces is what Archimedes says, face by face too; of two waters there is no potential.
+// A level on all faces gives Archimedes' force, also summed face by face; two waters have no potential.
 TEST(WaterOfTheModel, ActsByVolumeOrByFaces) {
   Model<3> model = raft<3>();
   const Load<3> by_volume = water_loads_at_reference(model).front();
@@ -162,9 +164,9 @@ WaterPlan rising(double from, double to, double ramp) {
   return {.water = 0, .from = {0, from}, .to = {0, to}, .ramp = ramp};
 }
 
-// Critical damping asks how contacts and water answer motion. A block of vertical sides in a level that rises loses
-// weight as under gravity that falls: both are imposed, and both must be followed step for step alike. Taken for a
-// stiffness, the rise would make what moves with it look unstable, and leave it undamped.
+// Critical damping depends on the response of contacts and water to motion. A block with vertical sides in a rising
+// level loses weight as under decreasing gravity: both are imposed, and both must give the same steps. Taken for a
+// stiffness, the rise would make bodies that move with it seem unstable, and leave them undamped.
 TEST(Relaxation, DoesNotTakeARisingLevelForStiffness) {
   Model<2> wet = block_on_plate<2>(0, 35 * degree), dry = wet;
   flood(wet, 0);
@@ -191,8 +193,8 @@ TEST(Relaxation, DoesNotTakeARisingLevelForStiffness) {
     ASSERT_NEAR(in_water[k], under_less[k], 2e-3 * settled) << k;
 }
 
-// A level that rises over a block that lies in it puts in γ V dh, all of it potential energy.
-TEST(WaterThatRises, PutsInWhatTheLedgerSays) {
+// A level that rises over a submerged block adds γ V dh, all of it potential energy.
+TEST(WaterThatRises, AddsTheEnergyOfTheBalance) {
   Model<2> model = block_on_plate<2>(0, 35 * degree);
   flood(model, 1);
   State<2> state = initial_state(model);
@@ -204,8 +206,8 @@ TEST(WaterThatRises, PutsInWhatTheLedgerSays) {
   EXPECT_LT(state.ledger.energy.relative_error(), 1e-6);
 }
 
-// Under a ramp of gravity the water has its full weight with the rock, and the ledger counts displacements alone.
-TEST(WaterThatRises, WithGravityPutsInNoMoreThanItMoves) {
+// Under a ramp of gravity the water reaches its full weight with the rock, and the ledger counts only displacements.
+TEST(WaterThatRises, WithGravityDoesOnlyTheWorkOfDisplacements) {
   Model<2> model = block_on_plate<2>(0, 35 * degree);
   flood(model, 100);
   State<2> state = initial_state(model);

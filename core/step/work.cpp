@@ -15,7 +15,7 @@ struct Work {
 
 template <int Dim>
 void add_work(const Model<Dim>& model, int threads, const std::vector<Kick<Dim>>& kicks, const LoadsState<Dim>& loads,
-              const Relaxation<Dim>& relaxation, EnergyLedger& energy) {
+              const Relaxation<Dim>& relaxation, EnergyBalance& energy) {
   const auto work = [&](int b, Work& sum) {
     if (model.bodies[b].immobile()) return;
     const Kick<Dim>& kick = kicks[b];
@@ -46,8 +46,8 @@ void add_work(const Model<Dim>& model, int threads, const std::vector<Kick<Dim>>
 }
 
 template void add_work<2>(const Model<2>&, int, const std::vector<Kick<2>>&, const LoadsState<2>&, const Relaxation<2>&,
-                          EnergyLedger&);
+                          EnergyBalance&);
 template void add_work<3>(const Model<3>&, int, const std::vector<Kick<3>>&, const LoadsState<3>&, const Relaxation<3>&,
-                          EnergyLedger&);
+                          EnergyBalance&);
 
 }  // namespace voussoir

@@ -1,4 +1,4 @@
-// The work of every load over a step, and with it the energy ledger.
+// The work of every load over a step, for the energy balance.
 #pragma once
 
 #include <vector>
@@ -9,11 +9,11 @@
 
 namespace voussoir {
 
-// Adds to the ledger what each source in LoadsState::by_source did along the kicks: force times path plus moment times
-// turn. The balance is checked between the halves, at the time of the positions. Under relaxation there is no kinetic
-// energy.
+// Adds to the ledger the work of each source in LoadsState::by_source along the kicks: force times path plus moment
+// times rotation. The balance is checked between the halves, at the time of the positions. Under relaxation there is no
+// kinetic energy.
 template <int Dim>
 void add_work(const Model<Dim>& model, int threads, const std::vector<Kick<Dim>>& kicks, const LoadsState<Dim>& loads,
-              const Relaxation<Dim>& relaxation, EnergyLedger& energy);
+              const Relaxation<Dim>& relaxation, EnergyBalance& energy);
 
 }  // namespace voussoir

@@ -9,7 +9,8 @@ namespace {
 
 using BeamVector = FixedMatrix<6, 1>;
 
-// what changes with the six freedoms, for a chord along `along`: its length, and its turn times its length
+// the derivatives by the six degrees of freedom, for a chord along `along`, of its length, and of its turn times its
+// length
 BeamVector lengthening(const Vector<2>& along) {
   return (BeamVector() << -along, 0, along, 0).finished();
 }
@@ -29,7 +30,7 @@ BeamStrain beam_strain(const Beam& beam, const BeamNode& first, const BeamNode& 
   strain.length = chord.norm();
   if (!(strain.length > 0)) return strain;
   strain.along = chord / strain.length;
-  // l² - L² = 2 c·d + d·d: nothing cancels where d is small
+  // l² - L² = 2 c·d + d·d: nothing cancels when d is small
   strain.elongation = (2 * c.dot(d) + d.dot(d)) / (strain.length + rest);
 
   // c × (c + d) = c × d: a small turn is as accurate as d
@@ -73,7 +74,7 @@ BeamMatrix beam_tangent(const Beam& beam, const BeamStrain& strain) {
     return a.lazyProduct(b.transpose());
   };
   const BeamMatrix mixed = product(t1, t2), turned = product(r, z);
-  // of the material, then of the forces: ∂²l = z zᵀ/l and ∂²α = -(r zᵀ + z rᵀ)/l²
+  // by the material, then by the forces: ∂²l = z zᵀ/l and ∂²α = -(r zᵀ + z rᵀ)/l²
   BeamMatrix k = stretch * product(r, r);
   k += bend * (4 * (product(t1, t1) + product(t2, t2)) + 2 * (mixed + mixed.transpose()));
   k += now.shear_force / strain.length * (turned + turned.transpose());
@@ -82,7 +83,7 @@ BeamMatrix beam_tangent(const Beam& beam, const BeamStrain& strain) {
 }
 
 double largest_eigenvalue_bound(const BeamMatrix& stiffness, const std::array<BeamInertia, 2>& nodes) {
-  BeamVector moves;  // 1/√kg, 1/√(kg m²); 0 where it is held
+  BeamVector moves;  // 1/√kg, 1/√(kg m²); 0 if it is held
   for (int i = 0; i < 6; ++i) {
     const BeamInertia& node = nodes[i / 3];
     const double inertia = i % 3 == 2 ? node.inertia : node.mass;

@@ -1,12 +1,12 @@
-// A straight elastic beam between two nodes of the plane that move and turn as far as they like: co-rotational, without
+// A straight elastic beam between two nodes of the plane with motions and turns of any size: co-rotational, without
 // shear deformation (Boon 2013, section 5.3.5). Per metre out of the plane: stiffnesses in N and N m²,
 // forces in N, moments in N m, energies in J, all per m. Counter-clockwise rotations and moments are positive.
 //
 // With the present chord of length l, which has turned by α, and the end rotations θ = φ - α of the nodes against it
 //   N = -EA ΔL/L,  M1 = (EI/L)(4θ1 + 2θ2),  M2 = (EI/L)(2θ1 + 4θ2),  V = (M1 + M2)/l,
-// L being the length at rest. With l, and not L, in V the forces are minus the gradient of the potential
+// L being the unloaded length. With l, and not L, in V the forces are minus the gradient of the potential
 //   U = EA ΔL²/(2L) + (EI/L)(2θ1² + 2θ1θ2 + 2θ2²).
-// Strains and end rotations are small, or the element is too long; displacements and turns are of any size.
+// Strains and end rotations must be small, or the element is too long; displacements and turns may be of any size.
 #pragma once
 
 #include <array>
@@ -16,27 +16,27 @@
 namespace voussoir {
 
 struct Beam {
-  Vector<2> chord;               // m, from the first node to the second at rest, where rotations are zero
-  double axial_stiffness = 0;    // N: EA, plane strain E/(1-ν²) where that is meant
+  Vector<2> chord;               // m, from the first node to the second, unloaded, with rotations of zero
+  double axial_stiffness = 0;    // N: EA, E/(1-ν²) for E in plane strain
   double bending_stiffness = 0;  // N m²: EI
 };
 
-// where a node is, relative to its place at rest
+// the motion of a node from its unloaded place
 struct BeamNode {
   Vector<2> displacement = Vector<2>::Zero();  // m
   double rotation = 0;                         // rad, accumulated: a full turn is 2π
 };
 
-// What strains a beam.
+// The strains of a beam.
 struct BeamStrain {
   Vector<2> along = Vector<2>::Zero();      // unit, along the present chord
-  double length = 0;                        // m: l; where it is 0 the nodes coincide and nothing else is set
+  double length = 0;                        // m: l; if it is 0 the nodes coincide and nothing else is set
   double elongation = 0;                    // m: ΔL = l - L
   std::array<double, 2> end_rotation = {};  // rad: θ1, θ2
 };
 
-// Accurate to rounding of the displacements' difference, however far the nodes are from the origin and however small
-// the difference is. The turn of the chord is the one, of all that differ by 2π, closest to the mean of the nodes'
+// Accurate to rounding of the displacements' difference, at any distance of the nodes from the origin and for any small
+// difference. The turn of the chord is the one, among those that differ by 2π, closest to the mean of the nodes'
 // rotations: unique as long as θ1 + θ2 stays within ±2π.
 BeamStrain beam_strain(const Beam& beam, const BeamNode& first, const BeamNode& second);
 
@@ -46,8 +46,8 @@ struct BeamForces {
 
   // inside the beam
   double normal_force = 0;                // N: N, compression positive
-  double shear_force = 0;                 // N: V, by which the first node pushes the beam to the left of its chord
-  std::array<double, 2> end_moment = {};  // N m: M1, M2, of the nodes on the beam; the bending moment, positive where
+  double shear_force = 0;                 // N: V, with which the first node pushes the beam to the left of its chord
+  std::array<double, 2> end_moment = {};  // N m: M1, M2, of the nodes on the beam; the bending moment, positive if
                                           // it turns the chord's direction to the left along the beam, is -M1 and M2
   double energy = 0;                      // J: U
 };
@@ -65,10 +65,11 @@ struct BeamInertia {
 };
 
 // For the time step: a bound of the largest eigenvalue of M⁻¹K, 1/s², for a stiffness K of the two nodes, at least the
-// largest and, with the three modes of a beam, at most 3.5 % more. Where each node's inertia is divided among its
-// beams, such that the parts add up to no more than it has, no eigenvalue of the whole chain exceeds the largest of its
-// beams' (Irons & Treharne 1971), and 2/√λ is a stable step. Half each is the fraction for a chain of equal beams. What
-// else holds a node joins K in like parts. A held node has the inertia 0, its rows count for nothing.
+// largest and, with the three modes of a beam, at most 3.5 % more. If each node's inertia is divided among its beams,
+// such that the parts add up to no more than it has, no eigenvalue of the chain exceeds the largest of its beams'
+// (Irons & Treharne 1971), and 2/√λ is a stable step. Half each is the fraction for a chain of equal beams. The
+// stiffness of other supports of a node is added to K in like parts. A held node has the inertia 0, its rows are
+// ignored.
 double largest_eigenvalue_bound(const BeamMatrix& stiffness, const std::array<BeamInertia, 2>& nodes);
 
 }  // namespace voussoir

@@ -1,4 +1,4 @@
-// The co-rotational beam against its own potential, the elastica, rings and the eigenvalues of whole chains.
+// The co-rotational beam against its own potential, the elastica, rings and the eigenvalues of chains.
 #include "core/support/beam.hpp"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ State forces_on(const Beam& beam, const State& q) {
   return (State() << f.force[0], f.moment[0], f.force[1], f.moment[1]).finished();
 }
 
-// nodes joined by beams in a row, the last to the first where it is closed
+// nodes joined by beams in a row, the last to the first if it is closed
 struct Chain {
   std::vector<Vector<2>> nodes;
   std::vector<Beam> beams;
@@ -87,8 +87,8 @@ Chain ring(int beams, double radius, double ea, double ei) {
   return {nodes, true, ea, ei};
 }
 
-// Equilibrium under dead loads by Newton's method, from q, with some freedoms held. Convergence is quadratic: a small
-// step that is no longer half the last one is rounding.
+// Equilibrium under dead loads by Newton's method, from q, with some degrees of freedom held. Convergence is quadratic:
+// a small step that is no longer half the last one is rounding.
 void find_equilibrium(const Chain& chain, const Eigen::VectorXd& load, const std::vector<int>& held,
                       Eigen::VectorXd& q) {
   double last = 1;
@@ -122,7 +122,7 @@ Beam random_beam(Random& random) {
   return {polar(uniform(random, 0.5, 2), uniform(random, -pi, pi)), uniform(random, 0.5, 2), uniform(random, 0.5, 2)};
 }
 
-// stretched by up to a third, bent by up to 0.7 rad, turned as a whole by up to three turns
+// stretched by up to a third, bent by up to 0.7 rad, turned rigidly by up to three turns
 State random_state(Random& random, const Beam& beam) {
   const double turn = uniform(random, -6 * pi, 6 * pi);
   const Vector<2> at(uniform(random, -1, 1), uniform(random, -1, 1));
@@ -180,7 +180,7 @@ TEST(Beam, ForcesOnItsNodesBalance) {
   }
 }
 
-TEST(Beam, TurnedAsAWholeItHasNoForce) {
+TEST(Beam, TurnedRigidlyItHasNoForce) {
   Random random(4);
   constexpr double ulp = 2.3e-16;
   for (int trial = 0; trial < 1000; ++trial) {
@@ -211,7 +211,7 @@ TEST(Beam, CoincidingNodesAreReportedWithoutForces) {
   EXPECT_TRUE(beam_tangent(beam, strain).isZero(0));
 }
 
-// compression, sagging and shear as the header says
+// compression, sagging and shear as in the header
 TEST(Beam, Signs) {
   const Beam beam{{2, 0}, 10, 4};
   EXPECT_GT(beam_forces(beam, beam_strain(beam, {}, {{-0.01, 0}, 0})).normal_force, 0);
@@ -259,7 +259,7 @@ TEST(BeamChain, CantileverFollowsTheElastica) {
     const double ten = deflection(10, load), twenty = deflection(20, load), forty = deflection(40, load);
     EXPECT_NEAR(ten, expected, 2e-3 * expected) << load;
     expect_second_order({ten - twenty, twenty - forty});
-    // what is left is of fourth order: a few (1/40)⁴; the printed digits
+    // the remaining error is of fourth order: a few (1/40)⁴; the printed digits
     EXPECT_NEAR((4 * forty - twenty) / 3, expected, 2e-6 + 5e-7) << load;
     RecordProperty("error of 10 beams at " + std::to_string(load), std::to_string(ten / expected - 1));
   }
@@ -267,7 +267,7 @@ TEST(BeamChain, CantileverFollowsTheElastica) {
 
 // ---- rings ----------------------------------------------------------------------------------------------------------
 
-// what symmetry about both axes holds; reactions vanish
+// the degrees of freedom held by symmetry about both axes; reactions vanish
 std::vector<int> symmetric_supports(int n) {
   return {1, 2, 3 * (n / 4)};
 }
@@ -314,8 +314,8 @@ TEST(BeamRing, OvalPressureGivesMomentAndDisplacementOfAnInextensibleRing) {
   RecordProperty("displacement error of 96 beams", std::to_string(displacement_errors.back()));
 }
 
-// The pressure at which a ring of n beams buckles into an oval, EI = a = 1: where the stiffness of beams and pressure,
-// which follows the chords and has the potential q times the area, is singular for the mode of two waves.
+// The pressure at which a ring of n beams buckles into an oval, EI = a = 1: at which the stiffness of beams and
+// pressure, which follows the chords and has the potential q times the area, is singular for the mode of two waves.
 double buckling_pressure(int n) {
   const double ea = 1e7;
   const Chain chain = ring(n, 1, ea, 1);
@@ -359,7 +359,7 @@ TEST(BeamRing, BucklesAtTheFollowerPressure) {
 
 // ---- the time step --------------------------------------------------------------------------------------------------
 
-// stable step by each beam's bound, over that by the eigenvalues of the whole chain
+// stable step by each beam's bound, over that by the eigenvalues of the chain
 double step_ratio(const Chain& chain, double thickness, bool closed) {
   const int n = static_cast<int>(chain.nodes.size());
   const double l = chain.beams[0].chord.norm(), mass = 2500 * thickness * l;
@@ -416,8 +416,8 @@ TEST(BeamStep, BoundOfOneBeamIsItsEigenvalue) {
   }
 }
 
-// a node that is held has no inertia to give; one that swings against it
-TEST(BeamStep, HeldNodesCountForNothing) {
+// a held node has no inertia; one that vibrates against it
+TEST(BeamStep, HeldNodesAreIgnored) {
   const Beam beam{{2, 0}, 8, 0};
   const BeamMatrix k = beam_tangent(beam, beam_strain(beam, {}, {}));
   EXPECT_NEAR(largest_eigenvalue_bound(k, {BeamInertia{}, BeamInertia{0.5, 1}}), 8 / 2 / 0.5, 1e-13);

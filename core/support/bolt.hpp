@@ -7,7 +7,7 @@
 //   q = ks (d - (a·d) a - plastic slip)          across the axis,     a dowel
 //
 // a turns with the first block; both forces act on both blocks at the second anchor, so that they have the potential
-// f²/2K + q²/2ks, which depends on nothing but where the second anchor stands in the first block. At a joint
+// f²/2K + q²/2ks, which depends only on the position of the second anchor in the first block. At a joint
 // that a grouted bar crosses f is the bar's (grouted_bolt.hpp).
 #pragma once
 
@@ -28,8 +28,8 @@ struct BoltProperties {
   std::string name;
   BoltKind kind = BoltKind::springs;
   BoltAnchors anchors = BoltAnchors::offset;  // not of end-anchored bolts
-  double diameter = 0.028;                    // m: offset anchors lie 1.2 of it from the joint
-  double stiffness = 0;                       // K, N/m, at each joint that is crossed
+  double diameter = 0.028;                    // m: offset anchors are 1.2 of it from the joint
+  double stiffness = 0;                       // K, N/m, at each crossed joint
   double axial_stiffness = 0;                 // EA, N, of an end-anchored or grouted bolt
   double pretension = 0;                      // F0, N
   std::optional<double> yield{};              // N, tension and compression
@@ -47,7 +47,7 @@ struct BoltProperties {
   std::optional<double> node_spacing{};  // m, at most
 };
 
-// λ = √(EA/k), m, over which the bar of a grouted bolt takes up its force
+// λ = √(EA/k), m, over which the bar of a grouted bolt builds up its force
 double transfer_length(const BoltProperties& properties);
 
 // m, of the nodes of a grouted bolt of this length: as stated, or λ/5, by which its stiffness over a joint is 0.5 % low
@@ -69,7 +69,7 @@ struct BoltSpring {
   int body_a = 0, body_b = 0;                                                // a is nearer to the collar
   Vector<Dim> place_a = Vector<Dim>::Zero(), place_b = Vector<Dim>::Zero();  // of the anchors, body frames, m
   Vector<Dim> axis = Vector<Dim>::Zero();                                    // unit, towards the toe, frame of body a
-  Vector<Dim> begin = Vector<Dim>::Zero(), end = Vector<Dim>::Zero();  // of the length of bolt that it stands for,
+  Vector<Dim> begin = Vector<Dim>::Zero(), end = Vector<Dim>::Zero();  // of the length of bolt that it represents,
                                                                        // frames of a and b, m: drawn, no force
   double length = 0;                                                   // l0, m; 0: both anchors at the joint
   double stiffness = 0;                                                // K, N/m
@@ -84,19 +84,20 @@ struct BoltSpring {
 template <int Dim>
 struct BoltAnswer {
   Vector<Dim> on_second = Vector<Dim>::Zero();  // N at the second anchor, frame of body a; on body a the opposite
-  double elastic = 0;                           // J, held now
-  double lost = 0;                              // J, to yield and rupture, this time
+  double elastic = 0;                           // J, stored now
+  double lost = 0;                              // J, to yield and rupture, in this step
 };
 
-// What a spring answers to the place of its second anchor against the first, frame of body a, m; renews its history.
+// The forces of a spring at a position of its second anchor relative to the first, frame of body a, m; updates its
+// history.
 template <int Dim>
 BoltAnswer<Dim> bolt_answer(const BoltProperties& properties, const Vector<Dim>& apart, BoltSpring<Dim>& spring);
 
-// Minus the derivative of `on_second` with `apart`, N/m, as the spring was answered there.
+// Minus the derivative of `on_second` with `apart`, N/m, in the spring's state after that.
 template <int Dim>
 Matrix<Dim> bolt_stiffness(const BoltProperties& properties, const Vector<Dim>& apart, const BoltSpring<Dim>& spring);
 
-// at most, for the time step, N/m
+// upper bound of the stiffness, for the time step, N/m
 template <int Dim>
 double stiffest(const BoltProperties& properties, const BoltSpring<Dim>& spring);
 

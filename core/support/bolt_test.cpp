@@ -1,4 +1,4 @@
-// What a spring of a bolt answers, against closed forms and its own potential.
+// The forces of a bolt's spring, against closed forms and its own potential.
 #include "core/support/bolt.hpp"
 
 #include <gtest/gtest.h>
@@ -44,7 +44,7 @@ TEST(BoltSpring, FollowsAnOpeningAndSlippingJoint) {
       }
 }
 
-TEST(BoltSpring, PushesBackWhereItsAnchorsHavePassedEachOther) {
+TEST(BoltSpring, PushesBackWhenItsAnchorsHavePassedEachOther) {
   BoltSpring<2> spring = spring_of<2>(0.0672);
   const BoltAnswer<2> answer = bolt_answer<2>(bar(), Vector<2>(-0.001, 0), spring);
   EXPECT_NEAR(spring.force, -K * 0.0682, 1e-6);
@@ -82,7 +82,7 @@ TEST(BoltSpring, HasAPotential) {
     }
 }
 
-TEST(BoltSpring, YieldsBothWaysAndLosesWhatTheForceWorked) {
+TEST(BoltSpring, YieldsBothWaysAndLosesTheWorkOfTheForce) {
   BoltProperties p = bar();
   p.yield = 1e5;
   BoltSpring<2> spring = spring_of<2>(1);
@@ -109,7 +109,7 @@ TEST(BoltSpring, GoesSlackAsACable) {
   BoltSpring<2> spring = spring_of<2>(1);
   EXPECT_TRUE(bolt_answer<2>(p, Vector<2>(0.99, 0), spring).on_second.isZero(0));
   bolt_answer<2>(p, Vector<2>(1.001, 0), spring);
-  EXPECT_NEAR(spring.force, K * 1e-3, 1e-4) << "it has forgotten nothing";
+  EXPECT_NEAR(spring.force, K * 1e-3, 1e-4) << "it keeps its plastic extension";
 }
 
 TEST(BoltSpring, BreaksBeyondItsExtension) {
@@ -123,7 +123,7 @@ TEST(BoltSpring, BreaksBeyondItsExtension) {
   const BoltAnswer<2> broken = bolt_answer<2>(p, Vector<2>(1 + 1.001 * limit, 0), spring);
   lost += broken.lost;
   EXPECT_TRUE(spring.broken && broken.on_second.isZero(0) && broken.elastic == 0);
-  EXPECT_NEAR(lost, 1e5 * (1.001 * limit) - 0.5 * 1e5 * 1e5 / K, 1e-6) << "all that was put in";
+  EXPECT_NEAR(lost, 1e5 * (1.001 * limit) - 0.5 * 1e5 * 1e5 / K, 1e-6) << "all work is lost";
   EXPECT_TRUE(bolt_answer<2>(p, Vector<2>(1, 0), spring).on_second.isZero(0));
 }
 

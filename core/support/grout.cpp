@@ -10,7 +10,7 @@ namespace voussoir {
 
 namespace {
 
-// Forces balance where their sum is no more than the rounding of its terms: a node has up to four springs, whose
+// Forces balance if their sum is no more than the rounding of its terms: a node has up to four springs, whose
 // trial forces have four roundings each, and the solution adds as many.
 constexpr double balanced = 32 * std::numeric_limits<double>::epsilon();
 
@@ -18,7 +18,7 @@ struct Answer {
   double force = 0, tangent = 0;
 };
 
-// an elastic, perfectly plastic spring; `strength` is where it yields
+// an elastic, perfectly plastic spring; it yields at `strength`
 Answer answer(double trial, double stiffness, double strength) {
   if (trial > strength) return {strength + residual_stiffness * (trial - strength), residual_stiffness * stiffness};
   if (trial < -strength) return {-strength + residual_stiffness * (trial + strength), residual_stiffness * stiffness};
@@ -32,14 +32,14 @@ double rod_of(const GroutedBar& bar, int i) {
   return bar.axial_stiffness / (bar.position[i + 1] - bar.position[i]);
 }
 
-// what acts on the collar in this step
+// the support of the collar in this step
 struct Collar {
   Plate plate = Plate::none;
   double jack = 0;  // N, instead of a plate
 };
 
-// The incremental problem: unknown is how far each node moves from `state`. Its potential is strictly convex, piecewise
-// quadratic and once differentiable; the residual is its gradient.
+// The incremental problem: the unknowns are the nodes' displacements from `state`. Its potential is strictly convex,
+// piecewise quadratic and once differentiable; the residual is its gradient.
 struct Problem {
   const GroutedBar& bar;
   const GroutedBarState& state;
@@ -69,7 +69,7 @@ struct Problem {
   bool linearise(const std::vector<double>& move, GroutWorkspace& w) const {
     const int n = nodes();
     bool is_balanced = true;
-    double below = 0, below_scale = 0;  // of the rod before
+    double below = 0, below_scale = 0;  // of the element before
     for (int i = 0; i < n; ++i) {
       const Answer b = bond(i, move[i]), p = i == 0 ? plate(move[0]) : Answer();
       const Answer r = i + 1 < n ? rod(i, move[i], move[i + 1]) : Answer();
@@ -102,9 +102,9 @@ struct Problem {
   }
 };
 
-// Thomas' algorithm for nodes in a row that springs w.held tie to the ground and rods w.rod to the next node;
-// w.residual drives them. Eliminating a node leaves its springs in series, so that nothing but positive numbers is
-// added: every pivot is accurate to rounding, however soft what holds the bar. The first `begin` nodes stay.
+// Thomas' algorithm for nodes in a row that springs w.held connect to the ground and elements w.rod to the next node;
+// w.residual loads them. Eliminating a node leaves its springs in series, so that only positive numbers are added:
+// every pivot is accurate to rounding, however soft the bar's support. The first `begin` nodes do not move.
 void solve(int begin, GroutWorkspace& w) {
   const int n = static_cast<int>(w.held.size());
   std::fill(w.step.begin(), w.step.begin() + begin, 0.0);
@@ -124,15 +124,15 @@ void solve(int begin, GroutWorkspace& w) {
     w.step[i] = (w.step[i] + w.rod[i] * w.step[i + 1]) / (w.held[i] + w.rod[i]);
 }
 
-// where along the step a spring's trial force meets a bound
+// the point of the step at which a spring's trial force meets a bound
 void add_kink(double trial, double change, double bound, std::vector<double>& kinks) {
   const double left = bound - trial;
   // within (0, 1), and no overflow
   if (left != 0 && (left > 0) == (change > 0) && std::abs(left) < std::abs(change)) kinks.push_back(left / change);
 }
 
-// Goes along w.step to the least potential, or to its end where the potential still falls there. The slope is piecewise
-// linear and rises: its root lies between two neighbouring kinks and is exact.
+// Moves along w.step to the least potential, or to its end if the potential still falls there. The slope is piecewise
+// linear and increasing: its root lies between two neighbouring kinks and is exact.
 void search(const Problem& problem, GroutWorkspace& w) {
   const int n = problem.nodes();
   const auto slope_at = [&](double t) {
@@ -173,7 +173,7 @@ void size(std::size_t n, GroutWorkspace& w) {
   w.kinks.reserve(4 * n);
 }
 
-// by how much a spring gave way, and what that cost; the new force is the state's
+// the plastic displacement of a spring, and the energy lost; the new force is the state's
 double yielded(double trial, double stiffness, double& force, double& strength, double& plastic) {
   const double old = force;
   force = answer(trial, stiffness, strength).force;
@@ -195,8 +195,8 @@ double stored(const GroutedBar& bar, const GroutedBarState& state) {
   return 0.5 * twice;
 }
 
-// Equilibrium after the rock has moved by w.rock_move under what acts on the collar; w.move is where the nodes go, and
-// the history goes with them, but for the plate.
+// Equilibrium after the rock has moved by w.rock_move with this support of the collar; w.move is the nodes'
+// displacement, and the history is updated, except for the plate.
 GroutStep equilibrate(const GroutedBar& bar, Collar collar, GroutedBarState& state, GroutWorkspace& w) {
   const Problem problem{bar, state, w.rock_move, collar};
   const int n = problem.nodes();
@@ -244,7 +244,7 @@ GroutStep follow(const GroutedBar& bar, GroutedBarState& state, GroutWorkspace& 
   return result;
 }
 
-// what a bar's springs answer to small motion: where nothing slips, or, with a state, as it stands
+// the stiffness of a bar's springs for small motion: without slip, or, with a state, in that state
 struct Tangent {
   const GroutedBar& bar;
   const GroutedBarState* state = nullptr;
@@ -263,7 +263,7 @@ struct Tangent {
   }
 };
 
-// w.step: how far the nodes go as the rock at those of which `moves` says so goes by 1
+// w.step: the nodes' displacement when the rock at the nodes chosen by `moves` moves by 1
 template <class Moves>
 void respond(const Tangent& tangent, Moves moves, GroutWorkspace& w) {
   const int n = static_cast<int>(tangent.bar.position.size()), begin = tangent.bar.plate == Plate::tied ? 1 : 0;
@@ -307,7 +307,7 @@ GroutedBarState installed(const GroutedBar& bar, std::span<const double> rock) {
   const std::size_t n = bar.position.size();
   assert(n > 0 && rock.size() == n && bar.bond_length.size() == n);
   if (!is_held(bar))
-    throw std::invalid_argument("nothing holds a bar without bond: its grout has neither stiffness nor length");
+    throw std::invalid_argument("a bar without bond has no support: its grout has neither stiffness nor length");
   GroutedBarState state;
   state.displacement.assign(rock.begin(), rock.end());
   state.rock = state.displacement;
@@ -328,7 +328,7 @@ GroutStep move_rock(const GroutedBar& bar, std::span<const double> rock, Grouted
   for (std::size_t i = 0; i < n; ++i)
     w.rock_move[i] = rock[i] - state.rock[i];
   GroutStep result;
-  // what is left to balance is rounding of an earlier step
+  // the unbalanced force is rounding of an earlier step
   if (std::all_of(w.rock_move.begin(), w.rock_move.end(), [](double move) { return move == 0; })) {
     result.converged = true;
     result.stored = stored(bar, state);
@@ -352,7 +352,7 @@ GroutStep tighten(const GroutedBar& bar, double force, GroutedBarState& state, G
   GroutStep result = equilibrate(bar, {Plate::none, force}, state, w);
   if (!result.converged) return result;
 
-  // the nut goes as far along the bar as the head comes out and the plate is pressed in
+  // the nut moves along the bar by the head's displacement out and the plate's compression
   double path = -w.move[0];
   if (bar.plate == Plate::spring) {
     path += force / bar.plate_stiffness - state.plate_closure;

@@ -35,7 +35,7 @@ std::vector<double> opened_at(const GroutedBar& bar, double position, double ope
   return rock;
 }
 
-// the first rod whose end lies behind this place
+// the first element whose end is behind this place
 int rod_across(const GroutedBar& bar, double position) {
   int i = 0;
   while (bar.position[i + 1] < position)
@@ -59,7 +59,8 @@ struct LoadedBar {
     dissipated += step.dissipated;
     stored = step.stored;
     most_iterations = std::max(most_iterations, step.iterations);
-    // Every term is known to an ulp, every node is out of balance by no more than 32 of what displacements are worth.
+    // Every term is known to an ulp, every node is out of balance by no more than 32 ulps of the forces of
+    // displacements.
     const double terms = static_cast<double>(bar.position.size());
     turnover += terms * (std::abs(step.work) + step.stored + step.dissipated) +
                 32 * terms * stiffest() * furthest() * furthest();
@@ -130,7 +131,7 @@ TEST(Grout, OpeningJointMeetsItsHalvesInSeries) {
       const double exact =
           1e-3 / (1 / pull_out_stiffness(test.bar, joint) + 1 / pull_out_stiffness(test.bar, 3 - joint));
       errors.push_back(std::abs(test.state.bar_force[rod_across(test.bar, joint)] / exact - 1));
-      // both sides are pulled together
+      // both sides are drawn together
       double near = 0, far = 0;
       for (std::size_t i = 0; i < test.bar.position.size(); ++i)
         (test.bar.position[i] < joint ? near : far) += test.state.bond_force[i];
@@ -143,7 +144,7 @@ TEST(Grout, OpeningJointMeetsItsHalvesInSeries) {
   }
 }
 
-// Rigid, plastic bond: the force is exact where a cell has just begun to slip and linear between, the square root of
+// Rigid, plastic bond: the force is exact when a cell has just begun to slip and linear between, the square root of
 // the opening is not.
 TEST(Grout, OpeningJointSlipsAlongARigidPlasticBond) {
   const double joint = 1.5, strength = 200e3;
@@ -174,7 +175,8 @@ TEST(Grout, OpeningJointSlipsAlongARigidPlasticBond) {
 
 // ---- plasticity -----------------------------------------------------------------------------------------------------
 
-// a bar so stiff that its 3 m of bond act as one spring of k l, which slips at S l; all beyond is residual stiffness
+// a bar so stiff that its 3 m of bond act as one spring of k l, which slips at S l; beyond it only residual stiffness
+// acts
 TEST(Grout, BondYieldsAndYieldsBackwards) {
   GroutedBar bar = steel_bar(0.25);
   bar.axial_stiffness = 98e12;
@@ -182,7 +184,7 @@ TEST(Grout, BondYieldsAndYieldsBackwards) {
   bar.plate = Plate::tied;
   LoadedBar test(bar);
   const double stiffness = 200e6 * 3, most = 100e3 * 3;
-  const double accuracy = 1e-5;  // the bar's own stretch, l²k/EA, is 2e-5 / 3
+  const double accuracy = 1e-5;  // the bar's own extension, l²k/EA, is 2e-5 / 3
   const auto force_at = [&](double out) {
     test.open(1e-9, out);
     return test.state.plate_force;
@@ -191,7 +193,7 @@ TEST(Grout, BondYieldsAndYieldsBackwards) {
   EXPECT_NEAR(force_at(2e-3), most, accuracy * most);
   EXPECT_NEAR(force_at(1.7e-3), most - 0.3e-3 * stiffness, accuracy * most);
   EXPECT_NEAR(force_at(0.5e-3), -most, accuracy * most);
-  EXPECT_NEAR(test.state.slip[3], -1e-3, 1e-8);  // the bar stretches by N l/EA = 9e-9
+  EXPECT_NEAR(test.state.slip[3], -1e-3, 1e-8);  // the bar extends by N l/EA = 9e-9
   test.expect_balance();
 
   // in small steps that is the force times the slip: error below most times a step
@@ -213,15 +215,15 @@ TEST(Grout, BarYields) {
   test.expect_balance();
 }
 
-// Every bond slips, as much on one side as on the other: nothing but the residual stiffness places the bar.
-TEST(Grout, BarAllOfWhoseBondsSlipHasAPlace) {
+// Every bond slips, as much on one side as on the other: only the residual stiffness determines the bar's position.
+TEST(Grout, ABarAllOfWhoseBondsSlipHasAPosition) {
   const double joint = 1.5;
   GroutedBar bar = steel_bar(0.1, {&joint, 1});
   bar.bond_strength = 100e3;
   LoadedBar test(bar);
-  test.open(joint, 0.5);  // half a metre at once
+  test.open(joint, 0.5);  // half a metre in one step
   EXPECT_NEAR(test.state.bar_force[rod_across(bar, joint)], 150e3, 1);
-  // the bar lies where both sides have slipped alike
+  // the bar's position is that of equal slip on both sides
   const std::size_t n = bar.position.size();
   EXPECT_NEAR(test.state.slip[1], -test.state.slip[n - 1], 1e-6);
   test.expect_balance();
@@ -262,7 +264,7 @@ TEST(Grout, HistoryDoesNotDependOnCallsWithoutMotion) {
 
 // ---- random bars ----------------------------------------------------------------------------------------------------
 
-// any stiffnesses and strengths, plates that hold throughout, rock that goes any way
+// any stiffnesses and strengths, plates that hold throughout, rock that moves in either direction
 GroutedBar random_bar(Random& random, std::span<const double> joints) {
   GroutedBar bar;
   bar.axial_stiffness = power_of_ten(random, 6, 10);
@@ -274,7 +276,7 @@ GroutedBar random_bar(Random& random, std::span<const double> joints) {
   return bar;
 }
 
-// to the rounding of forces and of what the displacements of this step are worth
+// to the rounding of the forces and of those due to the displacements of this step
 void expect_equilibrium(const LoadedBar& test) {
   const auto& s = test.state;
   double most = test.stiffest() * test.furthest();
@@ -286,7 +288,7 @@ void expect_equilibrium(const LoadedBar& test) {
   }
 }
 
-TEST(Grout, RandomHistoriesEndBalanceAndNeverGiveEnergy) {
+TEST(Grout, RandomHistoriesConvergeBalanceAndNeverCreateEnergy) {
   Random random(2);
   int most = 0;
   long long steps = 0, iterations = 0;
@@ -363,7 +365,7 @@ TEST(Grout, PlateNeverPulls) {
   EXPECT_NEAR(test.state.plate_force, 1e3, 1e-6);
 }
 
-TEST(Grout, BarThatNothingHoldsIsRefused) {
+TEST(Grout, ABarWithoutSupportIsRefused) {
   GroutedBar bar = steel_bar(0.5);
   bar.bond_stiffness = 0;
   EXPECT_THROW(installed(bar, std::vector<double>(bar.position.size())), std::invalid_argument);
@@ -371,7 +373,7 @@ TEST(Grout, BarThatNothingHoldsIsRefused) {
 
 // ---- for the step ---------------------------------------------------------------------------------------------------
 
-TEST(Grout, StiffnessIsWhatABlockMeets) {
+TEST(Grout, StiffnessIsThatAgainstABlock) {
   const double joint = 1.1;
   for (const Plate plate : {Plate::none, Plate::spring, Plate::tied}) {
     GroutedBar bar = steel_bar(0.1, {&joint, 1});
@@ -406,8 +408,9 @@ TEST(Grout, StepAllocatesNothing) {
 
 // ---- blocks along a bar ---------------------------------------------------------------------------------------------
 
-// Stretches of rock act on each other as springs do: what moving one asks of it is what moving it gives to all others.
-TEST(Grout, CondensesToSpringsBetweenStretches) {
+// Segments of rock act on each other as springs do: the force to move one is the force that its motion exerts on all
+// others.
+TEST(Grout, CondensesToSpringsBetweenSegments) {
   const double joints[] = {0.7, 1.5, 2.6};
   for (const Plate plate : {Plate::none, Plate::spring, Plate::tied}) {
     GroutedBar bar = steel_bar(0.1, joints);
@@ -438,7 +441,7 @@ TEST(Grout, CondensesToSpringsBetweenStretches) {
       EXPECT_NEAR(sum, 0, 1e-12 * alone);
     }
 
-    // where all of the last stretch's bond slips, it is all but let go
+    // when all of the last segment's bond slips, it is almost released
     test.open(2.6, 0.1);
     condensed_stiffness(bar, test.state, stretch, 4, test.workspace, k);
     EXPECT_LT(k[15], 1e-9 * bar.axial_stiffness);
@@ -461,7 +464,7 @@ TEST(Grout, EndsWithoutForceWhereItIsCut) {
   double sum = 0;
   for (const double force : left.bond_force)
     sum += force;
-  EXPECT_NEAR(sum, 0, 1e-9 * 5e4) << "nothing but the bond holds it";
+  EXPECT_NEAR(sum, 0, 1e-9 * 5e4) << "only the bond holds it";
   // as if the bar had been so short when the joint opened
   const double shorter[] = {1};
   GroutedBar short_bar;

@@ -14,7 +14,7 @@
 namespace voussoir {
 namespace {
 
-// of a side's length: a node this near to a corner lies in it
+// of a side's length: a node this near to a corner is in it
 constexpr double at_corner = 1e-9;
 
 // of their corners
@@ -30,7 +30,7 @@ struct OnOutline {
   std::array<int, 2> side;  // before it, after it
 };
 
-// where a ray from inside a convex outline meets it
+// the point at which a ray from inside a convex outline meets it
 OnOutline on_outline(const std::vector<LiningSide>& sides, const Vector<2>& centre, double turn) {
   const Vector<2> ray(std::cos(turn), std::sin(turn));
   double nearest = std::numeric_limits<double>::infinity();
@@ -74,7 +74,7 @@ void weigh_nodes(Lining& lining) {
   const LiningProperties& p = lining.properties;
   for (int k = 0; k < lining.beams(); ++k) {
     const double length = lining.beam(k).chord.norm();
-    if (!(length > 0)) throw std::invalid_argument("two nodes of a lining lie in one place");
+    if (!(length > 0)) throw std::invalid_argument("two nodes of a lining are in one place");
     lining.nodes[k].half_length[1] = lining.nodes[lining.next(k)].half_length[0] = 0.5 * length;
   }
   for (LiningNode& node : lining.nodes) {
@@ -131,7 +131,7 @@ LiningAnswer interface_answer(const LiningJoint& joint, double length, const Lin
   contact.place = motion.place;
   LiningAnswer answer;
   const double shear_stiffness = p.shear_stiffness * length;
-  if (motion.closure < 0 && !contact.bonded) {  // parted: what the shear spring held is lost
+  if (motion.closure < 0 && !contact.bonded) {  // parted: the energy of the shear spring is lost
     if (shear_stiffness > 0) answer.friction = 0.5 * contact.shear * contact.shear / shear_stiffness;
     contact.shear = contact.normal = contact.dashpot = 0;
     return answer;
@@ -142,7 +142,7 @@ LiningAnswer interface_answer(const LiningJoint& joint, double length, const Lin
   history.plastic_slip = contact.plastic_slip;
   history.shear_stiffness = contact.shear_stiffness;
   history.bonded = contact.bonded;
-  // it is cast without stress, which a joint with tensile strength has where it is closed by its offset
+  // it is cast without stress, which a joint with tensile strength has when it is closed by its offset
   JointKinematics<2> k;
   k.normal = {1, 0};
   k.overlap = motion.closure + (p.laws.bond ? p.tension / p.normal_stiffness : 0);
@@ -216,7 +216,7 @@ std::vector<double> smoothed_moments(const Lining& lining, const std::vector<Sec
   for (const LiningSide& side : lining.sides)
     radius += side.normal.dot(side.corner - centre) / static_cast<double>(sides);
 
-  // the sides' pressures, each at its middle over the angle that it takes up
+  // the sides' pressures, each at its middle over the angle that it covers
   struct Sector {
     double angle, width, pressure;
   };

@@ -35,7 +35,7 @@ std::vector<double> turns(int count, double first = 0) {
 
 const LiningProperties concrete{.name = "shell", .thickness = 0.3, .young_modulus = 25e9, .density = 2500};
 
-TEST(Lining, StandsForTheOutlineAndWeighsWhatItDoes) {
+TEST(Lining, HasTheLengthAndMassOfItsOutline) {
   const Lining ring = make_lining(concrete, polygon(12, 5), {0, 0}, turns(24), true);
   ASSERT_EQ(ring.nodes.size(), 24u);
   EXPECT_EQ(ring.beams(), 24);
@@ -60,7 +60,7 @@ TEST(Lining, StandsForTheOutlineAndWeighsWhatItDoes) {
 
 const JointProperties contact{.name = "contact", .normal_stiffness = 1e9, .shear_stiffness = 5e8, .friction = 0.5};
 
-// closure and slip to forces, and nothing where the rock has gone
+// closure and slip to forces, and nothing when the rock is gone
 TEST(Interface, PressesSlipsAndParts) {
   LiningContact at;
   const LiningJoint joint{contact, 0.5};
@@ -79,10 +79,10 @@ TEST(Interface, PressesSlipsAndParts) {
   answer = interface_answer(joint, length, {.closure = -1e-6, .place = 1e-2, .seconds = 1}, at);
   EXPECT_EQ(at.normal, 0);
   EXPECT_EQ(at.shear, 0);
-  EXPECT_NEAR(answer.friction, held, 1e-9 * held) << "what the shear spring held is lost";
+  EXPECT_NEAR(answer.friction, held, 1e-9 * held) << "the energy of the shear spring is lost";
 }
 
-// The energy that a bond holds when it breaks is lost, and the interface does not pull any more.
+// The energy stored in a bond when it breaks is lost, and the interface does not pull any more.
 TEST(Interface, PullsUntilItsBondBreaks) {
   JointProperties glued = contact;
   glued.tension = 2e5;
@@ -104,9 +104,9 @@ TEST(Interface, PullsUntilItsBondBreaks) {
   EXPECT_NEAR(broken.friction, 0.5 * 1e9 * length * std::pow(1.001 * strength, 2), 1e-9);
 }
 
-// Eqs I.1-I.3. An even pressure on a polygon makes moments on its sides, and none on the circle that it stands for;
+// Eqs I.1-I.3. An even pressure on a polygon causes moments on its sides, and none on the circle that it represents;
 // pressures that differ from side to side by a cosine make the ring's moments.
-TEST(Smoothing, LeavesWhatARingWouldCarry) {
+TEST(Smoothing, LeavesTheMomentsOfARing) {
   constexpr int sides = 24, on_side = 8;
   constexpr double radius = 5, pressure = 1e5;
   // no node in a corner: the moments made here jump there with the pressure
@@ -136,7 +136,7 @@ TEST(Smoothing, LeavesWhatARingWouldCarry) {
           .empty());
 }
 
-TEST(Capacity, IsThatOfAnElasticSection) {
+TEST(Utilisation, IsThatOfAnElasticSection) {
   LiningProperties p = concrete;
   EXPECT_FALSE(use_of(p, {.thrust = 1e6}).has_value());
   p.compressive_strength = 20e6;
@@ -145,7 +145,8 @@ TEST(Capacity, IsThatOfAnElasticSection) {
   EXPECT_NEAR(*use_of(p, {.thrust = -2e6 * 0.3}), 1, 1e-12);
   const double bending = 2e6 * 0.3 * 0.3 / 6;
   EXPECT_NEAR(*use_of(p, {.moment = -bending}), 1, 1e-12);
-  EXPECT_NEAR(*use_of(p, {.thrust = 2e6 * 0.3, .moment = 2 * bending}), 1, 1e-12) << "thrust closes what bending opens";
+  EXPECT_NEAR(*use_of(p, {.thrust = 2e6 * 0.3, .moment = 2 * bending}), 1, 1e-12)
+      << "thrust closes the side that bending opens";
 }
 
 }  // namespace

@@ -7,14 +7,14 @@
 
 namespace voussoir::shapes {
 
-// how far the properties of an assembly reach, in decades
+// the range of an assembly's properties, in decades
 struct Spread {
   double edges = 1.5;    // of a block's edges
   double density = 0;    // of the blocks' densities
   double stiffness = 0;  // of normal over shear stiffness; 0: 5 : 2 and 1 : 3
 };
 
-// a box with random edges and principal axes, as the step knows it: without faces
+// a box with random edges and principal axes, as in the step: without faces
 template <int Dim>
 Body<Dim> random_body(Random& random, const Spread& spread) {
   Vector<Dim> half;
@@ -35,7 +35,7 @@ Body<Dim> random_body(Random& random, const Spread& spread) {
   return body;
 }
 
-// relative velocity at a contact: columns of one body's freedoms, written out from the cross product
+// relative velocity at a contact: columns of one body's degrees of freedom, expanded from the cross product
 template <int Dim>
 auto velocity_at(const Vector<Dim>& arm) {
   Eigen::Matrix<double, Dim, Dim + spin_freedoms<Dim>> j;
@@ -46,7 +46,7 @@ auto velocity_at(const Vector<Dim>& arm) {
   return j;
 }
 
-// as the step would have found them
+// as the step would have computed them
 template <int Dim>
 void set_contacts(const Model<Dim>& model, const std::vector<Contact<Dim>>& contacts, State<Dim>& state) {
   state.contacts.list = contacts;

@@ -1,4 +1,4 @@
-// A good scene, and how each mistake put into it must be reported.
+// A good scene, and mistakes in it with the reports that they must cause.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -64,7 +64,7 @@ struct BadInput {
   const char* name;
   std::string from, to;  // replaced in the good scene; an empty `from` appends. #! marks the line of the error
   std::string key;       // the address and value as the error must show them
-  std::string phrase;    // of what is allowed, or of the repair
+  std::string phrase;    // of the permitted values, or of the repair
 };
 
 inline void PrintTo(const BadInput& bad, std::ostream* out) {
@@ -85,7 +85,7 @@ inline int marked_line(const std::string& text) {
   return 1 + static_cast<int>(std::count(text.begin(), text.begin() + mark, '\n'));
 }
 
-// What an error holds besides its message must be what the message says.
+// The parts of an error must be those of its message.
 inline void expect_parts(const SceneError& error) {
   const std::string message = error.what();
   EXPECT_EQ(error.file, "scene.toml") << message;
@@ -94,7 +94,7 @@ inline void expect_parts(const SceneError& error) {
   EXPECT_NE(message.find(one_line(error.key, 200)), std::string::npos) << message << "\nexpected key " << error.key;
 }
 
-// what reading and preparing a scene complains about; empty when it does not
+// the error of reading and preparing a scene; empty without one
 inline std::string complaint_about(const std::string& text, const std::vector<std::string>& overrides = {}) {
   try {
     const Scene scene = parse_scene(text, "scene.toml", overrides);

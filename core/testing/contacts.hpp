@@ -1,4 +1,4 @@
-// A contact between two parts resolved once, and what every contact must satisfy.
+// A contact between two parts resolved once, and the conditions that every contact must satisfy.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -16,10 +16,10 @@ inline constexpr double exact = 1e-12;
 // Newton ends with 1e-9 of the overlap (ContactSettings::newton_tolerance), the cold face contact with a little more
 inline constexpr double point_tolerance = 1e-6;
 
-// sections through a point and a normal that both carry rounding; in long double they share neither
+// sections through a point and a normal that both have rounding; in long double they have neither
 inline constexpr double area_tolerance = 1e-6;
 
-// where a cube's corner meets a face, the normal lies between the face's and the corner's diagonal, 54.7 degrees away:
+// if a cube's corner meets a face, the normal is between the face's and the corner's diagonal, 54.7 degrees away:
 // the cosine of half of that
 inline constexpr double halfway_to_a_corner = 0.887;
 
@@ -39,7 +39,8 @@ Polytope<Dim> unit_cube() {
   return shapes::block<Dim>(shapes::cube<Dim>(0.5));
 }
 
-// m: how far along the direction B's centroid is when the parts touch, to 6 m / 2^40; a little more rather than less
+// m: the distance of B's centroid along the direction when the parts touch, to 6 m / 2^40; a little more rather than
+// less
 template <int Dim>
 double distance_of_touching(const Polytope<Dim>& a, const Polytope<Dim>& b, const Matrix<Dim>& turn,
                             const Vector<Dim>& along) {
@@ -61,7 +62,7 @@ HalfSpaces<Dim> planes_of(const Polytope<Dim>& a, const Polytope<Dim>& b, const 
   return planes;
 }
 
-// what every contact must satisfy: point inside, near the analytic centre, overlap positive, unit normal, right area
+// the conditions of every contact: point inside, near the analytic centre, overlap positive, unit normal, right area
 template <int Dim>
 void expect_sound(const Polytope<Dim>& a, const Polytope<Dim>& b, const Matrix<Dim>& turn, const Vector<Dim>& offset,
                   const ContactGeometry<Dim>& g) {

@@ -1,5 +1,5 @@
 // Counts every allocation of the program. For one source file of a program: it replaces operator new. Not with
-// ThreadSanitizer, whose own lets no other stand beside it: then nothing is counted.
+// ThreadSanitizer, whose own permits no other: then no allocation is counted.
 #pragma once
 
 #include <atomic>
@@ -24,7 +24,7 @@ inline constexpr bool allocations_are_counted = true;
 }  // namespace voussoir
 
 #ifndef VOUSSOIR_ALLOCATIONS_NOT_COUNTED
-// not inlined, or the compiler takes malloc and delete for a mistake
+// not inlined, or the compiler warns of malloc with delete
 [[gnu::noinline]] void* operator new(std::size_t size) {
   ++voussoir::allocations;
   if (void* memory = std::malloc(size ? size : 1)) return memory;

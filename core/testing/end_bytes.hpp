@@ -7,7 +7,7 @@
 
 namespace voussoir {
 
-// all that is left at the end of a run but for the clock
+// the results at the end of a run, without the clock
 template <int Dim>
 std::string end_of(Progress<Dim> progress) {
   progress.results.seconds = 0;

@@ -1,4 +1,4 @@
-// Scenes with a table for every key, and where in them a value of a key can be set: that follows from the key table.
+// Scenes with a table for every key, and the place in them at which a value of a key can be set, from the key table.
 #pragma once
 
 #include <algorithm>
@@ -51,7 +51,7 @@ name = "boundary"
 dip = 0
 point = [0, 0, -0.8]
 kind = "boundary"
-whole = "below"
+fixed_side = "below"
 properties = "rock"
 [[excavations]]
 name = "tunnel"
@@ -195,12 +195,14 @@ velocity = [1, 0, 0]
 [[stage]]
 name = "settle"
 kind = "settle"
+statics = "adaptive"
+static_increments = 4
 damping = {}
 fix = [{ bodies = ["by planes"] }]
 water = [{ name = "lake", level = 0.1, duration_s = 5 }]
 excavate = ["tunnel"]
 install = ["roof", "anchor", "dowel", "bar", "plain bar"]
-let_off = { share = 0.5, duration_s = 1 }
+excavation_forces = { remaining = 0.5, duration_s = 1 }
 [[stage]]
 name = "run"
 kind = "run"
@@ -284,7 +286,7 @@ since = "settle"
 [output]
 )";
 
-// what can stand in the plane only
+// the tables and keys of the plane alone
 inline const std::string in_the_plane = R"(dimension = 2
 density = 2000
 domain = { box = { min = [-9, -9], max = [9, 9] } }
@@ -331,7 +333,7 @@ quantities = ["lining_force"]
 lining = "shell"
 )";
 
-// what blocks of half-spaces alone cannot state, and what the other keys of `everything` do not go with
+// the keys that blocks of half-spaces alone cannot state, or that exclude other keys of `everything`
 inline const std::string of_particles = R"(dimension = 3
 density = 2000
 [[joint_properties]]
@@ -359,7 +361,7 @@ name = "settle"
 kind = "settle"
 )";
 
-// a table of a scene, with the groups of keys that it may hold
+// a table of a scene, with the groups of keys that it may have
 struct Holder {
   Subject table;
   Groups groups;
@@ -404,7 +406,7 @@ inline bool accepts(const Home& home, std::string_view value) {
   }
 }
 
-// The first table that accepts this value of a row's key. Some values fit beside no other: then the first table that
+// The first table that accepts this value of a row's key. Some values exclude all others: then the first table that
 // states the key, or else may state it.
 inline Home home_of(const KeyRow& row, std::string_view value) {
   static const std::array scenes{Written(everything), Written(in_the_plane), Written(of_particles)};
@@ -432,7 +434,7 @@ inline const Home& home(const KeyRow& row, std::string_view value) {
   return found;
 }
 
-// the scene in which a row's key can have its example, and where
+// the scene in which a row's key can have its example, and the place
 inline const std::string& scene_of(const KeyRow& row) {
   return *home(row, row.example).scene;
 }

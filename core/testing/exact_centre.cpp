@@ -11,7 +11,7 @@ double to_double(const Quad& q) {
 }
 
 Quad to_quad(const Rational& q) {
-  // three doubles hold 159 bits
+  // three doubles have 159 bits
   mpf_class rest(q, 256);
   Quad sum = 0;
   for (int part = 0; part < 3; ++part) {
@@ -26,7 +26,7 @@ Quad root(Quad square) {
   if (!(square > 0)) return 0;
   // the double's root has 53 bits; each of Heron's steps doubles them
   Quad r = std::sqrt(static_cast<double>(square));
-  if (r == 0) return 0;  // below the range of doubles: far below anything judged here
+  if (r == 0) return 0;  // below the range of doubles: far below any number checked here
   for (int step = 0; step < 2; ++step)
     r = (r + square / r) / 2;
   return r;

@@ -9,14 +9,14 @@ namespace {
 
 constexpr int most_steps = 500;
 
-// far below anything that is judged, far above 113 bits
+// far below any error checked, far above 113 bits
 constexpr double converged = 1e-22;
 
 // below this decrement Newton's full step converges quadratically
 constexpr double full_step = 0.25;
 
-// Seen from the start, which is subtracted before anything is rounded: slacks have all their digits, however thin the
-// region is.
+// Seen from the start, which is subtracted before anything is rounded: slacks have all their digits, at any thickness
+// of the region.
 struct Barrier {
   std::vector<QuadVector> normals;
   std::vector<Quad> slacks;
@@ -104,7 +104,7 @@ std::optional<QuadVector> centre_of(const Barrier& barrier) {
   return {};
 }
 
-// one part's unit gradient of Σ w <r - slack>² at x; where no plane is nearer than r, the normal of the nearest
+// one part's unit gradient of Σ w <r - slack>² at x; if no plane is nearer than r, the normal of the nearest
 QuadVector potential_direction(const Barrier& barrier, int first, int last, const QuadVector& x, double radius) {
   QuadVector sum{};
   int nearest = first;
@@ -122,7 +122,7 @@ QuadVector potential_direction(const Barrier& barrier, int first, int last, cons
   return sum;
 }
 
-// three doubles hold 159 bits
+// three doubles have 159 bits
 Rational rational(Quad q) {
   Rational sum = 0;
   for (int part = 0; part < 3; ++part) {

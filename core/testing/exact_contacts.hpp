@@ -12,20 +12,20 @@ namespace voussoir::exact {
 struct ConvergedContact {
   QuadVector from_start{};  // the centre, relative to the start
   Quad distance = 0;    // of the start from it, in the metric of the barrier's Hessian there: along any direction the
-                        // start is off by no more than this fraction of the region
+                        // error of the start is no more than this fraction of the region
   QuadVector normal{};  // unit; 0 when those of the parts are equal
   Quad overlap = 0;     // along it
   Section section;
 };
 
 // `planes`: those of A first, then those of B, then any that only close the solid. `radius` is the potential
-// particle's. Nothing when the start does not lie inside or Newton does not end. `weights`: how much each of the first
-// planes counts in the barrier and in the potentials; the others count 1.
+// particle's. Nothing if the start is not inside or Newton does not end. `weights`: those of the first planes in the
+// barrier and in the potentials; the others have 1.
 std::optional<ConvergedContact> converged_contact(const Planes& planes, int faces_a, int faces_b, const Point& start,
                                                   double radius, std::vector<double> weights = {});
 
-// How far each plane of A lies ahead of the point along a normal, each plane of B behind it (Eq. 3.36); nothing for
-// planes that the search never meets.
+// The distance of each plane of A ahead of the point along a normal, of each plane of B behind it (Eq. 3.36); nothing
+// for planes that the search never meets.
 std::vector<std::optional<Quad>> distances_along(const Planes& planes, int faces_a, int faces_b, const Point& point,
                                                  const Point& normal);
 

@@ -17,8 +17,8 @@ namespace {
 
 // ---- planes of whole numbers ----------------------------------------------------------------------------------------
 
-// Rationals multiplied by one number that makes them whole: sums and products then need no common divisors, which is
-// what rational arithmetic spends its time on.
+// Rationals multiplied by one number that makes them whole: sums and products then need no common divisors, which take
+// most of the time of rational arithmetic.
 using Whole = mpz_class;
 using Row = std::array<Whole, 3>;
 
@@ -71,7 +71,7 @@ Row cramer(const std::array<Row, 3>& rows, const Row& right) {
 
 // ---- cddlib ---------------------------------------------------------------------------------------------------------
 
-// cddlib's constants live as long as the process
+// cddlib's constants exist as long as the process
 void prepare_cdd() {
   static const bool once = [] {
     dd_set_global_constants();
@@ -122,7 +122,7 @@ Program solve(const Planes& planes, const Plane* joint) {
   dd_FreeLPData(lp);
   // s can always be raised, so the program is feasible: without an optimum it is unbounded
   result.bounded = status == dd_Optimal;
-  if (!solved) throw std::logic_error("cddlib: no answer");
+  if (!solved) throw std::logic_error("cddlib: no result");
   return result;
 }
 
@@ -168,7 +168,7 @@ std::optional<Rational> proven_support(const Planes& planes, const std::array<in
   const Whole determinant_ = determinant(rows[0], rows[1], rows[2]);
   const int sign = sgn(determinant_);
   if (sign == 0) return {};
-  // no other point of the corner's cone lies farther: the direction is a positive sum of the three normals
+  // no other point of the corner's cone is farther: the direction is a positive sum of the three normals
   for (int r = 0; r < 3; ++r) {
     std::array<Row, 3> replaced = rows;
     replaced[r] = u;

@@ -65,7 +65,7 @@ Corner meet(const std::vector<Line>& lines, int first, int second) {
 // a sum of a few terms whose value exceeds this fraction of the terms has the right sign in double: some 64 roundings
 constexpr double decided = 1e-14;
 
-// sign of how far the corner lies beyond the line; in double where that decides, else exactly
+// sign of the corner's distance beyond the line; in double if that decides, else exactly
 int side(const Line& line, const Corner& corner) {
   const double au = line.a * corner.x, bv = line.b * corner.y, value = au + bv - line.c;
   if (std::abs(value) > decided * (std::abs(au) + std::abs(bv) + std::abs(line.c))) return value > 0 ? 1 : -1;
@@ -74,7 +74,7 @@ int side(const Line& line, const Corner& corner) {
 
 using Polygon = std::vector<Corner>;
 
-// cuts off what lies beyond the line; the polygon keeps its corners in order
+// cuts off the part beyond the line; the polygon keeps its corners in order
 void clip(Polygon& polygon, const std::vector<Line>& lines, int number) {
   const std::size_t n = polygon.size();
   std::vector<int> sides(n);
@@ -95,7 +95,7 @@ void clip(Polygon& polygon, const std::vector<Line>& lines, int number) {
     const int edge = polygon[k].second;  // the line from this corner to the next
     if (sides[k] < 0) clipped.push_back(polygon[k]);
     if (sides[k] == 0) {
-      // the cut passes through the corner, which now lies between the cut and the edge that stays
+      // the cut passes through the corner, which is now between the cut and the edge that remains
       Corner c = polygon[k];
       const bool stays_behind = sides[(k + n - 1) % n] < 0, stays_ahead = sides[next] < 0;
       if (!stays_behind && stays_ahead) c.first = number;
@@ -142,7 +142,7 @@ struct Chart {
             sign * (p.offset * n[k] - a[k] * plane.offset)};
   }
 
-  // true when doubles suffice to see that no corner lies beyond the plane: most planes of a large solid
+  // true when doubles suffice to show that no corner is beyond the plane: most planes of a large solid
   bool surely_inside(const Rounded& p, const Polygon& polygon) const {
     const double sign = rounded.n[k] > 0 ? 1 : -1;
     const auto [alpha, alpha_terms] = minor(p.n[i], rounded.n[k], p.n[k], rounded.n[i]);
@@ -168,7 +168,7 @@ struct Chart {
   }
 };
 
-// far beyond any coordinate of a solid whose numbers are doubles of ordinary size; exact arithmetic does not mind
+// far beyond any coordinate of a solid whose numbers are doubles of ordinary size; exact arithmetic is not affected
 const Rational beyond_everything = Rational(1e60);
 
 // The section's corners, counter-clockwise in (x_i, x_j). `own` is the place of the plane itself among the solid's, or
@@ -288,7 +288,7 @@ IntegratedContact pressed_face(const Planes& planes, int face_a, int face_b) {
     mean.normal[k] = a.normal[k] - b.normal[k];
     open.normal[k] = a.normal[k] + b.normal[k];
   }
-  // on the mean plane the two faces end where u = 0; of parallel ones that is nowhere
+  // on the mean plane the two faces end at u = 0; parallel ones nowhere
   Planes sides;
   for (std::size_t i = 0; i < planes.size(); ++i)
     if (static_cast<int>(i) != face_a && static_cast<int>(i) != face_b) sides.push_back(planes[i]);
@@ -309,7 +309,7 @@ IntegratedContact pressed_face(const Planes& planes, int face_a, int face_b) {
     overlap.push_back(to_quad(open.offset - dot(open.normal, x)) / (length / 2));
     corner.push_back({to_quad(x[0] - first[0]), to_quad(x[1] - first[1]), to_quad(x[2] - first[2])});
     face.extent = std::max(face.extent, root(dot(corner.back(), corner.back())));
-    // a line of the chart holds two components of the cross product of both planes' normals
+    // a line of the chart has two components of the cross product of both planes' normals
     const Line& line = lines[c.second];
     if (line.alpha == pressed_edge.alpha && line.beta == pressed_edge.beta) continue;
     const Point& n = mean.normal;
@@ -366,7 +366,7 @@ Solid solid(const Planes& planes) {
   result.edges /= 2;
   if (facets.empty()) return result;
 
-  // any point near the solid will do: the sums run in coordinates relative to it
+  // any point near the solid is good: the sums run in coordinates relative to it
   for (int k = 0; k < 3; ++k)
     middle[k] = Rational(facets[0][0][k].get_d());
   std::array<QuadVector, 3> about_middle{};

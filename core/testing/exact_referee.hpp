@@ -1,8 +1,8 @@
-// Exact answers to what the kernels of space (Dim = 3) answer in double. Doubles are rational numbers, so decisions,
-// LP values, vertices and sections are exact; what needs a root or a long sum is taken in 113 bits from exact vertices.
-// Programs and vertices: cddlib with GMP. Sections, solids and everything else: written here, sharing nothing with the
-// core but its plain structs. cddlib is GPL and has global state: tests only, one thread.
-// A programming error of the caller (no planes, not closed where it must be) throws std::logic_error.
+// Exact results for those of the kernels of space (Dim = 3) in double. Doubles are rational numbers, so decisions, LP
+// values, vertices and sections are exact; results with a root or a long sum are computed in 113 bits from exact
+// vertices. Programs and vertices: cddlib with GMP. Sections, solids and everything else: written here, sharing nothing
+// with the core but its plain structs. cddlib is GPL and has global state: tests only, one thread. A programming error
+// of the caller (no planes, not closed although required) throws std::logic_error.
 #pragma once
 
 #include <gmpxx.h>
@@ -33,14 +33,14 @@ Point point_of(const Vector<3>& point);
 Point point_of(const Vector<2>& point);
 Rational dot(const Point& a, const Point& b);
 
-// Both parts' planes in the first body's frame as the pair's doubles say, planes of A first: (R a)·x <= d + (R a)·o.
+// Both parts' planes in the first body's frame by the pair's doubles, planes of A first: (R a)·x <= d + (R a)·o.
 Planes planes_of(const Pair<3>& pair);
 
-// the same with an offset that no double holds
+// the same with an offset that no double represents
 Planes planes_of(const Pair<3>& pair, const Point& offset);
 
 // A pair of the plane as prisms along z: planes of A, of B, then two lids |z| <= H = 4 (radius of A + radius of B). The
-// program's value, and x and y of every point asked for, are those of the plane; sections are 2 H times as large.
+// program's value, and x and y of every point, are those of the plane; sections are 2 H times as large.
 Planes planes_of(const Pair<2>& pair);
 double lid_height(const Pair<2>& pair);
 
@@ -62,14 +62,14 @@ Program section_feasibility(const Planes& planes, const Plane& joint);
 // max direction·x over a closed, not empty solid
 Rational support(const Planes& planes, const Point& direction);
 
-// The same where a guessed corner, three of the planes, proves it; nothing where it does not. Far cheaper.
+// The same if a guessed corner, three of the planes, proves it; nothing if it does not. Far cheaper.
 std::optional<Rational> proven_support(const Planes& planes, const std::array<int, 3>& corner, const Point& direction);
 
-// min over the planes of d - a·x: how deep the point lies inside
+// min over the planes of d - a·x: the depth of the point inside
 Rational least_slack(const Planes& planes, const Point& point);
 
-// Bounds of the program's minimum proven by a basis that someone guessed: 4 of the planes, multipliers and point by
-// Cramer's rule, then every plane checked. Cheap for thousands of planes, where cddlib is not. `proven` is false when
+// Bounds of the program's minimum proven by a guessed basis: 4 of the planes, multipliers and point by
+// Cramer's rule, then every plane checked. Cheap for thousands of planes, unlike cddlib. `proven` is false when
 // the basis proves no lower bound (singular or a negative multiplier).
 struct ProgramBounds {
   bool proven = false;
@@ -85,14 +85,13 @@ std::vector<Point> vertices(const Planes& planes);
 // The section by the plane through the point normal to n; 0 when it is empty. The solid must be closed.
 struct Section {
   Quad area = 0;
-  Quad sensitivity = 0;  // m: what the area gains when every plane moves out by 1 m, to first order
+  Quad sensitivity = 0;  // m: growth of the area when every plane moves out by 1 m, to first order
 };
 Section section(const Planes& planes, const Point& point, const Point& normal);
 Quad section_area(const Planes& planes, const Vector<3>& point, const Vector<3>& normal);
 
-// What one face of A and one of B do to each other on the plane that halves their angle (contact/face_integral.hpp says
-// on which, and what the overlap u is there); planes of A stand first, normals as they are, unit or not. The solid must
-// be closed.
+// The contact of one face of A and one of B on the plane that halves their angle (contact/face_integral.hpp defines it,
+// and the overlap u on it); planes of A are first, normals as they are, unit or not. The solid must be closed.
 struct IntegratedContact {
   Quad area = 0;                    // 0: they do not press on each other
   Quad volume = 0;                  // ∫ u

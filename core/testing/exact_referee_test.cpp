@@ -1,4 +1,4 @@
-// The referee itself against closed forms, against Euler and against its own second way to the same answer.
+// The referee itself against closed forms, against Euler and against its own second method for the same result.
 #include "core/testing/exact_referee.hpp"
 #include "core/testing/exact_contacts.hpp"
 
@@ -14,7 +14,7 @@ using shapes::Random;
 // closed forms of doubles whose own rounding is 1e-16
 constexpr double closed_form = 1e-14;
 
-TEST(ExactReferee, DecidesWhatRoundingCannot) {
+TEST(ExactReferee, DecidesCasesThatRoundingCannot) {
   // two unit cubes a gap apart that no double of order one shows
   Planes planes = planes_of(shapes::cube<3>(0.5));
   const Rational gap = Rational(1) / Rational("1000000000000000000000000000000");
@@ -35,11 +35,11 @@ TEST(ExactReferee, FindsOpenSolidsAndSections) {
   cube.pop_back();
   EXPECT_EQ(solid(planes_of(shapes::cube<3>(0.5))).facets, 6);
   EXPECT_THROW(solid(planes_of(cube)), std::logic_error);
-  EXPECT_TRUE(feasibility(planes_of(cube)).bounded);  // its inscribed ball is held by the four sides
+  EXPECT_TRUE(feasibility(planes_of(cube)).bounded);  // its inscribed ball touches the four sides
   EXPECT_FALSE(feasibility({{{0, 0, 1}, 1}}).bounded);
 }
 
-TEST(ExactReferee, KnowsTheRegularSolids) {
+TEST(ExactReferee, HasTheValuesOfTheRegularSolids) {
   for (const shapes::Platonic& p : shapes::platonic_solids(1)) {
     const Solid s = solid(planes_of(p.planes));
     EXPECT_NEAR(to_double(s.volume) / p.volume, 1, closed_form) << p.name;
@@ -70,7 +70,7 @@ TEST(ExactReferee, ClipsAndEnumeratesTheSameCorners) {
   }
 }
 
-TEST(ExactReferee, CountsCornersWhereManyPlanesMeet) {
+TEST(ExactReferee, CountsCornersOfManyPlanes) {
   // octahedron: four planes through every corner; a plane that only touches a corner adds nothing
   HalfSpaces<3> planes;
   for (int signs = 0; signs < 8; ++signs)
@@ -93,8 +93,8 @@ TEST(ExactReferee, MeasuresSections) {
   EXPECT_EQ(to_double(section_area(cube, {0, 0, 3}, Vector<3>(0, 0, 1))), 0);
 }
 
-TEST(ExactReferee, KnowsWhatASectionGains) {
-  // a square of edge 1 gains 4 of its edges when its planes move out; along a diagonal plane two of them lean
+TEST(ExactReferee, FindsTheGrowthOfASection) {
+  // a square of edge 1 gains 4 of its edges when its planes move out; along a diagonal plane two of them are inclined
   const Planes cube = planes_of(shapes::cube<3>(0.5));
   const Section square = section(cube, {0, 0, Rational(1, 4)}, {0, 0, 2});
   EXPECT_NEAR(to_double(square.area), 1, closed_form);
@@ -105,7 +105,7 @@ TEST(ExactReferee, KnowsWhatASectionGains) {
   EXPECT_NEAR(to_double(leaning.sensitivity), 4 * std::sqrt(2.0), closed_form);
 }
 
-TEST(ExactReferee, FindsHowFarASolidReaches) {
+TEST(ExactReferee, FindsTheSupportOfASolid) {
   Random random(303);
   const Planes cube = planes_of(shapes::cube<3>(0.5));
   EXPECT_EQ(support(cube, {1, 2, -3}), Rational(3));
@@ -153,9 +153,9 @@ TEST(ExactReferee, ConvergesToTheCentreOfAThinOverlap) {
   EXPECT_NEAR(to_double(contact->normal[2]), 1, closed_form);
   EXPECT_NEAR(to_double(contact->section.area), 0.375, closed_form);
   EXPECT_GT(to_double(contact->distance), 0.1);
-  // outside there is nothing to converge from
+  // outside there is no start for convergence
   EXPECT_FALSE(converged_contact(planes_of(pair), 6, 6, {0, 0, 0}, 0.01));
-  // and from the centre itself it has nowhere to go
+  // and from the centre itself it does not move
   Point centre;
   for (int k = 0; k < 3; ++k)
     centre[k] = start[k] + Rational(to_double(contact->from_start[k]));

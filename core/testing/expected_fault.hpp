@@ -13,7 +13,7 @@ void expect_fault(const Read& read, int line, int column, const std::string& par
   SCOPED_TRACE(part);
   try {
     read();
-    ADD_FAILURE() << "read without a complaint";
+    ADD_FAILURE() << "read without an error";
   } catch (const FileFault& fault) {
     EXPECT_EQ(fault.line, line) << fault.what();
     EXPECT_EQ(fault.column, column) << fault.what();

@@ -1,5 +1,5 @@
 // The scenes of free fall, by a seed: regular polyhedra in random orientations on a jittered grid, in a box with walls.
-// The case, its committed scene and the benchmark of whole steps are made here.
+// The case, its committed scene and the benchmark of full steps are made here.
 #pragma once
 
 #include <fmt/format.h>
@@ -59,9 +59,9 @@ inline std::string box_line(const std::string& name, const Corner& low, const Co
                      low[0], low[1], low[2], high[0], high[1], high[2]);
 }
 
-// What the scene is overridden by for contacts whose force has a potential, and a step that keeps their energy balance.
-// Corners are four times as soft then, so the stiffness is four times as large, and blocks go in deeper than potential
-// particles would allow, of which there are none.
+// The overrides of the scene for contacts whose force has a potential, and a time step that keeps their energy balance.
+// Corners are four times as soft then, so the stiffness is four times as large, and blocks overlap more than potential
+// particles, which are then not used, would permit.
 inline constexpr double smoothing = 1e-3;
 inline const std::vector<std::string> conservative_contacts{"contact.normal=multipliers",
                                                             "contact.point=central_path",
@@ -112,8 +112,8 @@ inline std::string fall_blocks(const FallPlan& plan) {
   return text + "]\n";
 }
 
-// The whole scene: two stages, `fall` without damping but that of the contacts, `rest` with local damping. NOTES.md of
-// the case gives the reasons for the numbers.
+// The complete scene: two stages, `fall` without damping but that of the contacts, `rest` with local damping. NOTES.md
+// of the case gives the reasons for the numbers.
 inline std::string fall_scene(const FallPlan& plan, const std::string& title) {
   return fmt::format(R"(# Made by core/testing/fall_scene.hpp, which a test compares with this file.
 title = "{}"
@@ -152,7 +152,8 @@ duration_s = 1.4
 name = "rest"
 kind = "settle"
 time_limit_s = 60
-damping = {{ statics = "local", local = 0.1 }}
+statics = "local"
+damping = {{ local = 0.1 }}
 
 [output]
 frame_interval_s = 0.2

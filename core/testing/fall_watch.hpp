@@ -1,4 +1,4 @@
-// What is measured of a free fall (fall_scene.hpp), by the case and by the benchmark of twenty thousand blocks.
+// The measurements of a free fall (fall_scene.hpp), by the case and by the benchmark of twenty thousand blocks.
 #pragma once
 
 #include <algorithm>
@@ -22,12 +22,12 @@ inline double kinetic_energy(const Model<3>& model, const State<3>& state) {
   return sum;
 }
 
-// as a fraction of the energy that the fall has set free
+// as a fraction of the energy released by the fall
 inline double kinetic_fraction(const Model<3>& model, const State<3>& state) {
   return kinetic_energy(model, state) / -state.ledger.energy.potential();
 }
 
-// how far the farthest corner of any block has gone into the plate or beyond a wall's face, m
+// the largest penetration of any block's corner into the plate or beyond a wall's face, m
 inline double deepest_corner(const Model<3>& model, const State<3>& state, double width) {
   double deepest = 0;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
@@ -52,7 +52,7 @@ inline double largest_potential_radius(const Model<3>& model, double fraction) {
   return fraction * bluntest;
 }
 
-// what the ledger could not account for, as fractions of the energy that the fall has set free
+// energy unaccounted for in the balances, as fractions of the energy released by the fall
 struct EnergyErrors {
   double motion, contacts;
 };
@@ -61,10 +61,10 @@ inline EnergyErrors energy_errors(const State<3>& state) {
   return {std::abs(state.ledger.energy.motion_error) / work, std::abs(state.ledger.energy.contact_error) / work};
 }
 
-// what a fall promises
-inline constexpr double at_rest = 1e-6;  // kinetic energy at rest, as a fraction of that of the drop
+// requirements of a fall
+inline constexpr double at_rest = 1e-6;  // kinetic energy in equilibrium, as a fraction of that of the drop
 inline constexpr double energy_balanced =
-    1e-3;  // the contacts' energy balance, and the motion's, which know rounding alone
+    1e-3;  // the contacts' energy balance, and that of the motion, which have only rounding
 inline constexpr double motion_closed = 1e-10;
 
 struct FallFindings {
@@ -75,8 +75,8 @@ struct FallFindings {
   double time = 0, seconds = 0;  // simulated; wall clock
 };
 
-// Falls until next to nothing moves, whatever single blocks still do, or until the scene ends. `frame` sees the begin,
-// what the scene's output asks for, and the end.
+// Falls until almost all motion has ended, disregarding single blocks, or until the scene ends. `frame` is called at
+// the begin, at the times of the scene's output, and at the end.
 inline FallFindings fall_until_rest(const Prepared<3>& scene, double width,
                                     const std::function<void(const State<3>&)>& frame = {},
                                     const std::function<void(const ProgressReport&)>& report = {}) {

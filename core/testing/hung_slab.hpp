@@ -1,4 +1,4 @@
-// A fixed roof, and under it a block of 4 m by 1 m that nothing but bolts holds, for tests.
+// A fixed roof, and under it a block of 4 m by 1 m that only bolts support, for tests.
 #pragma once
 
 #include <string>

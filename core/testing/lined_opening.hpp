@@ -50,9 +50,10 @@ inline const std::string held =
 inline std::string stage(const std::string& name, const std::string& more) {
   return "[[stage]]\nname = \"" + name + "\"\nkind = \"settle\"\n" + more + "\n";
 }
-inline const std::string dig = stage("weight", "gravity_ramp_s = 1") +
-                               stage("dig", "excavate = [\"tunnel\"]\nlet_off = { share = 0.5, duration_s = 1 }") +
-                               stage("line", "install = [\"shell\"]\nlet_off = { share = 0, duration_s = 1 }");
+inline const std::string dig =
+    stage("weight", "gravity_ramp_s = 1") +
+    stage("dig", "excavate = [\"tunnel\"]\nexcavation_forces = { remaining = 0.5, duration_s = 1 }") +
+    stage("line", "install = [\"shell\"]\nexcavation_forces = { remaining = 0, duration_s = 1 }");
 
 // The state in which the lining of `rock` has just been cast.
 struct Cast {

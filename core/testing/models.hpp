@@ -19,7 +19,7 @@ Model<Dim> model_of(std::vector<Body<Dim>> bodies, double friction = 35 * degree
   model.bodies = std::move(bodies);
   number_bodies(model);
   model.properties = {{"joint", 1e9, 5e8, friction, false}};
-  model.joints = {{"all", {Vector<Dim>::Unit(Dim - 1), 0}, 0}};  // what the cuts below remember
+  model.joints = {{"all", {Vector<Dim>::Unit(Dim - 1), 0}, 0}};  // the joint of the cuts below
   model.gravity[Dim - 1] = -gravity;
   return model;
 }

@@ -1,4 +1,4 @@
-// Slow and plain answers in long double. They share no code with the kernels they judge.
+// Slow and plain results in long double. They share no code with the kernels that they check.
 #pragma once
 
 #include <Eigen/Dense>
@@ -81,7 +81,7 @@ inline Real volume(const std::vector<std::vector<Real>>& a, const std::vector<Re
       std::vector<Real> row;
       for (std::size_t k = 0; k < dim; ++k)
         if (k != pivot) row.push_back(a[j][k] - factor * a[i][k]);
-      // parallel planes leave rounding where zeros belong
+      // parallel planes leave rounding in place of zeros
       for (Real& r : row)
         if (std::abs(r) < 1e-17L) r = 0;
       face.push_back(row);

@@ -22,11 +22,11 @@ constexpr double pi = std::numbers::pi;
 
 // ---- blocks ---------------------------------------------------------------------------------------------------------
 
-// 6, 12, 20 or 50 faces before the redundant ones go
+// 6, 12, 20 or 50 faces before redundant ones are dropped
 template <int Dim>
 Polytope<Dim> random_block(Random& random) {
   static constexpr std::array counts{6, 12, 20, 50};
-  const int pick = integer(random, 0, 9);  // large ones cost most and teach little more: every tenth
+  const int pick = integer(random, 0, 9);  // large ones cost most and test little more: every tenth
   const int count = Dim == 2 ? counts[pick % 3] : counts[pick == 9 ? 3 : pick % 3];
   return shapes::centred_block<Dim>(shapes::random_planes<Dim>(random, count - 2 * Dim, 1));
 }
@@ -103,13 +103,13 @@ Polytope<Dim> resized(const Polytope<Dim>& part, double factor) {
 
 // ---- features -------------------------------------------------------------------------------------------------------
 
-// a point of a block and a direction in which no other point of it lies farther
+// a point of a block and a direction in which no other point of it is farther
 template <int Dim>
 struct Feature {
   Vector<Dim> point, direction;
 };
 
-// the corners that span it, and any positive mean of the normals of the faces that hold them all
+// the corners that span it, and any positive mean of the normals of the faces that contain them all
 template <int Dim>
 Feature<Dim> feature_at(const Polytope<Dim>& part, const std::vector<int>& corners, Random& random) {
   Feature<Dim> f{Vector<Dim>::Zero(), Vector<Dim>::Zero()};
@@ -144,7 +144,7 @@ Feature<Dim> random_feature(const Polytope<Dim>& part, Random& random) {
 Matrix<3> against(const Vector<3>& from, const Vector<3>& to, Random& random) {
   const Matrix<3> spin =
       Eigen::AngleAxisd(integer(random, 0, 2) ? uniform(random, -pi, pi) : 0.0, to).toRotationMatrix();
-  // where the two are nearly opposite its length is off by far more than rounding
+  // if the two are nearly opposite the error of its length is far more than rounding
   return spin * Eigen::Quaterniond::FromTwoVectors(from, -to).normalized().toRotationMatrix();
 }
 Matrix<2> against(const Vector<2>& from, const Vector<2>& to, Random&) {
@@ -181,7 +181,7 @@ void meet(Case<Dim>& c, Random& random) {
   c.offset = on_a.point - c.rotation * on_b.point + random_gap(random, size) * on_a.direction;
 }
 
-// L4: the bodies stand 0 .. 1e6 m from the origin in any orientation; poses as a step makes them, references subtracted
+// L4: the bodies are 0 .. 1e6 m from the origin in any orientation; poses as a step makes them, references subtracted
 // first
 template <int Dim>
 void send_away(Case<Dim>& c, Random& random) {
@@ -234,7 +234,7 @@ void contain(Case<Dim>& c, Random& random) {
                                    : Vector<Dim>(uniform(random, 0, 0.3) * shapes::direction<Dim>(random));
 }
 
-// L10: a block on its mirror image, face on face: whole edges of optimal bases
+// L10: a block on its mirror image, face on face: full edges of optimal bases
 template <int Dim>
 void stack(Case<Dim>& c, Random& random) {
   c.a = integer(random, 0, 1) ? shapes::centred_block<Dim>(shapes::cube<Dim>(0.5))
@@ -250,7 +250,7 @@ void stack(Case<Dim>& c, Random& random) {
   if (integer(random, 0, 1)) c.offset += uniform(random, 0, 0.4) * perpendicular(f.normal);
 }
 
-// the kinds of family, each as often as it stands here
+// the kinds of family, each as often as it is listed here
 enum class Family { random, regular, joint_cut, folded, far, sliver, exact_touch, contained, stacked };
 constexpr std::array frequencies{Family::random,      Family::random,    Family::random,  Family::regular,
                                  Family::regular,     Family::regular,   Family::folded,  Family::folded,

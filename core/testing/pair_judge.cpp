@@ -56,7 +56,7 @@ struct Scene {
     value = optimum();
   }
 
-  // The core's own program guesses the basis; exact arithmetic proves it, or cddlib starts from nothing.
+  // The core's own program guesses the basis; exact arithmetic proves it, or cddlib starts without one.
   Rational optimum() {
     HalfSpaces<Dim> assembled;
     assemble<Dim>(pair, Vector<Dim>::Zero(), assembled);
@@ -70,7 +70,7 @@ struct Scene {
     return bounds.proven && bounds.low == bounds.high ? bounds.low : exact::feasibility(planes).value;
   }
 
-  // how far a part reaches; its rounded corners guess the faces that meet there
+  // the support of a part; its rounded corners guess the faces that meet there
   Rational support(bool first, const Vector<Dim>& direction) const {
     const Polytope<Dim>& own = first ? *pair.a : *pair.b;
     const Vector<Dim> seen = first ? direction : Vector<Dim>(pair.rotation.transpose() * direction);
@@ -122,8 +122,8 @@ class Judge {
         record("undecided band", std::abs(value), promised * scene_.size);
         return;
       case ContactStatus::no_normal:
-        if (level == QueryLevel::decision) return broken("no normal where none was asked for", value);
-        // one block about the middle of the other has no direction that is better than the others: named, not hidden
+        if (level == QueryLevel::decision) return broken("no normal although none was required", value);
+        // a block around the middle of the other has no direction that is better than others: reported, not hidden
         count("no normal");
         if (!(-value > 0.1 * std::min(scene_.pair.a->inscribed_radius, scene_.pair.b->inscribed_radius)))
           broken("no normal, though not deep", value);
@@ -134,7 +134,7 @@ class Judge {
   }
 
   void program() {
-    if (!scene_.answered) return broken("the program has no answer", 0);
+    if (!scene_.answered) return broken("the program has no result", 0);
     record("program's value", std::abs(Rational(Rational(scene_.answer) - scene_.value).get_d()),
            promised * scene_.size);
   }
@@ -160,7 +160,7 @@ class Judge {
     record("area", std::abs(to_double(g.area - section.area)), allowed);
   }
 
-  // half the overlap times the root of the stiffness_factor is minus the value of the barrier, which lies above the
+  // half the overlap times the root of the stiffness_factor is minus the value of the barrier, which is above the
   // program's
   void pressed(const ContactGeometry<Dim>& g) {
     count(g.overlap > 0 ? "pressed" : "not yet pressed");
@@ -174,7 +174,7 @@ class Judge {
   void same_decision(const Contact<Dim>& decision, const Contact<Dim>& whole) {
     const bool same = decision.status == whole.status ||
                       (decision.status == ContactStatus::touching && whole.status == ContactStatus::no_normal);
-    if (!same) broken("another decision when asked for no more", static_cast<double>(decision.status));
+    if (!same) broken("another decision at the level of decisions", static_cast<double>(decision.status));
   }
 
  private:
@@ -218,7 +218,7 @@ class Judge {
     record(name, to_double(*distance[first + number] - end), promised * scene_.size);
   }
 
-  // in the plane: what the section gains at its two ends when every plane moves out by 1
+  // in the plane: the growth of the section at its two ends when every plane moves out by 1
   Quad lengthening(const Point& x, const Point& n) const {
     const Quad along_x = to_quad(-n[1]), along_y = to_quad(n[0]);
     Quad ends[2] = {1e300, 1e300}, gains[2] = {0, 0};
@@ -296,7 +296,7 @@ std::optional<Polytope<Dim>> without(const Polytope<Dim>& part, std::size_t face
   return std::move(made.part);
 }
 
-// faces go as long as the promise stays broken
+// faces are removed as long as the promise stays broken
 template <int Dim>
 Case<Dim> shrunk(Case<Dim> c, const std::string& promise) {
   for (Polytope<Dim> Case<Dim>::*part : {&Case<Dim>::a, &Case<Dim>::b})
@@ -325,7 +325,7 @@ struct Broken {
   }
 };
 
-// one line each, fields separated by tabs: what a worker writes and its parent reads
+// one line each, fields separated by tabs: written by a worker and read by its parent
 void read_back(const std::string& text, Tally& tally, std::map<std::string, Broken>& broken) {
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {

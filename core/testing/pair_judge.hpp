@@ -1,10 +1,10 @@
-// The kernel's whole answer to a pair, judged by exact arithmetic on the doubles that it was given.
+// The kernel's full result for a pair, checked by exact arithmetic on its input doubles.
 //
 // Promised, with the pair's size = radius of A + radius of B (Polytope::radius, about the bodies' centroids) and
 // 1 ulp = 2^-52:
-//  - touching only where s* < 0, separated only where s* > 0, undecided only within 64 ulp of the size, nothing else;
-//  - a proof holds as it stands: an interior point lies `margin` inside every plane; nothing of A lies beyond `support`
-//    along a unit axis and nothing of B before support + margin; by multipliers s* >= margin; and margin > 0;
+//  - touching only if s* < 0, separated only if s* > 0, undecided only within 64 ulp of the size, nothing else;
+//  - a proof is valid as stored: an interior point is `margin` inside every plane; no point of A is beyond `support`
+//    along a unit axis and none of B before support + margin; by multipliers s* >= margin; and margin > 0;
 //  - the program's value, cold and to its end, within 64 ulp of the size;
 //  - at the kernel's own point and normal: overlap within 64 ulp of the size, the faces those that end it (or nearer to
 //    that than 64 ulp), area within 1e-12 relative plus the first-order effect of 64 ulp on each plane's offset;
@@ -26,7 +26,7 @@ struct Finding {
   std::string promise, figures;
 };
 
-// what was asked and the largest errors, in units of what is promised
+// the queries and the largest errors, in units of the promised ones
 struct Tally {
   std::map<std::string, long long> counts;
   std::map<std::string, double> worst;
@@ -38,8 +38,8 @@ struct Tally {
 template <int Dim>
 std::vector<Finding> judge(const Case<Dim>& c, Tally& tally);
 
-// Judges cases `first` .. `last` - 1 of the seed in processes of their own. For every broken promise the text names how
-// often it was, the smallest case by seed and number, and that case without the faces that do not matter.
+// Checks cases `first` .. `last` - 1 of the seed in processes of their own. For every broken promise the text reports
+// how often it was broken, the smallest case by seed and number, and that case without irrelevant faces.
 template <int Dim>
 std::string judge_all(std::uint64_t seed, long long first, long long last, int processes, Tally& tally);
 

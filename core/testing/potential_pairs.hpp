@@ -1,4 +1,4 @@
-// Seeded pairs of potential particles that touch, or nearly, at a depth that is known before anyone solves them.
+// Seeded pairs of potential particles that touch, or nearly, at a depth that is known without a solution.
 #pragma once
 
 #include "core/potential/contact.hpp"
@@ -18,7 +18,7 @@ struct PotentialCase {
 };
 
 // Size 1: a random polyhedron whose half extents are 1 and down to 1/aspect; r 1e-4 to 0.5; k from `least_k` to 1, one
-// in eight a sphere; R what encloses, up to a fifth more.
+// in eight a sphere; R the enclosing radius, up to a fifth more.
 template <int Dim>
 PotentialShape<Dim> random_potential(Random& random, double least_k) {
   PotentialShape<Dim> shape;
@@ -38,8 +38,8 @@ PotentialShape<Dim> random_potential(Random& random, double least_k) {
   return shape;
 }
 
-// The second particle is turned at random and put where its farthest point against a random direction lies `depth`
-// short of the first one's farthest point along it.
+// The second particle is turned at random and put where its farthest point against a random direction is `depth` short
+// of the first one's farthest point along it.
 template <int Dim>
 PotentialCase<Dim> random_potential_case(Random& random, double least_k) {
   PotentialCase<Dim> c;

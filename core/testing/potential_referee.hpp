@@ -1,6 +1,6 @@
 // The contact of two potential particles in 113 bits, with a proof of its own: it places the particles, evaluates them
-// and bounds the answer without the solvers' code. A proof does not depend on how its numbers were found, so it may
-// begin at the answer that it judges.
+// and bounds the result without the solvers' code. A proof does not depend on the origin of its numbers, so it may
+// begin at the result that it checks.
 #pragma once
 
 #include <algorithm>
@@ -75,10 +75,10 @@ struct QuadPotential {
 
 template <int Dim>
 struct Verdict {
-  bool proven = false;        // the gap is below what was asked
+  bool proven = false;        // the gap is below the required one
   Quad value = 0, bound = 0;  // v lies between bound and value
   QuadPoint<Dim> point{};
-  double point_error = 0;  // m: the least point lies no farther from `point`
+  double point_error = 0;  // m: the least point is no farther from `point`
 
   double distance_to(const Vector<Dim>& p) const {
     double sum = 0;
@@ -177,7 +177,7 @@ Verdict<Dim> judge(const PotentialPair<Dim>& pair, const Vector<Dim>& start, dou
   return verdict;
 }
 
-// Where Newton's method passes a plane on which double precision has put the point, the plane is held.
+// If Newton's method passes a plane on which double precision has put the point, the plane is held.
 template <int Dim>
 Verdict<Dim> judge(const PotentialPair<Dim>& pair, const Vector<Dim>& start, double ratio, double asked_gap) {
   constexpr double held = 1e-15;  // m; sizes are about 1

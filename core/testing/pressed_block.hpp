@@ -1,5 +1,5 @@
-// A block pressed into a plate and tilted, at rest and without weight, and what its joint answers; springs under it in
-// closed form.
+// A block pressed into a plate and tilted, without motion and weight, and the response of its joint; springs under it
+// in closed form.
 #pragma once
 
 #include <algorithm>
@@ -58,11 +58,11 @@ struct Block {
   }
 };
 
-// springs of stiffness k per area under a base tilted by `angle`: what they carry where they are pressed
+// springs of stiffness k per area under a base tilted by `angle`: their force where they are pressed
 struct Springs {
   double force = 0, moment = 0;
   Springs(double stiffness, double depth, double angle) {
-    // overlap depth + angle·x over -1/2 < x < 1/2; where it is negative nothing is carried
+    // overlap depth + angle·x over -1/2 < x < 1/2; where it is negative there is no force
     const double low = std::max(-0.5 * width, -depth / angle), high = 0.5 * width;
     const auto power = [&](int n) { return (std::pow(high, n + 1) - std::pow(low, n + 1)) / (n + 1); };
     force = stiffness * (depth * power(0) + angle * power(1));

@@ -189,14 +189,14 @@ Polytope<Dim> block(const HalfSpaces<Dim>& planes) {
   return std::move(result.part);
 }
 
-// the same with its centroid at the origin, as a body holds it
+// the same with its centroid at the origin, as in a body
 template <int Dim>
 Polytope<Dim> centred_block(const HalfSpaces<Dim>& planes) {
   const Polytope<Dim> part = block<Dim>(planes);
   return moved_origin<Dim>(part, part.mass.centroid);
 }
 
-// all that a contact asks of a block, at another size; a power of two changes no digit
+// the data of a block for contacts, at another size; a power of two changes no digit
 template <int Dim>
 Polytope<Dim> scaled_block(Polytope<Dim> part, double factor) {
   part.faces = scaled<Dim>(part.faces, factor);
@@ -209,7 +209,7 @@ Polytope<Dim> scaled_block(Polytope<Dim> part, double factor) {
   return part;
 }
 
-// the faces that hold all these corners
+// the faces that contain all these corners
 template <int Dim>
 std::vector<int> faces_at(const Polytope<Dim>& part, const std::vector<int>& corners) {
   std::vector<int> faces;

@@ -1,4 +1,4 @@
-// A step that keeps its neighbours asks for no memory, even while blocks move, meet and part.
+// A step that keeps its neighbours allocates no memory, even while blocks move, meet and part.
 #include <gtest/gtest.h>
 
 #include "core/scene/scene.hpp"
@@ -12,7 +12,7 @@
 namespace voussoir {
 namespace {
 
-// 200 steps, the neighbours staying as they are
+// 200 steps with constant neighbours
 template <int Dim>
 void expect_no_memory_asked(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
   const long long builds = state.counters.neighbour_builds, made = allocations;
@@ -25,7 +25,7 @@ void expect_no_memory_asked(const Model<Dim>& model, const Settings& settings, S
 }
 
 // blocks of a jointed box, at speeds that open and close its joints
-TEST(Step, AMovingPileAsksForNoMemory) {
+TEST(Step, AMovingPileAllocatesNoMemory) {
   const Model<3> model = shapes::model_of<3>(shapes::jointed_box());
   Settings settings;
   settings.contact.skin = 3;  // of the smallest inscribed radius: neighbours stay for as long as this test lasts
@@ -38,24 +38,24 @@ TEST(Step, AMovingPileAsksForNoMemory) {
   const std::vector<double> frequency = state.time_step.frequency;
   expect_no_memory_asked(model, settings, state);
 
-  // something must have happened: the time step was estimated again, as it is when a pair meets or a contact grows
+  // the contacts must have changed: the time step was estimated again, as it is when a pair meets or a contact grows
   EXPECT_NE(state.time_step.frequency, frequency);
 }
 
 // long enough for the inertia to be chosen again
-TEST(Step, ARelaxingPileAsksForNoMemory) {
+TEST(Step, ARelaxingPileAllocatesNoMemory) {
   const Model<3> model = shapes::model_of<3>(shapes::jointed_box());
   Settings settings;
   settings.contact.skin = 3;
   State<3> state = initial_state(model);
   begin_relaxation(state);
-  for (int i = 0; i < 200; ++i)  // the kernel's lists have found their size
+  for (int i = 0; i < 200; ++i)  // the kernel's lists have reached their size
     step(model, settings, state);
   expect_no_memory_asked(model, settings, state);
 }
 
 // bars whose bond slips under a slab that hangs from them
-TEST(Step, GroutedBoltsAskForNoMemory) {
+TEST(Step, GroutedBoltsAllocateNoMemory) {
   const Prepared<3> scene = prepare<3>(parse_scene(R"(
 dimension = 3
 gravity = [0, 0, -10]
@@ -89,7 +89,7 @@ install = ["roof"]
   EXPECT_NE(state.supports.grouted[0].state.slip.back(), slip) << "the bond slips";
 }
 
-TEST(Step, ALiningAsksForNoMemory) {
+TEST(Step, ALiningAllocatesNoMemory) {
   lined_opening::Cast cast;
   for (int i = 0; i < 300; ++i)
     step(cast.model, cast.scene.settings, cast.state);

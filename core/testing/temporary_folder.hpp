@@ -14,7 +14,7 @@ inline std::string read(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-// an empty folder that goes when the test ends
+// an empty folder that is removed when the test ends
 struct TemporaryFolder {
   std::filesystem::path path =
       std::filesystem::temp_directory_path() / ("voussoir_output_" + std::to_string(::getpid()));

@@ -17,7 +17,7 @@ Prepared<Dim> scene_of(const std::string& text, const std::vector<std::string>& 
   return prepare<Dim>(parse_scene(text, "scene.toml", overrides));
 }
 
-// to whatever outcome
+// to any outcome
 template <int Dim>
 Progress<Dim> simulated(const Prepared<Dim>& scene, const Watcher<Dim>& watcher = {}) {
   Progress<Dim> progress = initial_progress(scene);
@@ -32,7 +32,7 @@ Progress<Dim> whole_run(const Prepared<Dim>& scene) {
   return progress;
 }
 
-// interrupted after so many steps, then continued from its checkpoint as that is read back
+// interrupted after so many steps, then continued from its checkpoint as read back
 template <int Dim>
 Progress<Dim> continued(const Prepared<Dim>& scene, long long steps) {
   Watcher<Dim> watcher;

@@ -13,8 +13,8 @@
 
 namespace voussoir::workers {
 
-// What `work(worker, progress)` returns in each process, by worker. It notes in `progress` what it is at, so that a
-// process that dies can be reported where: std::runtime_error.
+// The results of `work(worker, progress)` in each process, by worker. It notes its position in `progress`, so that the
+// position of a process that dies is reported: std::runtime_error.
 inline std::vector<std::string> in_processes(int count,
                                              const std::function<std::string(int, volatile long long&)>& work) {
   const std::size_t bytes = sizeof(long long) * count;

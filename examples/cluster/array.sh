@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # A study as an array of Slurm tasks: sbatch --array=1-40 array.sh FOLDER 40 [ROWS]
 # FOLDER as 'voussoir study plan' made it, on a file system that all nodes share; ROWS as 'voussoir study status' prints
-# them. Each task does one of 40 shares of what is not done yet.
+# them. Each task does one of 40 shares of the missing rows.
 #SBATCH --job-name=voussoir
 #SBATCH --cpus-per-task=1
 #SBATCH --requeue

@@ -1,5 +1,5 @@
-// A rectangle of rock is cut by a joint that dips at 30 degrees; the lower block is held. On which friction angles does
-// the upper one stay? Sliced, settled and judged by the library alone, without a scene.
+// A rectangle of rock is cut by a joint that dips at 30 degrees; the lower block is fixed. For which friction angles is
+// the upper one stable? The library slices and settles the blocks without a scene.
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -16,7 +16,7 @@ namespace {
 constexpr double degree = std::numbers::pi / 180, dip = 30 * degree;
 
 Model<2> slope(double friction) {
-  // a block is nothing but half-spaces: normals out of the rock, distances in m
+  // a block is an intersection of half-spaces: normals out of the rock, distances in m
   const HalfSpaces<2> sides{{{1, 0}, 2}, {{-1, 0}, 2}, {{0, 1}, 1.5}, {{0, -1}, 1.5}};
   const BlockResult<2> whole = make_block<2>(sides, {no_joint, no_joint, no_joint, no_joint});
   if (whole.status != BlockStatus::ok) throw std::runtime_error("the sides close no block");
@@ -47,13 +47,13 @@ bool stays(double friction) {
               describe(report.reason).c_str(), report.steps,
               state.bodies.motions.at(model.bodies[0].fixed ? 1 : 0).displacement.norm());
   if (report.reason != StopReason::equilibrium && report.reason != StopReason::moved_away)
-    throw std::runtime_error("no answer");
+    throw std::runtime_error("no result");
   return report.reason == StopReason::equilibrium;
 }
 
 }  // namespace
 
 int main() {
-  // a block that does not tip slides once the joint dips steeper than its friction angle
+  // a block that does not tip slides if the joint dips more steeply than its friction angle
   return !stays(20 * degree) && !stays(29 * degree) && stays(31 * degree) && stays(40 * degree) ? 0 : 1;
 }

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// what hangs on a joint of the right half: weight from the crown to it, and its moment about the centre
+// load on a joint of the right half: weight from the crown to it, and its moment about the centre
 struct Above {
   double angle = 0, weight = 0, moment = 0;
 };
@@ -27,7 +27,7 @@ std::vector<Above> joints_of_half(const Arch& arch, double thickness) {
   if (arch.voussoirs % 2 == 0) {
     joints.push_back(above);
   } else {
-    // half a trapezoid: its centroid lies at half the mean of its widths, weighted with them
+    // half a trapezoid: its centroid is at half the mean of its widths, weighted with them
     above = {0.5 * sector, 0.5 * voussoir.weight, 0};
     const double half = 0.5 * sector, slope = std::tan(half), from = inside * std::cos(half),
                  to = outside * std::cos(half);

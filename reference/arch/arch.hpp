@@ -29,7 +29,7 @@ Voussoir voussoir_of(const Arch& arch, double thickness);
 
 // --- rigid voussoirs (Heyman 1966: no tension, no crushing, no sliding)
 
-// Where the thrust crosses the joints of the right half, from the crown down to the springing.
+// The points at which the thrust crosses the joints of the right half, from the crown down to the springing.
 struct ThrustLine {
   double thrust = 0;           // N, horizontal
   double half_weight = 0;      // N
@@ -38,9 +38,9 @@ struct ThrustLine {
   std::vector<double> radius;  // m, where it crosses them
 };
 
-// The thrust line that keeps farthest inside, in the sense of largest least moment. The half arch above a joint
-// stands under the crown's thrust H at height y0, its weight W at x and the joint's force at radius r:
-// H (y0 - r cos b) = W (r sin b - x). In H and H y0 the conditions inside <= r <= outside are linear.
+// The thrust line that keeps farthest inside, in the sense of largest least moment. The half arch above a joint is in
+// equilibrium under the crown's thrust H at height y0, its weight W at x and the joint's force at radius r: H (y0 - r
+// cos b) = W (r sin b - x). In H and H y0 the conditions inside <= r <= outside are linear.
 ThrustLine best_thrust_line(const Arch& arch, double thickness);
 
 // The least thickness (m) that contains a thrust line; for many voussoirs 0.1075 R (Milankovitch 1907, Z. Math.
@@ -50,15 +50,15 @@ double minimum_thickness(const Arch& arch);
 // --- voussoirs on elastic joints
 
 struct ArchJoints {
-  double normal_stiffness = 1e11;  // Pa/m, no tension; at most 1e10 of the weight, or rounding hides the drop
+  double normal_stiffness = 1e11;  // Pa/m, no tension; at most 1e10 of the weight, or rounding masks the drop
   double shear_stiffness = 1e11;   // Pa/m, no slip
 };
 
 struct ElasticJoint {
   double angle = 0;     // from the crown, positive to the right
-  double crossing = 0;  // m from the middle of the joint outwards: where the force acts
-  double turn = 0;      // rad between the two faces, positive where the outer ends are pressed more
-  double bearing = 0;   // m: length that is pressed
+  double crossing = 0;  // m from the middle of the joint outwards: point of action of the force
+  double turn = 0;      // rad between the two faces, positive if the outer ends are pressed more
+  double bearing = 0;   // m: length in contact
 };
 
 // an equilibrium, found by shooting from the springing to the keystone in the deformed geometry
@@ -69,27 +69,27 @@ struct ElasticArch {
   std::vector<ElasticJoint> joints;  // of the right half, from the springing up
 };
 
-// Equilibria by growing drop: from an arch so thick that all joints are pressed, down to the thinnest and back up,
-// where they are unstable, until the thickness has grown again by `beyond` of the least. Odd numbers of voussoirs,
-// which have a keystone; throws std::invalid_argument for others, std::runtime_error when the path is lost.
+// Equilibria by growing drop: from an arch so thick that all joints are fully pressed, down to the thinnest and back
+// up, with unstable equilibria, until the thickness has grown again by `beyond` of the least. Odd numbers of voussoirs
+// only, which have a keystone; throws std::invalid_argument for others, std::runtime_error when the path is lost.
 std::vector<ElasticArch> elastic_arch_path(const Arch& arch, const ArchJoints& joints, double beyond = 0.02);
 
 // The stable one of a given thickness. Throws std::runtime_error below the least thickness.
 ElasticArch elastic_arch(const Arch& arch, const ArchJoints& joints, double thickness);
 
-// the thinnest of them: the least thickness that stands
+// the thinnest of them: the least stable thickness
 ElasticArch thinnest_elastic_arch(const Arch& arch, const ArchJoints& joints);
 
-// an arch one of whose supports has come towards the other, shooting from springing to springing
+// an arch one of whose supports has moved towards the other, by shooting from springing to springing
 struct ClosedArch {
   double thrust = 0;                 // N, horizontal
   double weight = 0;                 // N
   std::vector<ElasticJoint> joints;  // from the right springing on
 };
 
-// The equilibrium to which those of supports that close step by step, by `closed` (m; negative: that part) in all,
-// lead. Others may stand beside it, swayed on the same hinges, of nearly its thrust. Throws std::runtime_error when it
-// finds none.
+// The equilibrium that is reached when the supports close step by step, by `closed` (m; negative: that part) in total.
+// Other equilibria may exist next to it, swayed on the same hinges, with nearly the same thrust. Throws
+// std::runtime_error if it finds none.
 ClosedArch closed_arch(const Arch& arch, const ArchJoints& joints, double thickness, double closed);
 
 }  // namespace voussoir::reference

@@ -57,14 +57,14 @@ TEST(RigidArch, HoldsItsThrustLineWhenThick) {
   EXPECT_NEAR(minimum_thickness({15, 50, 3}), 10 * least, 1e-10);
 }
 
-TEST(ElasticArch, IsTheRigidOneOnHardJoints) {
+TEST(ElasticArch, TendsToTheRigidArchOnStiffJoints) {
   const Arch arch{11, 5, 25e3};
   const double rigid = minimum_thickness(arch);
   double last = 0;
   for (const double stiffness : {1e12, 1e13, 1e14}) {
     const double added = thinnest_elastic_arch(arch, {stiffness, stiffness}).thickness / rigid - 1;
     EXPECT_GT(added, 0);
-    // a tenth of the stiffness adds 10^(1/3) as much, and the next power of it a share like what is added
+    // a tenth of the stiffness adds 10^(1/3) times as much; the next power is relatively as large as the addition
     if (last > 0) {
       EXPECT_NEAR(last / added, std::cbrt(10.0), 2 * last * std::cbrt(10.0));
     }
@@ -72,24 +72,24 @@ TEST(ElasticArch, IsTheRigidOneOnHardJoints) {
   }
 }
 
-TEST(ElasticArch, KnowsOnlyWeightOverStiffness) {
+TEST(ElasticArch, DependsOnWeightOverStiffnessOnly) {
   const ElasticArch one = thinnest_elastic_arch({15, 5, 25e3}, {1e11, 1e11}),
                     other = thinnest_elastic_arch({15, 0.7, 50e3}, {2e11, 2e11});
   EXPECT_NEAR(one.thickness / 5, other.thickness / 0.7, 1e-10);
   EXPECT_NEAR(one.drop / 5, other.drop / 0.7, 1e-6);  // the thickness hardly depends on it there
 }
 
-TEST(ElasticArch, HasTheThrustOfTheRigidOne) {
+TEST(ElasticArch, HasTheThrustOfTheRigidArch) {
   const Arch arch{15, 5, 25e3};
   const ElasticArch limit = thinnest_elastic_arch(arch, {1e14, 1e14});
   const ThrustLine line = best_thrust_line(arch, minimum_thickness(arch));
-  EXPECT_NEAR(limit.thrust / line.thrust, 1, 0.005);  // 0.44 % thicker, of which its hinges press as much
+  EXPECT_NEAR(limit.thrust / line.thrust, 1, 0.005);  // 0.44 % thicker, by the contact length of its hinges
   for (std::size_t k = 0; k < line.radius.size(); ++k)
     EXPECT_NEAR(limit.joints[k].crossing, line.radius[line.radius.size() - 1 - k] - arch.radius,
                 0.005 * limit.thickness);
 }
 
-TEST(ElasticArch, StandsOnTheStableSideOnly) {
+TEST(ElasticArch, HasItsStableEquilibriumAboveTheLeastThicknessOnly) {
   const Arch arch{15, 5, 25e3};
   const ArchJoints joints{1e11, 1e11};
   const ElasticArch limit = thinnest_elastic_arch(arch, joints);
@@ -100,7 +100,7 @@ TEST(ElasticArch, StandsOnTheStableSideOnly) {
   EXPECT_THROW(elastic_arch_path({10, 5, 25e3}, joints), std::invalid_argument);
 }
 
-TEST(ClosedArch, OnSupportsInPlaceIsTheHalfWithItsKeystone) {
+TEST(ClosedArch, IsTheHalfArchWhenItsSupportsHaveNotMoved) {
   const Arch arch{15, 5, 25e3};
   const ArchJoints joints{1e11, 1e11};
   const ElasticArch half = elastic_arch(arch, joints, 0.75);
@@ -112,12 +112,12 @@ TEST(ClosedArch, OnSupportsInPlaceIsTheHalfWithItsKeystone) {
 
 // Rigid voussoirs turn about ends of joints: moments about the outer end at the springing and the inner one at the
 // haunch give the thrust of the greatest thrust line.
-TEST(ClosedArch, ThrustsOnHardJointsAsItsHingesSay) {
+TEST(ClosedArch, HasTheThrustOfItsHingesOnStiffJoints) {
   const Arch arch{20, 5, 25e3};
   const double thickness = 0.75, inside = arch.radius - 0.5 * thickness, outside = inside + thickness;
   const Voussoir stone = voussoir_of(arch, thickness);
   const auto thrust = [&](int haunch) {  // counted in joints from the springing
-    double weight = 0, moment = 0;       // of what stands between, about the outer end
+    double weight = 0, moment = 0;       // of the part between, about the outer end
     for (int k = 0; k < haunch; ++k) {
       weight += stone.weight;
       moment += stone.weight * (outside - stone.centroid * std::cos((k + 0.5) * pi / arch.voussoirs));
@@ -130,8 +130,8 @@ TEST(ClosedArch, ThrustsOnHardJointsAsItsHingesSay) {
   double least = thrust(1);
   for (int haunch = 2; haunch <= arch.voussoirs / 2; ++haunch)
     least = std::min(least, thrust(haunch));
-  // A hinge of a turn that closing gives presses a length by the power -1/2 of the stiffness; the arch has also changed
-  // its shape, by the closing over the radius.
+  // A hinge with a rotation imposed by the closing has a contact length that falls with the power -1/2 of the
+  // stiffness; the arch has also changed its shape, by the closing over the radius.
   const double closed = 0.002;
   double last = 0;
   for (const double stiffness : {1e12, 1e13, 1e14}) {

@@ -16,7 +16,7 @@ struct OnClosedSupports {
     return marched ? std::optional(Shot{x, *marched}) : std::nullopt;
   }
 
-  // the left abutment has come to the right one by `closed`, without a turn
+  // the left abutment has moved towards the right one by `closed`, without rotation
   std::optional<Shot> find(double closed, const Eigen::VectorXd& from) const {
     return solve(
         arch, from, [&](const Eigen::VectorXd& x) { return shoot(x); },

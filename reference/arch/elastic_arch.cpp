@@ -24,7 +24,7 @@ struct Half {
     return marched ? std::optional(Shot{x, *marched}) : std::nullopt;
   }
 
-  // keystone's turn, its way sideways, and the third condition must vanish
+  // keystone's rotation, its sideways displacement, and the third condition must vanish
   template <class Condition>
   std::optional<Shot> find(const Eigen::VectorXd& from, const Condition& condition) const {
     return solve(
@@ -53,7 +53,7 @@ Half half_of(const Arch& arch, const ArchJoints& joints) {
   return {arch, joints};
 }
 
-// until `ends` says so of the last and of the least thickness so far
+// until `ends` is true of the last and of the least thickness so far
 template <class End>
 std::vector<Shot> path_of(const Half& half, const End& ends) {
   // a thick arch, from the thrust line of rigid voussoirs
@@ -90,7 +90,7 @@ ElasticArch elastic_arch(const Arch& arch, const ArchJoints& joints, double thic
       path_of(half, [&](double last, double least) { return last <= thickness || last > least; });
   const std::optional<Shot> found = half.with_thickness(thickness, path[path.size() - 2].from);
   if (half.thickness(path.back()) > thickness || !found)
-    throw std::runtime_error("elastic_arch: an arch so thin does not stand");
+    throw std::runtime_error("elastic_arch: so thin an arch has no equilibrium");
   return half.described(*found);
 }
 

@@ -9,13 +9,13 @@ Plane turned(const Plane& v, double angle) {
   return Eigen::Rotation2Dd(angle) * v;
 }
 
-// turned by the angle less what it was, with all digits for small angles
+// turned by the angle, minus its original position, with all digits for small angles
 Plane swing(const Plane& v, double angle) {
   const double sine = std::sin(angle), half = std::sin(0.5 * angle), versine = 2 * half * half;
   return {-versine * v.x() - sine * v.y(), sine * v.x() - versine * v.y()};
 }
 
-// A face pressed by `force` (N/m) at `crossing` from its middle: overlap `closing + slope s` where positive.
+// A face pressed by `force` (N/m) at `crossing` from its middle: overlap `closing + slope s` if positive.
 struct Bearing {
   double closing, slope, length;
 };
@@ -49,8 +49,8 @@ std::optional<March> march(const Arch& arch, const ArchJoints& joints, double th
     const Plane out(std::sin(angle), std::cos(angle)), middle = arch.radius * out;
     const Plane way = body.way_of(middle), at = middle + way;
 
-    // the joint's plane lies half way between its two faces, as far as they stand before each other
-    constexpr int rounds = 8;  // what the force there makes of it: each leaves a hundredth
+    // the joint's plane is half way between its two faces, over the length on which they face each other
+    constexpr int rounds = 8;  // each reduces the error of the position to a hundredth
     Bearing bearing{0, 0, thickness};
     double crossing = 0, slip = 0;
     Plane along, normal;

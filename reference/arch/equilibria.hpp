@@ -12,8 +12,8 @@
 
 // How equilibria of an arch on elastic joints are found; for elastic_arch and loaded_arch only. From the right
 // springing, where the force is guessed, statics in the deformed geometry gives the force of one joint after the other,
-// and the joint's law the place of the next voussoir; what must be met at the other end is found by Newton's method,
-// and one equilibrium after the other along a path on which something moves on.
+// and the joint's law the place of the next voussoir. Newton's method satisfies the conditions at the other end, and
+// equilibria follow one another along a path on which some displacement grows.
 namespace voussoir::reference {
 
 using Plane = Eigen::Vector2d;
@@ -22,7 +22,7 @@ inline double cross(const Plane& a, const Plane& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-// what the right abutment gives: a force (N/m) on the arch, m from the middle of the joint outwards
+// force of the right abutment (N/m) on the arch, m from the middle of the joint outwards
 struct FootForce {
   Plane force;
   double crossing = 0;
@@ -31,11 +31,11 @@ struct FootForce {
 // a vertical load (N/m, downwards) on a point of voussoir k from the left; none for k = -1
 struct PointLoad {
   int voussoir = -1;
-  Plane point{0, 0};  // m, before anything moves
+  Plane point{0, 0};  // m, before any motion
   double force = 0;
 };
 
-// the motion of a body: about the centre of the circle, and where it takes that
+// the motion of a body: about the centre of the circle, and where it takes the centre
 struct Moved {
   double turn = 0;
   Plane place{0, 0};
@@ -49,17 +49,17 @@ struct March {
   Moved loaded;                      // the voussoir with the load, when it was met
 };
 
-// over so many voussoirs, to the body beyond them; none where a joint would have to pull
+// over so many voussoirs, to the body beyond them; none if a joint would have to pull
 std::optional<March> march(const Arch& arch, const ArchJoints& joints, double thickness, const FootForce& foot,
                            int voussoirs, const PointLoad& load = {});
 
-// unknowns, as shares of weight and radius, and where they lead
+// unknowns, as shares of weight and radius, and the result of shooting with them
 struct Shot {
   Eigen::VectorXd from;
   March march;
 };
 
-// The unknowns at which `residual(shot)`, of as many entries, vanishes; `shoot(unknowns)` may have no answer.
+// The unknowns at which `residual(shot)`, of as many entries, vanishes; `shoot(unknowns)` may have no result.
 template <class Shoot, class Residual>
 std::optional<Shot> solve(const Arch& arch, Eigen::VectorXd x, const Shoot& shoot, const Residual& residual) {
   constexpr double small = 1e-7;  // of the unknowns, for differences
@@ -74,7 +74,7 @@ std::optional<Shot> solve(const Arch& arch, Eigen::VectorXd x, const Shoot& shoo
       shortest = std::min(shortest, joint.bearing);
     Eigen::MatrixXd slope(x.size(), x.size());
     for (int k = 0; k < x.size(); ++k) {
-      // a difference to the one side where the other is outside
+      // a one-sided difference if the other side is outside
       Eigen::VectorXd step = Eigen::VectorXd::Zero(x.size());
       step[k] = small * shortest / arch.radius;
       std::optional<Shot> other = shoot(x + step);
@@ -99,8 +99,8 @@ std::optional<Shot> solve(const Arch& arch, Eigen::VectorXd x, const Shoot& shoo
 }
 
 // Equilibria from the first on, `way(shot)` growing by 5 % or less each time, until `ends(shot)`; `at(way, unknowns)`
-// finds one from unknowns nearby: where a line through the last two leads. Others of the same way may exist: what lies
-// far beside that line is none of the path. Throws std::runtime_error when it finds none.
+// finds one from unknowns nearby, extrapolated from the last two. Other equilibria with the same displacement may
+// exist: one far from that extrapolation is not on the path. Throws std::runtime_error if it finds none.
 template <class Way, class At, class Ends>
 std::vector<Shot> follow(const Shot& first, const Way& way, const At& at, const Ends& ends) {
   constexpr double growth = 1.05, beside = 0.5;  // of the line's step

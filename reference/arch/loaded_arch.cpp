@@ -41,7 +41,7 @@ std::vector<Left> left_of_joints(const LoadedArch& loaded) {
   return left;
 }
 
-// the load that turns the arch about these hinges; infinite where they make no mechanism that the load drives
+// the load that turns the arch about these hinges; infinite if they make no mechanism that the load drives
 double load_on(const LoadedArch& loaded, const std::vector<Left>& left, const std::array<Hinge, 4>& hinges) {
   std::array<Plane, 4> at;
   for (int i = 0; i < 4; ++i)
@@ -51,7 +51,8 @@ double load_on(const LoadedArch& loaded, const std::vector<Left>& left, const st
   const std::array<double, 3> rate{cross(b, c), cross(c, a), cross(a, b)};
   constexpr double none = std::numeric_limits<double>::infinity();
 
-  // work of a unit load and of the weights, body by body; a body's first hinge rises by what those before did
+  // work of a unit load and of the weights, body by body; a body's first hinge rises by the motion of the bodies before
+  // it
   double of_load = 0, of_weights = 0, rises = 0;
   for (int i = 0; i < 3; ++i) {
     const Left &from = left[hinges[i].joint], &to = left[hinges[i + 1].joint];
@@ -70,7 +71,7 @@ double load_on(const LoadedArch& loaded, const std::vector<Left>& left, const st
   return -of_weights / of_load;
 }
 
-// the force that the left abutment gives, and where the line through three of the hinges crosses each joint
+// the force of the left abutment, and where the line through three of the hinges crosses each joint
 void add_thrust_line(const LoadedArch& loaded, const std::vector<Left>& left, RigidLoad& found) {
   Eigen::Matrix3d moments;  // of horizontal and vertical force at the centre and of a moment, about each hinge
   Eigen::Vector3d of_loads;
@@ -145,10 +146,10 @@ struct Path {
   double without = 0;  // m: its drop under the arch's own weight
 };
 
-// until `ends` says so of the last and of the greatest load so far
+// until `ends` is true of the last and of the greatest load so far
 template <class End>
 Path path_of(const Whole& whole, const End& ends) {
-  constexpr double begin = 0.02;  // of what rigid voussoirs carry
+  constexpr double begin = 0.02;  // of the capacity of rigid voussoirs
   const double rigid = greatest_rigid_load(whole.loaded).load, radius = whole.loaded.arch.radius;
   const ElasticArch alone = elastic_arch(whole.loaded.arch, whole.joints, whole.loaded.thickness);
   const Eigen::Vector4d guess(alone.thrust / whole.weight, 0.5, alone.joints.front().crossing / radius, 0);
@@ -181,7 +182,7 @@ LoadedPoint loaded_point(const LoadedArch& loaded) {
     const double share = (loaded.x - left.x) / (right.x - left.x);
     return {k, {loaded.x, left.y + share * (right.y - left.y)}};
   }
-  throw std::invalid_argument("loaded arch: the load lies outside");
+  throw std::invalid_argument("loaded arch: the load is outside the arch");
 }
 
 RigidLoad greatest_rigid_load(const LoadedArch& loaded) {
@@ -202,7 +203,7 @@ RigidLoad greatest_rigid_load(const LoadedArch& loaded) {
             found.hinges.assign(hinges.begin(), hinges.end());
           }
   if (!(found.load > 0) || found.hinges.empty())
-    throw std::invalid_argument("loaded arch: it does not stand without a load, or carries any");
+    throw std::invalid_argument("loaded arch: it has no equilibrium without a load, or supports any load");
   add_thrust_line(loaded, left, found);
   return found;
 }
@@ -221,7 +222,7 @@ ElasticLoad elastic_load(const LoadedArch& loaded, const ArchJoints& joints, dou
   const std::size_t before = path.shots.size() > 1 ? path.shots.size() - 2 : 0;
   const std::optional<Shot> found = whole.with_load(load, path.shots[before].from);
   if (whole.load(path.shots.back()) < load || !found)
-    throw std::runtime_error("loaded arch: it does not carry so much");
+    throw std::runtime_error("loaded arch: it does not support so large a load");
   return whole.described(*found);
 }
 

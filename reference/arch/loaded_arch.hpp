@@ -4,9 +4,9 @@
 
 #include "reference/arch/arch.hpp"
 
-// The semicircular arch under its own weight and a vertical point load on its outer face: how much it carries, on rigid
-// joints and on elastic ones. SI units, per metre of thickness out of the plane; angles from the crown, positive to the
-// right, radians.
+// The semicircular arch under its own weight and a vertical point load on its outer face: its capacity on rigid joints
+// and on elastic ones. SI units, per metre of thickness out of the plane; angles from the crown, positive to the right,
+// radians.
 namespace voussoir::reference {
 
 struct LoadedArch {
@@ -15,7 +15,7 @@ struct LoadedArch {
   double x = -2.5;          // m from the middle of the span: of the load. -R/2 is a quarter of the span
 };
 
-// the voussoir under the load, counted as in voussoir_corners, and the point of its outer face that bears it
+// the voussoir under the load, counted as in voussoir_corners, and the loaded point of its outer face
 struct LoadedPoint {
   int voussoir = 0;
   Corner point;  // m
@@ -29,18 +29,18 @@ struct Hinge {
   bool outside = false;  // at the outer end of the joint
 };
 
-// The greatest load that rigid voussoirs carry. The arch becomes a mechanism of three bodies on four hinges at ends of
-// joints, each of which opens; the load and the weights then do no work. Of all such mechanisms the one that needs the
-// least load comes down (kinematic theorem). That the thrust line through its hinges keeps inside everywhere proves
-// that so much is carried (static theorem).
+// The greatest load that rigid voussoirs support. The arch becomes a mechanism of three bodies on four hinges at ends
+// of joints, each of which opens; the load and the weights then do no work. Of all such mechanisms the one with the
+// least load governs (kinematic theorem). The thrust line through its hinges stays inside everywhere, which proves that
+// this load is supported (static theorem).
 struct RigidLoad {
   double load = 0;             // N
   double thrust = 0;           // N, horizontal
   std::vector<Hinge> hinges;   // four, from the left
   std::vector<double> radius;  // m: where the thrust line crosses the joints, from the left springing on
-  double margin = 0;  // m: its least distance from the ends of a joint: zero but for rounding, for it is a proof
+  double margin = 0;           // m: its least distance from the ends of a joint: zero but for rounding
 };
-// Throws std::invalid_argument for an arch that does not stand without the load.
+// Throws std::invalid_argument for an arch that has no equilibrium without the load.
 RigidLoad greatest_rigid_load(const LoadedArch& loaded);
 
 // --- voussoirs on elastic joints
@@ -53,7 +53,7 @@ struct ElasticLoad {
   std::vector<ElasticJoint> joints;  // from the left springing on
 };
 
-// Equilibria by growing drop of the loaded point: from a fiftieth of what rigid voussoirs carry up to the greatest
+// Equilibria by growing drop of the loaded point: from a fiftieth of the capacity of rigid voussoirs up to the greatest
 // load and beyond, where they are unstable, until the load has fallen again by `beyond` of it. Throws as elastic_arch
 // and greatest_rigid_load do.
 std::vector<ElasticLoad> elastic_load_path(const LoadedArch& loaded, const ArchJoints& joints, double beyond = 0.02);
@@ -61,7 +61,7 @@ std::vector<ElasticLoad> elastic_load_path(const LoadedArch& loaded, const ArchJ
 // The stable one under a given load. Throws std::runtime_error above the greatest.
 ElasticLoad elastic_load(const LoadedArch& loaded, const ArchJoints& joints, double load);
 
-// the greatest load that the arch carries on such joints
+// the greatest load that the arch supports on such joints
 ElasticLoad greatest_elastic_load(const LoadedArch& loaded, const ArchJoints& joints);
 
 }  // namespace voussoir::reference

@@ -13,10 +13,9 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// The linear program of the static theorem: force and moment (about the centre) that the left abutment gives, and the
-// load, as great as can be while every joint's force passes between its ends. Its answer lies at a corner, where four
-// of the conditions hold as equations; all of them are tried. Weights and centroids come from the corners of the
-// voussoirs.
+// The linear program of the static theorem: force and moment (about the centre) of the left abutment, and the load, as
+// large as possible while every joint's force passes between its ends. Its optimum is at a corner, where four of the
+// conditions hold as equations; all of them are tried. Weights and centroids come from the corners of the voussoirs.
 double greatest_load_of_thrust_lines(const LoadedArch& loaded) {
   const int n = loaded.arch.voussoirs;
   const double inside = loaded.arch.radius - 0.5 * loaded.thickness, outside = inside + loaded.thickness;
@@ -28,7 +27,7 @@ double greatest_load_of_thrust_lines(const LoadedArch& loaded) {
     const double angle = joint * pi / n - 0.5 * pi;
     for (const bool outer : {false, true}) {
       const double radius = outer ? outside : inside, x = radius * std::sin(angle), y = radius * std::cos(angle);
-      // moment of what acts on the left about that end: turns one way about the inner, the other about the outer
+      // moment of the forces on the left about that end: of one sense about the inner end, of the other about the outer
       const double sense = outer ? 1 : -1;
       const int row = 2 * joint + outer;
       of.row(row) << sense * y, -sense * x, sense, passed ? sense * (x - loaded.x) : 0;
@@ -64,15 +63,15 @@ double greatest_load_of_thrust_lines(const LoadedArch& loaded) {
 
 const LoadedArch quarter{{15, 5, 25e3}, 0.75, -2.5};
 
-TEST(RigidLoad, IsWhatTheBestThrustLineCarries) {
+TEST(RigidLoad, IsTheLoadOfTheBestThrustLine) {
   for (const LoadedArch& loaded :
        {LoadedArch{{9, 5, 25e3}, 0.9, -2.5}, {{9, 5, 25e3}, 0.9, 0.3}, {{12, 2, 1}, 0.3, 1.7}})
     EXPECT_NEAR(greatest_load_of_thrust_lines(loaded) / greatest_rigid_load(loaded).load, 1, 1e-9);
   EXPECT_NEAR(greatest_load_of_thrust_lines(quarter) / greatest_rigid_load(quarter).load, 1, 1e-9);
 }
 
-// both theorems at once: the thrust line through the hinges of the mechanism stays inside, and touches at the hinges
-TEST(RigidLoad, ProvesItself) {
+// both theorems: the thrust line through the hinges of the mechanism stays inside, and touches at the hinges
+TEST(RigidLoad, IsProvedByItsThrustLine) {
   for (const double x : {-4.5, -3.2, -2.5, -1.0, 0.0, 0.7, 3.9}) {
     const LoadedArch loaded{{15, 5, 25e3}, 0.75, x};
     const RigidLoad found = greatest_rigid_load(loaded);
@@ -83,7 +82,7 @@ TEST(RigidLoad, ProvesItself) {
   }
 }
 
-TEST(RigidLoad, HingesUnderTheLoadAndAtTheSpringingBeyond) {
+TEST(RigidLoad, HasHingesUnderTheLoadAndAtTheFarSpringing) {
   const RigidLoad found = greatest_rigid_load(quarter);
   const std::vector<std::pair<int, bool>> expected{{2, false}, {6, true}, {11, false}, {15, true}};
   for (std::size_t i = 0; i < expected.size(); ++i)
@@ -91,7 +90,7 @@ TEST(RigidLoad, HingesUnderTheLoadAndAtTheSpringingBeyond) {
   EXPECT_EQ(loaded_point(quarter).voussoir, 5);  // left of the hinge outside
 }
 
-TEST(RigidLoad, KnowsLeftFromRightByTheirSignOnly) {
+TEST(RigidLoad, IsTheMirrorImageForALoadOnTheOtherSide) {
   LoadedArch other = quarter;
   other.x = -quarter.x;
   EXPECT_NEAR(greatest_rigid_load(other).load / greatest_rigid_load(quarter).load, 1, 1e-12);
@@ -99,9 +98,9 @@ TEST(RigidLoad, KnowsLeftFromRightByTheirSignOnly) {
               greatest_rigid_load({{15, 5, 3}, 0.75, -2.5}).load * 100, 1e-9);
 }
 
-TEST(RigidLoad, IsNoneAtTheLeastThickness) {
+TEST(RigidLoad, VanishesAtTheLeastThickness) {
   const double least = minimum_thickness(quarter.arch);
-  // to the first order what is added to the thickness carries the load
+  // to the first order the added thickness supports the load
   const auto carried = [&](double added) {
     return greatest_rigid_load({quarter.arch, (1 + added) * least, quarter.x}).load;
   };
@@ -111,7 +110,7 @@ TEST(RigidLoad, IsNoneAtTheLeastThickness) {
 }
 
 // the whole arch, unloaded, against its half
-TEST(ElasticLoad, IsTheArchAloneWithoutALoad) {
+TEST(ElasticLoad, IsTheUnloadedArchWithoutALoad) {
   const ArchJoints joints{3e10, 2e10};
   const ElasticLoad whole = elastic_load(quarter, joints, 0);
   const ElasticArch half = elastic_arch(quarter.arch, joints, quarter.thickness);
@@ -124,24 +123,24 @@ TEST(ElasticLoad, IsTheArchAloneWithoutALoad) {
   }
 }
 
-TEST(ElasticLoad, LacksTheCubeRootOfItsStiffness) {
+TEST(ElasticLoad, ApproachesTheRigidLoadByTheCubeRootOfTheCompliance) {
   const double rigid = greatest_rigid_load(quarter).load;
   double last = 0;
   for (const double stiffness : {1e12, 1e13, 1e14}) {
     const ElasticLoad found = greatest_elastic_load(quarter, {stiffness, stiffness});
     const double lost = 1 - found.load / rigid;
     EXPECT_GT(lost, 0);
-    // the next power adds a share like what is lost
+    // the next power is relatively as large as the loss
     if (last > 0) {
       EXPECT_NEAR(last / lost, std::cbrt(10.0), last * std::cbrt(10.0));
-      // a line over k^-1/3 meets the rigid load where k is infinite, but for that share
+      // a line over k^-1/3 meets the rigid load where k is infinite, but for that part
       EXPECT_NEAR(lost - (last - lost) / (std::cbrt(10.0) - 1), 0, last * lost);
     }
     last = lost;
   }
 }
 
-TEST(ElasticLoad, HingesWhereTheRigidOneDoes) {
+TEST(ElasticLoad, HasTheHingesOfTheRigidArch) {
   const RigidLoad rigid = greatest_rigid_load(quarter);
   const ElasticLoad found = greatest_elastic_load(quarter, {1e14, 1e14});
   const double lost = 1 - found.load / rigid.load;
@@ -153,7 +152,7 @@ TEST(ElasticLoad, HingesWhereTheRigidOneDoes) {
   }
 }
 
-// The march begins on the right: a load on the other side is met late instead of early.
+// The integration begins on the right: a load on the other side comes late instead of early.
 TEST(ElasticLoad, IsTheSameFromEitherSide) {
   const ArchJoints joints{1e11, 1e11};
   LoadedArch other = quarter;
@@ -165,13 +164,13 @@ TEST(ElasticLoad, IsTheSameFromEitherSide) {
     EXPECT_NEAR(left.joints[k].crossing, right.joints[left.joints.size() - 1 - k].crossing, 1e-5);
 }
 
-TEST(ElasticLoad, KnowsOnlyWeightOverStiffness) {
+TEST(ElasticLoad, DependsOnWeightOverStiffnessOnly) {
   const ElasticLoad one = greatest_elastic_load({{15, 5, 25e3}, 0.75, -2.5}, {1e11, 1e11}),
                     other = greatest_elastic_load({{15, 0.5, 50e3}, 0.075, -0.25}, {2e11, 2e11});
   EXPECT_NEAR(one.load / 100, other.load / 2, 1e-7 * one.load);
 }
 
-TEST(ElasticLoad, StandsOnTheStableSideOnly) {
+TEST(ElasticLoad, HasItsStableEquilibriumBelowTheGreatestLoadOnly) {
   const ArchJoints joints{1e11, 1e11};
   const ElasticLoad limit = greatest_elastic_load(quarter, joints);
   const ElasticLoad less = elastic_load(quarter, joints, 0.99 * limit.load);

@@ -33,7 +33,7 @@ double root(const std::function<double(double)>& f, double low, double high, dou
   return high;
 }
 
-// m: far below what the checks resolve, far above rounding
+// m: far below the resolution of the checks, far above rounding
 constexpr double position_width = 1e-16;
 
 // of the search for a height: forces meet to this fraction of stiffness times depth, 5 mN
@@ -59,7 +59,7 @@ Point hinge(const HingedBeamModel& model, const Planes& a, const Planes& b) {
   return model.point == HingePoint::centroid ? centroid : analytic_centre(a, b, centroid);
 }
 
-// forces and what they leave of the sideways balance, with the block's middle at (x, y)
+// forces and the residual of the horizontal balance, with the block's middle at (x, y)
 struct Balance {
   double residual;  // N
   HingedBeamState state;
@@ -85,7 +85,7 @@ Balance balance(const HingedBeamModel& model, double rotation, double x, double 
   s.normal_force = beam.stiffness * overlap_along(normal, wall, block, left);
   s.thrust = 0.5 * beam.stiffness * overlap_along({1, 0}, block, mirrored, right);
 
-  // moments about the hinge at the abutment, then the shear force that carries the weight there
+  // moments about the hinge at the abutment, then the shear force that supports the weight there
   s.weight = s.thrust * (right.y - left.y) / (x - left.x);
   s.shear_force = (s.weight + s.normal_force * std::sin(tilt)) / std::cos(tilt);
   return {s.normal_force * std::cos(tilt) + s.shear_force * std::sin(tilt) - s.thrust, s, left};
@@ -93,7 +93,7 @@ Balance balance(const HingedBeamModel& model, double rotation, double x, double 
 
 Balance balanced(const HingedBeamModel& model, double rotation, double y) {
   const HingedBeam& beam = model.beam;
-  // the block's breadth exceeds the room it has by what its two corners press in together
+  // the block is broader than its place by the overlaps at its two corners together
   const double excess = 0.5 * (beam.length * std::cos(rotation) + beam.depth * std::sin(rotation) - beam.length);
   constexpr double fraction = 0.5;  // the two ends differ by some hundredths of it
   const double middle = 0.5 * beam.length, reach = fraction * excess;
@@ -102,7 +102,8 @@ Balance balanced(const HingedBeamModel& model, double rotation, double y) {
   return balance(model, rotation, x, y);
 }
 
-// fractions of the geometric limit between which every model here has its peak, and the sections that leave 1e-7 of it
+// fractions of the geometric limit between which every model here has its peak, and the number of golden
+// sections that leaves 1e-7 of the range
 constexpr double peak_from = 0.1, peak_to = 0.6;
 constexpr int sections = 32;
 
@@ -139,14 +140,14 @@ std::vector<HingedBeamState> hinged_beam_path(const HingedBeamModel& model, doub
     const double turn = rotation / steps, now = i * turn, middle = now - 0.5 * turn;
     const Point along =
         model.normal == HingeNormal::mean ? Point{std::sin(0.5 * middle), std::cos(0.5 * middle)} : Point{0, 1};
-    // what the joint's spring would still have to give at a height
+    // residual of the law of the joint's spring at a height
     const auto missing = [&](double y) {
       const Balance b = balanced(model, now, y);
       const Point arm = b.at_abutment - Point{0.5 * (last.x + b.state.x), 0.5 * (last.y + y)};
       const Point moved = Point{b.state.x - last.x, y - last.y} + Point{turn * arm.y, -turn * arm.x};
       return b.state.shear_force - last.shear_force + shear_stiffness * dot(moved, along);
     };
-    // secants from where the hinge rolls on; the spring is almost all of the slope
+    // secants from the height of pure rolling; the spring is almost all of the slope
     double y = last.y - turn * last.x, at_y = missing(y), slope = shear_stiffness;
     for (int k = 0; k < most_secants && std::abs(at_y) > forces_meet * model.beam.stiffness * model.beam.depth; ++k) {
       const double next = y - at_y / slope, at_next = missing(next);

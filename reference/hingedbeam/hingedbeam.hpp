@@ -4,8 +4,8 @@
 
 // Two blocks between two abutments, loaded by their weight: the three-hinged beam (Boon 2013, section 4.11 and appendix
 // E; after Goodman 1989, chapter 7, problem 22). Each block turns by `rotation`, its end faces press their corners into
-// abutment and neighbour, and the thrust times the arm between the corners carries the weight. Only the overlap of the
-// blocks gives: joints have a stiffness in N/m, whatever their area.
+// abutment and neighbour, and the thrust times the arm between the corners supports the weight. Only the joints deform:
+// they have a stiffness in N/m, whatever their area.
 //
 // m, N (in the plane: per metre), rad. By symmetry one half is treated, the left one, which turns clockwise.
 namespace voussoir::reference {
@@ -22,7 +22,7 @@ struct HingedBeamLoad {
   double thrust = 0;    // N, horizontal
 };
 
-// Rotation at which the three hinges stand in one line (Goodman 1989): atan(depth/length).
+// Rotation at which the three hinges are in one line (Goodman 1989): atan(depth/length).
 double hinged_beam_geometric_limit(const HingedBeam& beam);
 
 // The first-order theory, equilibrium of the undeformed beam: corners press in by δ = depth θ/2, forces act at depth/6
@@ -49,8 +49,8 @@ struct HingeAbutment {
   double thickness = 0.138;     // m
 };
 
-// As a discrete element code sees it: where the force acts and along which line is stated, overlap regions are clipped
-// and their analytic centre is found by maximisation, and the weight has the arm it has.
+// The same as a discrete element code computes it: the point of action and the line of each force are stated, overlap
+// regions are clipped and their analytic centre is found by maximisation, and the weight has its true arm.
 struct HingedBeamModel {
   HingedBeam beam;
   HingeAbutment abutment;
@@ -63,14 +63,14 @@ struct HingedBeamState : HingedBeamLoad {
   double x = 0, y = 0;                       // m: the block's centroid from the middle of the abutment's face
 };
 
-// Equilibrium at a rotation, 0 < rotation, where the ends still meet: the sideways position follows from equal thrusts,
-// the shear force from the weight. The lower corner at the abutment is `raised` above its first height, which matters
-// where the abutment ends near it. Throws std::domain_error when the block touches one side only.
+// Equilibrium at a rotation, 0 < rotation, while the ends still touch: the sideways position follows from equal
+// thrusts, the shear force from the weight. The lower corner at the abutment is `raised` above its first height, which
+// matters if the abutment ends near it. Throws std::domain_error when the block touches one side only.
 HingedBeamState hinged_beam_equilibrium(const HingedBeamModel& model, double rotation, double raised = 0);
 
-// The same along a path on which the abutment's joint gives in shear, by a stiffness in N/m without slip: T' = -Ks (v ·
-// t), v the velocity of the block's material at the point of contact. In `steps` equal steps from nothing to
-// `rotation`; the error of one doubling is below 1e-4 of the weight from 200 steps on.
+// The same along a path on which the abutment's joint deforms in shear, by a stiffness in N/m without slip: T' = -Ks (v
+// · t), v the velocity of the block's material at the point of contact. In `steps` equal steps from zero to `rotation`;
+// the error estimated by doubling is below 1e-4 of the weight from 200 steps on.
 std::vector<HingedBeamState> hinged_beam_path(const HingedBeamModel& model, double shear_stiffness, double rotation,
                                               int steps);
 

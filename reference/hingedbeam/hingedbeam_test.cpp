@@ -15,7 +15,7 @@ namespace {
 
 const HingedBeam beam;
 
-// walls without end; their faces are too far to move anything
+// infinite walls; their ends are too far away to have an effect
 const HingeAbutment wall{.below = 10, .above = 10, .thickness = 1};
 const HingeAbutment aligned;
 
@@ -77,13 +77,13 @@ TEST(HingedBeam, FirstOrderIsTheTangentAndHasNoPeak) {
   EXPECT_GT(hinged_beam_first_order(beam, 0.3).weight, 2 * hinged_beam_second_order_peak(beam).weight);
 }
 
-TEST(HingedBeam, GoodmansLimitIsWhereTheCornersAreLevel) {
+TEST(HingedBeam, CornersAreLevelAtGoodmansLimit) {
   const double limit = hinged_beam_geometric_limit(beam);
   EXPECT_NEAR(limit, 0.321751, 5.1e-7);
   EXPECT_NEAR(beam.depth * std::cos(limit) - beam.length * std::sin(limit), 0, 1e-15);
 }
 
-// forces and moments of what is returned, written out once more
+// forces and moments of the returned equilibrium, written out independently
 TEST(HingedBeam, EquilibriumHolds) {
   for (const HingePoint point : {HingePoint::centroid, HingePoint::analytic_centre})
     for (const HingeAbutment& abutment : {wall, aligned}) {
@@ -116,15 +116,15 @@ TEST(HingedBeam, ThePathEndsInTheEquilibriumAtItsHeight) {
   const HingedBeamModel ends = model_of(aligned, HingeNormal::mean);
   const double fine = hinged_beam_path(ends, 1e9, 0.15, 200).back().weight;
   EXPECT_NEAR(hinged_beam_path(ends, 1e9, 0.15, 400).back().weight, fine, 1e-4 * fine);
-  // a soft joint lets the corner sink below the abutment's edge, and the beam carries less
+  // a soft joint lets the corner sink below the abutment's edge, and the beam supports less
   EXPECT_LT(hinged_beam_path(ends, 1e8, 0.15, 100).back().weight, fine);
 }
 
-TEST(HingedBeam, APathBooksTheShearOfWhatItMoves) {
+TEST(HingedBeam, APathHasTheShearForceOfItsDisplacement) {
   const HingedBeamModel tall = model_of(wall, HingeNormal::horizontal);
   const double stiffness = 1e7, rotation = 0.1;
   const std::vector<HingedBeamState> path = hinged_beam_path(tall, stiffness, rotation, 400);
-  // the block's material at the hinge has gone down by T/Ks in all: integrate it from the positions returned
+  // the block's material at the hinge has gone down by T/Ks in total: integrate it from the positions returned
   double moved = 0, x = 0.5 * beam.length, y = 0, turned = 0;
   for (const HingedBeamState& s : path) {
     const double corner = 0.5 * (beam.length * std::cos(s.rotation) + beam.depth * std::sin(s.rotation) - beam.length);
@@ -159,7 +159,7 @@ double minus_sum(const gsl_vector* at, void* data) {
   return std::isfinite(sum) ? -sum : 1e300;
 }
 
-// by Nelder and Mead, which knows neither gradient nor Hessian
+// by Nelder and Mead, which uses neither gradient nor Hessian
 Point searched(const Program& program, Point start, double size) {
   gsl_multimin_function f{&minus_sum, 2, const_cast<Program*>(&program)};
   gsl_vector *x = gsl_vector_alloc(2), *steps = gsl_vector_alloc(2);
@@ -189,7 +189,7 @@ TEST(AnalyticCentre, OfATriangleIsItsCentroid) {
   EXPECT_NEAR(centre.y, 1, 1e-10);
 }
 
-TEST(AnalyticCentre, OfTwoRectanglesIsKnown) {
+TEST(AnalyticCentre, OfTwoRectanglesHasItsClosedForm) {
   const Planes a = rectangle({0, 0}, {1, 1}), b = rectangle({0.5, 0}, {1.5, 1});
   // along x: slacks 1 - x, x, 1.5 - x, x - 0.5, symmetric about 0.75; along y two equal pairs
   const Point centre = analytic_centre(a, b, {0.6, 0.1});

@@ -63,7 +63,8 @@ double sum_of_logarithms(const Planes& a, const Planes& b, Point p) {
 }
 
 Point analytic_centre(const Planes& a, const Planes& b, Point p) {
-  if (!std::isfinite(sum_of_logarithms(a, b, p))) throw std::domain_error("analytic centre: the start lies outside");
+  if (!std::isfinite(sum_of_logarithms(a, b, p)))
+    throw std::domain_error("analytic centre: the start is outside the region");
   constexpr int most = 100;
   constexpr double converged = 1e-24;  // square of Newton's decrement: the point is then right to 1e-12 of the region
   for (int i = 0; i < most; ++i) {

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-// The region two convex bodies in the plane share, and where a contact may be placed in it. Written plainly, apart from
-// the core: clipping, the shoelace formula, maximisation of the sum of logarithms.
+// The region that two convex bodies in the plane share, and where a contact may be placed in it. Written plainly, apart
+// from the core: clipping, the shoelace formula, maximisation of the sum of logarithms.
 namespace voussoir::reference {
 
 struct Point {
@@ -33,7 +33,7 @@ struct Plane {
 using Planes = std::vector<Plane>;
 using Polygon = std::vector<Point>;  // counter-clockwise
 
-// the common region; fewer than three corners: there is none
+// the common region; fewer than three corners: none
 Polygon clipped(const Planes& a, const Planes& b);
 
 Point centroid_of(const Polygon& polygon);

@@ -11,13 +11,13 @@ namespace {
 // a force this fraction below the limit of friction counts as at it
 constexpr double at_limit = 1e-9;
 
-// The two faces as the mean of their directions sees them: places along the joint are measured from the left face's
-// middle, t upwards and n to the right.
+// The two faces in the frame of their mean direction: places along the joint are measured from the left face's middle,
+// t upwards and n to the right.
 struct Meeting {
   Point n, t;
   double apart_n = 0, apart_t = 0;  // m, of the right face's middle
   double slope = 0;                 // tangent of half the angle between the faces; the overlap grows with twice of it
-  double low = 0, high = 0;         // m: where both faces are and overlap
+  double low = 0, high = 0;         // m: the interval that both faces cover and on which they overlap
   std::array<double, 4> edges{};    // m: where each face ends
 
   double overlap(double at) const { return slope * (2 * at - apart_t) - apart_n; }
@@ -39,7 +39,7 @@ Meeting meeting(const BeamFace& left, const BeamFace& right) {
              m.apart_t + shortened * right.height};
   m.low = std::max(m.edges[0], m.edges[2]);
   m.high = std::min(m.edges[1], m.edges[3]);
-  // only where they overlap
+  // only the part that overlaps
   if (m.slope != 0) {
     const double edge = 0.5 * (m.apart_t + m.apart_n / m.slope);
     if (m.slope > 0) m.low = std::max(m.low, edge);
@@ -50,8 +50,8 @@ Meeting meeting(const BeamFace& left, const BeamFace& right) {
   return m;
 }
 
-// plastic slip p >= 0 after which what is left of the trial force meets the friction of then: trial - stiffness p = μ(β
-// + p) N. Convex and falling, so Newton from zero goes up to the root and never past it.
+// plastic slip p >= 0 after which the remaining trial force equals the friction at that slip: trial - stiffness p = μ(β
+// + p) N. Convex and falling, so Newton from zero rises to the root and never overshoots it.
 double return_slip(double trial, double stiffness, double strength, double peak, double slipped) {
   double p = 0;
   constexpr int most = 100;
@@ -68,12 +68,12 @@ double return_slip(double trial, double stiffness, double strength, double peak,
 
 struct Cell {
   double area = 0, normal = 0;  // m², N
-  double at = 0;                // m along the joint: where the normal force acts
+  double at = 0;                // m along the joint: point of action of the normal force
 };
 
-// Analytic centre of the overlap, m along the joint: greatest sum of the logarithms of the distances to the faces that
-// meet (both half the overlap on the line between them) and to the four edges. The bodies' far ends are as many heights
-// away as the overlap is smaller than they, and count for nothing.
+// Analytic centre of the overlap, m along the joint: greatest sum of the logarithms of the distances to the two faces
+// in contact (both half the overlap on the line between them) and to the four edges. The bodies' far ends are farther
+// away than the overlap by many orders and do not count.
 double analytic_centre(const Meeting& m) {
   const auto slope = [&](double at) {
     const double overlap = 2 * 2 * m.slope / m.overlap(at);
@@ -92,7 +92,7 @@ double analytic_centre(const Meeting& m) {
   return 0.5 * (low + high);
 }
 
-// what one cell of the face, from `low` to `high`, carries
+// force of one cell of the face, from `low` to `high`
 Cell cell_of(const JointLaw& law, double width, const Meeting& m, double low, double high) {
   Cell cell;
   if (!(high > low)) return cell;
@@ -110,7 +110,7 @@ Cell cell_of(const JointLaw& law, double width, const Meeting& m, double low, do
 bool slide(const JointLaw& law, const Cell& cell, double slip, const CellHistory& was, CellHistory& now) {
   const double stress = cell.normal / cell.area, before = was.area > 0 ? was.stress : stress;
   const double stiffness = 0.5 * (stiffness_at(law.shear, before) + stiffness_at(law.shear, stress)) * cell.area;
-  // area that is lost takes its stress with it; a cell that has just closed has not slipped yet
+  // lost area takes its stress with it; a cell that has just closed has not slipped yet
   now = was;
   now.area = cell.area;
   now.stress = stress;
@@ -148,7 +148,7 @@ double normal_stress(const StressStiffness& k, double overlap) {
 JointForce joint_force(const JointLaw& law, double width, const BeamFace& left, const BeamFace& right,
                        const JointHistory& history, JointHistory& next) {
   if (law.closure == CellClosure::at_centre && law.cells != 1)
-    throw std::invalid_argument("jointed beam: the analytic centre is that of the whole joint");
+    throw std::invalid_argument("jointed beam: the analytic centre is defined for a single cell");
   const Meeting m = meeting(left, right);
   next.slip = m.apart_t;
   next.cells.assign(law.cells, {});

@@ -16,14 +16,14 @@
 namespace voussoir::reference {
 namespace {
 
-// what unknowns are counted in, so that GSL sees numbers near 1: m, rad, g
+// scales of the unknowns, so that GSL sees numbers near 1: m, rad, g
 constexpr double way = 1e-5, turn = 1e-4, load = 1;
 // of the differences that make the Jacobian: far above rounding (1e-17 m of overlap), far below an overlap (1e-6 m)
 constexpr double nudge = 1e-10, nudge_turn = 1e-9;
 // forces balance to this fraction of thrust or weight: 1e-7 N
 constexpr double balanced = 1e-9;
 constexpr int most_iterations = 60;
-// a step that finds no equilibrium is halved so often
+// a step that finds no equilibrium is halved at most so often
 constexpr int most_halvings = 6;
 
 enum class Control { gravity, deflection };
@@ -40,7 +40,7 @@ struct Chain {
   double weight() const { return beam.density * beam.length * beam.height * beam.width * beam.g; }  // N, of one at 1 g
 };
 
-// the middle of a block's right or left face, from where the middle of the undisplaced joint is
+// the middle of a block's right or left face, relative to the middle of the undisplaced joint
 BeamFace face_of(const Chain& chain, int block, int side) {
   const JointedBeam& b = chain.beam;
   const bool abutment = block == 0 || block == b.blocks + 1;
@@ -123,7 +123,7 @@ int evaluate(const gsl_vector* x, void* data, gsl_vector* f) {
   return GSL_SUCCESS;
 }
 
-// by central differences: a block's freedom is felt in its two joints only
+// by central differences: a block's freedoms affect its two joints only
 int differentiate(const gsl_vector* x, void* data, gsl_matrix* jacobian) {
   Problem& p = *static_cast<Problem*>(data);
   place(p, x);
@@ -165,7 +165,7 @@ int both(const gsl_vector* x, void* data, gsl_vector* f, gsl_matrix* jacobian) {
   return differentiate(x, data, jacobian);
 }
 
-// Equilibrium from the place of the chain; false: none was found, and the chain is as it was.
+// Equilibrium from the present position of the chain; false: none was found, and the chain is unchanged.
 bool settle(Chain& chain, Control control, double wanted) {
   gsl_set_error_handler_off();
   const double scale = std::max(chain.beam.thrust, chain.weight() * chain.beam.blocks * std::max(1.0, chain.gravity));
@@ -214,7 +214,7 @@ double now(const Chain& chain, Control control) {
   return control == Control::gravity ? chain.gravity : deflection_of(chain);
 }
 
-// in equal steps, halved where need be, each from the last one's place carried on; false: lost on the way
+// in equal steps, halved if need be, each from the last one's position extrapolated; false: lost along the path
 bool go_to(Chain& chain, Control control, double target, double most) {
   const double from = now(chain, control);
   const int steps = std::max(1, static_cast<int>(std::ceil((target - from) / most - 1e-9)));
@@ -237,7 +237,7 @@ BeamState describe(const Chain& chain) {
   s.deflection = deflection_of(chain);
   s.blocks.assign(chain.blocks.begin() + 1, chain.blocks.end() - 1);
   for (int joint = 0; joint < chain.joints(); ++joint) {
-    // asked again from its own history, a joint gives the same answer: its slip is done
+    // evaluated again from its own history, a joint gives the same force: its slip is complete
     JointHistory unused;
     const JointForce f = force_at(chain, joint, unused);
     const Point from = face_of(chain, joint, 1).middle;
@@ -257,7 +257,7 @@ double thrust_at_one(const JointedBeam& beam, double closure, const BeamSteps& s
 }  // namespace
 
 double abutment_closure(const JointedBeam& beam, const BeamSteps& steps) {
-  // without weight every joint carries the same stress; weight adds thrust, never takes it, so closure is at most this
+  // without weight every joint has the same stress; weight never reduces the thrust, so closure is at most this
   const double stress = beam.thrust / (beam.height * beam.width);
   double high = 1e-9;
   while (normal_stress(beam.joint.normal, high) < stress)
@@ -275,7 +275,8 @@ double abutment_closure(const JointedBeam& beam, const BeamSteps& steps) {
   gsl_set_error_handler_off();
   const std::unique_ptr<gsl_root_fsolver, decltype(&gsl_root_fsolver_free)> solver(
       gsl_root_fsolver_alloc(gsl_root_fsolver_brent), gsl_root_fsolver_free);
-  // half of it gives less than the thrust: a joint carries at least in proportion, and one power of 4 more
+  // 0.4 of it gives less than the thrust: the stress grows at least in proportion to the closure, by one law with its
+  // fourth power
   if (!solver || gsl_root_fsolver_set(solver.get(), &function, 0.4 * high, high) != GSL_SUCCESS)
     throw std::domain_error("jointed beam: the closure for this thrust is not bracketed");
   constexpr int most = 60;

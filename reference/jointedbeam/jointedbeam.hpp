@@ -7,11 +7,11 @@
 
 // A beam of rigid blocks between two fixed abutments, joints without tension: the physical model of Talesnick et al.
 // (2007) as Boon (2013, section 4.12) calculates it. The abutments are moved in before there is weight, then gravity is
-// raised. Equilibrium of the displaced blocks, as large as displacements may be; joints as in joint.hpp. Gravity is
+// raised. Equilibrium of the displaced blocks, for displacements of any size; joints as in joint.hpp. Gravity is
 // counted in g.
 //
-// Friction acts where the pressure is: a cell of little pressure slips long before the joint does. A friction angle
-// near 90 degrees leaves that out.
+// Friction acts cell by cell: a cell of little pressure slips long before the joint does. A friction angle near 90
+// degrees excludes that.
 //
 // m, N, rad; x along the beam from the middle of the left abutment's face, y up.
 namespace voussoir::reference {
@@ -26,10 +26,10 @@ struct JointedBeam {
 };
 
 struct BeamJoint {
-  Point point;                   // m: the thrust line's place in the joint, displaced
+  Point point;                   // m: position of the thrust line in the joint, displaced
   Point force;                   // N, of the left body on the right one
   double normal = 0, shear = 0;  // N, along the joint's own axes
-  double sliding = 0;            // fraction of the normal force that is on cells at the limit of friction
+  double sliding = 0;            // fraction of the normal force on cells at the limit of friction
   double open = 0;               // m of the face
   double slip = 0;               // m, of the right face upwards
 };
@@ -47,21 +47,21 @@ struct BeamState {
   std::vector<BeamJoint> joints;  // one more
 };
 
-// how finely histories are followed; the equilibrium of each step is exact
+// resolution of the histories; the equilibrium of each step is exact
 struct BeamSteps {
   double gravity = 0.25;     // g
-  double deflection = 2e-5;  // m, where the deflection is raised instead
+  double deflection = 2e-5;  // m, if the deflection is raised instead
 };
 
-// m: by how much both abutments together are moved in so that the thrust at 1 g is as stated
+// m: by how much both abutments together are moved in to give the stated thrust at 1 g
 double abutment_closure(const JointedBeam& beam, const BeamSteps& steps = {});
 
-// Equilibrium at ascending gravities, g. `closure` as from abutment_closure, found if not given. Ends early where the
-// beam is lost: fewer states than gravities.
+// Equilibrium at ascending gravities, g. `closure` as from abutment_closure, found if not given. Ends early if the beam
+// is lost: fewer states than gravities.
 std::vector<BeamState> raise_gravity(const JointedBeam& beam, const std::vector<double>& gravities,
                                      std::optional<double> closure = {}, const BeamSteps& steps = {});
 
-// The same path with the deflection raised instead of gravity, from 1 g to `deflection`: it continues where gravity
+// The same path with the deflection raised instead of gravity, from 1 g to `deflection`: it continues when gravity
 // must fall to keep the balance.
 std::vector<BeamState> raise_deflection(const JointedBeam& beam, double deflection, const BeamSteps& steps = {});
 
@@ -73,7 +73,7 @@ struct BeamLimit {
 // Throws std::domain_error when the path rises to its end.
 BeamLimit limit_of(const std::vector<BeamState>& path);
 
-// Three hinges at the very corners, rigid blocks: no line of thrust rises higher than the beam, so the thrust at a
+// Three hinges exactly at the corners, rigid blocks: no line of thrust rises higher than the beam, so the thrust at a
 // gravity is not less than W L/(8 (height - deflection)), W the weight of all blocks, L the span. N.
 double least_thrust(const JointedBeam& beam, double gravity, double deflection = 0);
 
@@ -87,10 +87,10 @@ struct VoussoirBeam {
   double compressed = 0;  // N: fraction of the height
   double thrust = 0;      // N
   double deflection = 0;  // m
-  double buckling = 0;    // fraction of N for which there is no arch; 1: none at all
+  double buckling = 0;    // fraction of N for which there is no arch; 1: none
 };
 VoussoirBeam voussoir_beam(const JointedBeam& beam, double gravity);
-// g: where no arch is left (`fraction` = 1), or so many of the N are gone (their design limit: 0.35)
+// g: at which no arch is left (`fraction` = 1), or at which this fraction of N has none (their design limit: 0.35)
 double voussoir_beam_limit(const JointedBeam& beam, double fraction = 1);
 
 }  // namespace voussoir::reference

@@ -27,7 +27,7 @@ JointedBeam half_block() {
   return beam;
 }
 
-// cells do not slip by themselves, as in the values known before
+// cells do not slip by themselves, as in the earlier values
 JointedBeam without_slip(JointedBeam beam) {
   beam.joint.friction.angle = 89 * degree;
   return beam;
@@ -39,7 +39,7 @@ JointedBeam with_cells(JointedBeam beam, int cells, CellClosure closure) {
   return beam;
 }
 
-// m, downwards, of the third block's centroid: what the values known before call mid-span
+// m, downwards, of the third block's centroid: the mid-span of the earlier values
 double third_block(const BeamState& state) {
   return -state.blocks[2].displacement.y;
 }
@@ -55,7 +55,7 @@ JointForce pressed(const JointLaw& law, double apart, double turn, double height
 
 // ---- one joint ----------------------------------------------------------------------------------------------------
 
-TEST(BeamJoint, CarriesWhatATriangleOfStressDoes) {
+TEST(BeamJoint, HasTheForceOfATriangleOfStress) {
   constexpr double height = 0.04, width = 0.05, turn = -1e-3, stiffness = 10e9;
   JointLaw law;
   // the overlap is 0 at 1 mm below the middle and grows by 1e-3 downwards: right faces that turn clockwise open above
@@ -96,7 +96,7 @@ TEST(BeamJoint, StressIntegratesItsStiffness) {
     EXPECT_NEAR(slope / stiffness_at(k, stress), 1, 1e-6);
     EXPECT_EQ(normal_stress(k, -u), 0);
   }
-  // Eqs 4.12 and 4.13 as they are written out
+  // Eqs 4.12 and 4.13 written out
   EXPECT_NEAR(normal_stress({4e9, 7.4e4, 1}, 2e-5), 5.405405e4 * (std::exp(7.4e4 * 2e-5) - 1), 1e-1);
   EXPECT_NEAR(normal_stress({0, 2.1e6, 0.75}, 2e-5), std::pow(0.25 * 2.1e6 * 2e-5, 4), 1e-6);
   EXPECT_THROW(normal_stress({1e9, 1e6, 0.5}, 1e-6), std::invalid_argument);
@@ -129,8 +129,8 @@ TEST(BeamJoint, HardensAlongTheClosedForm) {
 
 // ---- the beam -----------------------------------------------------------------------------------------------------
 
-// Known before, to the digits given: of joints whose cells do not slip, deflection at the third block's centroid.
-TEST(JointedBeam, HasTheValuesKnownBefore) {
+// Earlier values, to the digits given: of joints whose cells do not slip, deflection at the third block's centroid.
+TEST(JointedBeam, HasItsEarlierValues) {
   const std::vector<BeamState> full = raise_gravity(without_slip(full_block()), {40});
   ASSERT_EQ(full.size(), 1u);
   EXPECT_NEAR(full[0].thrust, 296.0, 0.05);
@@ -143,7 +143,7 @@ TEST(JointedBeam, HasTheValuesKnownBefore) {
 
 // Coulomb's law in every cell: a tenth of the pressure at an abutment is on cells that slip, the others take their
 // shear, and the beam sinks by 6 % more at almost the same thrust. Half blocks fall 0.3 g earlier.
-TEST(JointedBeam, SinksMoreWhereCellsSlip) {
+TEST(JointedBeam, SinksMoreIfCellsSlip) {
   const BeamState slips = raise_gravity(full_block(), {40}).at(0);
   const BeamState holds = raise_gravity(without_slip(full_block()), {40}).at(0);
   EXPECT_NEAR(slips.joints[0].sliding, 0.11, 0.01);
@@ -153,8 +153,8 @@ TEST(JointedBeam, SinksMoreWhereCellsSlip) {
   EXPECT_EQ(raise_gravity(half_block(), {77.25, 77.5}).size(), 1u);
 }
 
-// one centroid point, and n of them; as known before, in percent at 10 and 40 g
-TEST(JointedBeam, FewPointsDeviateAsKnown) {
+// one centroid point, and n of them; the earlier deviations, in percent at 10 and 40 g
+TEST(JointedBeam, FewPointsHaveTheirEarlierDeviations) {
   const JointedBeam beam = without_slip(full_block());
   const std::vector<BeamState> exact = raise_gravity(beam, {10, 20, 30, 40});
   const auto deviation = [&](int cells, int at, bool thrust) {
@@ -179,7 +179,7 @@ TEST(JointedBeam, FewPointsDeviateAsKnown) {
     EXPECT_LT(std::abs(deviation(32, at, true)), 0.3);
 }
 
-// mean closures carry the normal force exactly, so what converges is where cells slip
+// mean closures give the normal force exactly, so only the slip of cells has to converge
 TEST(JointedBeam, ConvergesWithTheNumberOfCells) {
   const auto at_forty = [](int cells, CellClosure closure) {
     return raise_gravity(with_cells(full_block(), cells, closure), {40}).at(0);
@@ -210,8 +210,8 @@ TEST(JointedBeam, DoesNotDependOnItsSteps) {
   EXPECT_NEAR(coarse.thrust / fine.thrust, 1, 1e-5);
 }
 
-// sums that know nothing of joints: of forces on all blocks, and of moments on the left half where it has gone
-TEST(JointedBeam, BalancesAsAWholeAndByHalves) {
+// sums that do not use the joints: of forces on all blocks, and of moments on the left half in its displaced position
+TEST(JointedBeam, BalancesInTotalAndByHalves) {
   for (const JointedBeam& beam : {full_block(), half_block()}) {
     const double gravity = 35, weight = weight_of_all(beam, gravity);
     const BeamState s = raise_gravity(beam, {gravity}).at(0);
@@ -230,7 +230,7 @@ TEST(JointedBeam, BalancesAsAWholeAndByHalves) {
   }
 }
 
-// but for cells that are counted from the left face: half a cell slips more or less
+// except that cells are counted from the left face: half a cell slips more or less
 TEST(JointedBeam, IsSymmetric) {
   const BeamState s = raise_gravity(full_block(), {40}).at(0);
   for (int b = 0; b < 6; ++b) {
@@ -274,7 +274,7 @@ TEST(JointedBeam, OfTwoBlocksIsTheClosedFormAndTendsToThreeHinges) {
     beam.joint.normal = power == 0 ? StressStiffness{k, 0, 1} : StressStiffness{0, k * m, power};
     const BeamState s = raise_gravity(beam, {gravity}, closure).at(0);
     const TwoBlocks expected = two_blocks(beam, k, m, closure, weight_of_all(beam, gravity));
-    // the closed form leaves out what the arm loses by sinking, a fraction of rotation times length over height
+    // the closed form neglects the loss of arm by sinking, a fraction of rotation times length over height
     EXPECT_NEAR(s.thrust / expected.thrust, 1, 2 * expected.rotation) << m;
     EXPECT_NEAR(s.blocks[1].rotation / expected.rotation, 1, 4 * expected.rotation) << m;
     EXPECT_NEAR((s.deflection + s.joints[0].slip) / (expected.rotation * beam.length), 1, 4 * expected.rotation) << m;
@@ -286,7 +286,7 @@ TEST(JointedBeam, OfTwoBlocksIsTheClosedFormAndTendsToThreeHinges) {
   }
 }
 
-TEST(JointedBeam, IsLostWhereDeflectionNoLongerAsksForGravity) {
+TEST(JointedBeam, IsLostAtTheGreatestGravityOfTheDeflectionPath) {
   const JointedBeam beam = half_block();
   const BeamSteps steps{.gravity = 0.5, .deflection = 5e-5};
   const BeamLimit limit = limit_of(raise_deflection(beam, 0.009, steps));

@@ -68,10 +68,10 @@ TEST(PotentialParticles, WithoutTheLinkSquaresAreLeastElsewhere) {
     for (const double b : {0.2, 1.0}) {
       const double gap = 0.95 * (a + b);
       const auto squares = [&](double t) { return t * t / (a * a) + (gap - t) * (gap - t) / (b * b); };
-      // flat at its least: thirds find it to the root of rounding
+      // flat at its minimum: thirds find it to the square root of rounding
       EXPECT_NEAR(unlinked_squares(a, b, gap), least_place(squares, gap), 1e-7);
       EXPECT_NEAR(unlinked_squares(a, b, gap), gap - unlinked_squares(b, a, gap), 1e-15);
-      // at the overlap from which the contact is seen, the point lies on the larger body's surface
+      // at the overlap at which the contact is first seen, the point is on the larger body's surface
       const double just = a + b - unseen_overlap(a, b), t = unlinked_squares(a, b, just);
       EXPECT_NEAR(std::max(t / a, (just - t) / b), 1, 1e-14);
     }

@@ -76,7 +76,7 @@ double rolling_time(const RollingCorner& body, double lean) {
   if (!workspace ||
       gsl_integration_qag(&function, 0, std::sqrt(lean - body.start), 0, quadrature_tolerance, most_intervals,
                           GSL_INTEG_GAUSS31, workspace.get(), &time, &error) != GSL_SUCCESS)
-    throw std::runtime_error("rolling corner: the quadrature did not end");
+    throw std::runtime_error("rolling corner: the quadrature did not converge");
   return time;
 }
 

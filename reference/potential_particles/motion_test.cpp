@@ -22,13 +22,13 @@ TEST(BallPeriod, IsFlightAndAnImpactOfTheBounce) {
   }
 }
 
-TEST(BallPeriod, FromTheFirstTouchIsAWholeSwingAndFromHighAboveHalfOfOne) {
+TEST(BallPeriod, IsAFullSwingFromFirstContactAndHalfOfOneFromAGreatHeight) {
   const BouncingBall ball{1, 4, 10};
   EXPECT_NEAR(ball_period(ball, 0), pi, 1e-14);  // 2 π/ω
   const double speed = std::sqrt(2e9);
-  // π/ω and the next term, 2 g/(ω² v); what follows falls with the cube of g/(ω v)
+  // π/ω and the next term, 2 g/(ω² v); the remainder falls with the cube of g/(ω v)
   EXPECT_NEAR(ball_period(ball, 1e8) - 2 * speed / 10, pi / 2 + 20 / (4 * speed), 1e-10);
-  EXPECT_NEAR(ball_period({1, 4, 1e-3}, 1e-4) / ball_period({100, 400, 1e-3}, 1e-4), 1, 1e-14);  // of k/m alone
+  EXPECT_NEAR(ball_period({1, 4, 1e-3}, 1e-4) / ball_period({100, 400, 1e-3}, 1e-4), 1, 1e-14);  // depends on k/m only
 }
 
 TEST(RollingCorner, WithoutARadiusIsAPendulumFromAbove) {
@@ -39,7 +39,7 @@ TEST(RollingCorner, WithoutARadiusIsAPendulumFromAbove) {
 }
 
 // Lagrange's equation (I + m d²) φ'' - m r L sin φ φ'² = m g L sin φ instead of the energy
-TEST(RollingCorner, KeepsLagrangesEquation) {
+TEST(RollingCorner, SatisfiesLagrangesEquation) {
   const RollingCorner body{2500, 350, 0.5, 0.15, 0.1, 9.81};
   const OdeRight right = [&](double, const double* y, double* slope) {
     const double m = body.mass, L = body.arm, r = body.corner_radius;
@@ -62,7 +62,7 @@ TEST(RollingCorner, LeavesBalanceAsALinearBodyDoes) {
   EXPECT_NEAR(centroid_height(body, 0), 0.8, 1e-15);
 }
 
-// mass and length scale out: time goes with the root of length
+// mass and length scale out: time is proportional to the root of length
 TEST(RollingCorner, ScalesWithLengthAndMass) {
   const RollingCorner one{1, 0.2, 0.5, 0.3, 0.1, 9.81}, large{7, 7 * 4 * 0.2, 1.0, 0.6, 0.1, 9.81};
   EXPECT_NEAR(rolling_time(large, 0.7) / rolling_time(one, 0.7), std::sqrt(2), 1e-11);
@@ -78,7 +78,7 @@ TEST(RoundedSquare, IsASquareAndADiscAtItsEnds) {
 }
 
 // against sums over thin slices
-TEST(RoundedSquare, IsWhatItsSlicesAre) {
+TEST(RoundedSquare, IsTheSumOfItsSlices) {
   const double half = 0.5, r = 0.2, a = half - r;
   constexpr int slices = 200000;
   double area = 0, inertia = 0;
@@ -92,7 +92,7 @@ TEST(RoundedSquare, IsWhatItsSlicesAre) {
   EXPECT_NEAR(rounded_square(half, r).inertia, inertia, 1e-7);
 }
 
-TEST(RollingCorner, RefusesWhatIsNoBody) {
+TEST(RollingCorner, RefusesInvalidBodies) {
   EXPECT_THROW(rolling_time({1, 1, 1, -0.1, 0.1, 9.81}, 0.5), std::invalid_argument);
   EXPECT_THROW(rolling_time({1, 1, 1, 0, 0.1, 9.81}, 0.05), std::invalid_argument);
   EXPECT_THROW(rounded_square(0.5, 0.5), std::invalid_argument);

@@ -36,7 +36,7 @@ HingedBeamLoad rounded_hinged_beam(const RoundedHingedBeam& model, double rotati
 }
 
 HingedBeamLoad rounded_hinged_beam_peak(const RoundedHingedBeam& model) {
-  constexpr int sections = 80;  // of the rotation, to the root of rounding
+  constexpr int sections = 80;  // of the rotation, to the square root of rounding
   const double r = model.corner_radius;
   const double in_line = std::atan((model.beam.depth - 2 * r) / (model.beam.length - 2 * r));
   const Peak found = peak([&](double rotation) { return rounded_hinged_beam(model, rotation).weight; },
@@ -47,7 +47,7 @@ HingedBeamLoad rounded_hinged_beam_peak(const RoundedHingedBeam& model) {
 double least_joint_radius(int blocks) {
   if (blocks < 1) throw std::invalid_argument("least_joint_radius: one block or more");
   Eigen::MatrixXd rolls = Eigen::MatrixXd::Zero(blocks, blocks), falls = rolls;
-  for (int j = 0; j < blocks; ++j) {  // between tilt j - 1 of the list, the fixed block's where there is none, and j
+  for (int j = 0; j < blocks; ++j) {  // between tilt j - 1 of the list, that of the fixed block for the first, and j
     const double carried = blocks - j;
     rolls(j, j) += carried;
     falls(j, j) += carried / 2;

@@ -34,7 +34,7 @@ TEST(FaceBulge, IsTheCurvatureOfPointsBesideTheMiddle) {
   EXPECT_NEAR(y * y / (2 * (surface(0) - surface(y))) / bulge.curvature_radius, 1, 1e-5);
 }
 
-// The forces of the formula on a block that stands where it says: springs, and the moment about the centroid.
+// The forces of the formula on a block in the position that it gives: springs, and the moment about the centroid.
 TEST(RoundedHingedBeam, IsInEquilibrium) {
   for (const double midspan : {50e6, 100e6, 300e6}) {
     const RoundedHingedBeam model{{}, midspan, 0.004};
@@ -42,19 +42,19 @@ TEST(RoundedHingedBeam, IsInEquilibrium) {
     for (const double turn : {0.02, 0.1, 0.2}) {
       const HingedBeamLoad load = rounded_hinged_beam(model, turn);
       const double c = std::cos(turn), s = std::sin(turn);
-      // clockwise: the lower left corner's arc goes out to the left, the upper right one's to the right
+      // clockwise: the lower left corner's arc moves out to the left, the upper right one's to the right
       const double left[2] = {-a * c - b * s, a * s - b * c}, right[2] = {a * c + b * s, -a * s + b * c};
       const double at_wall = load.thrust / model.beam.stiffness, at_midspan = load.thrust / midspan;
       EXPECT_NEAR((right[0] - left[0] + 2 * r - length) / (at_wall + at_midspan / 2), 1, 1e-12);
-      // the wall's point of contact lies r less half the overlap beyond the arc's centre
+      // the wall's point of contact is r less half the overlap beyond the arc's centre
       const double moment = (right[1] - left[1]) * load.thrust + (left[0] - r + at_wall / 2) * load.weight;
       EXPECT_NEAR(moment / (load.thrust * model.beam.depth), 0, 1e-12);
     }
   }
 }
 
-// beginning of the path: δ = (L2 - 2 r) θ/2, W = K θ (L2 - 2 r)²/L1
-TEST(RoundedHingedBeam, BeginsAsALinearBeamAndGoesOverToTheSharpHinge) {
+// initial slope of the path: δ = (L2 - 2 r) θ/2, W = K θ (L2 - 2 r)²/L1
+TEST(RoundedHingedBeam, BeginsAsALinearBeamAndTendsToTheSharpHinge) {
   const HingedBeam beam;
   const double turn = 1e-6, inner = beam.depth - 0.01;
   EXPECT_NEAR(rounded_hinged_beam({beam, beam.stiffness / 2, 0.005}, turn).weight /
@@ -74,7 +74,7 @@ TEST(RoundedHingedBeam, ScalesWithLengthAndStiffness) {
   EXPECT_THROW(rounded_hinged_beam({one, 50e6, one.depth / 2}, 0.1), std::invalid_argument);
 }
 
-// one block on its like: it stands while half its height is less than the radius about which it rolls
+// one block on another of its kind: stable while half its height is less than the radius about which it rolls
 TEST(RoundedColumn, OneBlockStandsOnHalfItsHeight) {
   EXPECT_NEAR(least_joint_radius(1), 0.5, 1e-14);
   EXPECT_GT(least_joint_radius(2), least_joint_radius(1));
@@ -95,7 +95,7 @@ double energy(const std::vector<double>& tilts, double radius) {
 TEST(RoundedColumn, IsTheRadiusAtWhichSomeTiltLowersTheCentroids) {
   const int blocks = 4;
   const double least = least_joint_radius(blocks);
-  // the worst of many tilts of one small length, by coordinates' search
+  // the worst of many tilts of one small length, by a coordinate search
   const auto worst = [&](double radius) {
     std::vector<double> tilts(blocks, 5e-4);
     const auto gain = [&](std::vector<double> t) {

@@ -13,7 +13,7 @@ struct Levers {
   double weight = 0, push = 0;
 };
 
-// x along the ground, y up, from the end of the base that is pressed no more
+// x along the ground, y up, from the end of the base that has lifted
 Levers levers_of(const PushedColumn& c, const Push& push, double tilt, double pressed) {
   const double cosine = std::cos(tilt), sine = std::sin(tilt), half = 0.5 * tilt;
   const double corner = pressed * std::cos(half);  // along the base
@@ -32,7 +32,7 @@ double rigid_push(const PushedColumn& column, const Push& push) {
 
 double push_at(const PushedColumn& c, const Push& push, double tilt) {
   if (!(tilt > 0)) throw std::invalid_argument("pushed column: it must lean");
-  constexpr int rounds = 30;  // the length depends on the force by a fraction of the tilt only
+  constexpr int rounds = 30;  // the length depends on the force only by a fraction of the tilt
   const double half = 0.5 * tilt, along_normal = push.turns ? -std::sin(half) : std::sin(half);
   double force = 0, pressed = 0;
   for (int i = 0; i < rounds; ++i) {
@@ -55,10 +55,10 @@ Tipping tipping(const PushedColumn& c, const Push& push) {
 
 double tilt_under(const PushedColumn& c, const Push& push, double force) {
   const Tipping limit = tipping(c, push);
-  // where the whole base is pressed but for its end
+  // at which the whole base is pressed but for its end
   double low = 1.001 * 2 * c.weight / (c.stiffness * c.breadth * c.breadth), high = limit.tilt;
   if (!(force < limit.force) || !(force > push_at(c, push, low)))
-    throw std::invalid_argument("pushed column: it does not rest on a part of its base under this force");
+    throw std::invalid_argument("pushed column: under this force it has no equilibrium on a part of its base");
   while (high - low > 1e-14 * high) {
     const double middle = 0.5 * (low + high);
     (push_at(c, push, middle) < force ? low : high) = middle;

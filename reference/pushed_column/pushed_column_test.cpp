@@ -13,24 +13,24 @@ namespace {
 TEST(PushedColumn, WorkedByHand) {
   const PushedColumn column;
   EXPECT_NEAR(rigid_push(column, {0, 3}), 12'262.5, 1e-9);
-  constexpr double left_out = 5e-3 * 0.052;  // by the first order: that much of what the joint costs
+  constexpr double left_out = 5e-3 * 0.052;  // neglected by the first order: that fraction of the joint's effect
   EXPECT_NEAR(push_at(column, {0, 3}, 5e-3) / 11'625.4, 1, left_out);
   EXPECT_NEAR(push_at(column, {0, 3, true}, 5e-3) / 11'635.1, 1, left_out);
-  // the line of a force that turns is all that counts
+  // of a force that turns only the line of action matters
   EXPECT_NEAR(push_at(column, {0, 3, true}, 5e-3), push_at(column, {-0.5, 3, true}, 5e-3), 1e-7);
   EXPECT_LT(push_at(column, {-0.5, 3}, 5e-3), push_at(column, {0, 3}, 5e-3)) << "its point rises";
 }
 
-// Strips of the base that press, each along the normal half way, and what forces and moments about the middle of the
-// upright base then leave: the balance that the closed form takes about another point.
-TEST(PushedColumn, BalancesItsPressuresSummedUp) {
+// Strips of the base in contact, each pressed along the normal half way, and the residual forces and moments about the
+// middle of the upright base: the balance that the closed form takes about another point.
+TEST(PushedColumn, BalancesTheSumOfItsPressures) {
   for (const bool turns : {false, true})
     for (const double tilt : {2e-3, 2e-2}) {
       const PushedColumn c{1.2, 2.5, 6e4, 3e9};
       const Push push{-0.4, 2.1, turns};
       const double force = push_at(c, push, tilt), half = 0.5 * tilt, nx = std::sin(half), ny = std::cos(half);
       const double fx = turns ? force * std::cos(tilt) : force, fy = turns ? -force * std::sin(tilt) : 0;
-      // what the joint must give, its part along the normal, and the length that makes it
+      // required force of the joint, its part along the normal, and the length that gives it
       const double jx = -fx, jy = c.weight - fy, normal = jx * nx + jy * ny, shear = jx * ny - jy * nx;
       constexpr int strips = 4000;
       double length = 0.1, sum = 0, moment = 0;
@@ -60,7 +60,7 @@ TEST(PushedColumn, BalancesItsPressuresSummedUp) {
     }
 }
 
-TEST(PushedColumn, LacksTheCubeRootOfItsStiffness) {
+TEST(PushedColumn, ApproachesTheRigidForceByTheCubeRootOfTheCompliance) {
   PushedColumn column;
   const Push push{0, 3, true};
   double last = 0;
@@ -79,14 +79,14 @@ TEST(PushedColumn, LacksTheCubeRootOfItsStiffness) {
   }
 }
 
-TEST(PushedColumn, KnowsNoUnits) {
+TEST(PushedColumn, IsIndependentOfUnits) {
   const PushedColumn one{1, 3, 7e4, 1e10}, other{0.2, 0.6, 7e4 * 25, 1e10 * 25 / 0.04};
   const Tipping a = tipping(one, {-0.3, 2}), b = tipping(other, {-0.06, 0.4});
   EXPECT_NEAR(a.force / one.weight, b.force / other.weight, 1e-9);
   EXPECT_NEAR(a.tilt, b.tilt, 1e-6);  // a flat maximum
 }
 
-TEST(PushedColumn, RestsOnTheStableSideOnly) {
+TEST(PushedColumn, HasItsStableEquilibriumBelowTheLargestForceOnly) {
   const PushedColumn column;
   const Push push{-0.5, 3};
   const Tipping limit = tipping(column, push);
@@ -99,7 +99,7 @@ TEST(PushedColumn, RestsOnTheStableSideOnly) {
   EXPECT_THROW(push_at(column, push, 0), std::invalid_argument);
 }
 
-TEST(FreeBlock, RidesItsIntegrals) {
+TEST(FreeBlock, MovesByTheIntegralsOfItsForce) {
   // from rest at the crest of the force: F/(m ω²) (1 - cos ωt); from its zero the block drifts with F/(m ω)
   const double w = 7, pi = std::acos(-1.0);
   EXPECT_NEAR(shaken_ride(3, w, pi / 2, 0.4).way, 3 / (w * w) * (1 - std::cos(w * 0.4)), 1e-14);
@@ -109,12 +109,12 @@ TEST(FreeBlock, RidesItsIntegrals) {
 }
 
 TEST(FreeBlock, SpinsUpAlongFresnelsIntegrals) {
-  // for small turns the way aside is a α t⁴/24
+  // for small turns the sideways displacement is a α t⁴/24
   const Spiral small = spun_up(2, 1e-3, 1);
   EXPECT_NEAR(small.along, 1, 1e-7);
   EXPECT_NEAR(small.aside, 2e-3 / 24, 1e-10);
   EXPECT_NEAR(small.turn, 5e-4, 1e-15);
-  // its velocity tends to a (π/(4 α))^1/2 along and aside: C and S go to a half
+  // its velocity tends to a (π/(4 α))^1/2 along and sideways: C and S tend to a half
   const double late = 400, step = 1;
   const Spiral one = spun_up(1, 0.05, late), other = spun_up(1, 0.05, late + step);
   const double speed = std::sqrt(std::acos(-1.0) / (4 * 0.05));

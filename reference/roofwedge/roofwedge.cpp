@@ -30,7 +30,7 @@ Matrix3d stress_of(const RoofWedge& wedge) {
   return stress;
 }
 
-// the force that rock and weight leave unbalanced when the roof is cut
+// the unbalanced force of rock and weight when the roof is cut
 Vector3d load_of(const RoofWedge& wedge, const RoofWedgeFaces& faces) {
   const double weight = wedge.density * wedge.gravity * faces.volume;
   return -weight * Vector3d::UnitZ() - faces.base_area * (stress_of(wedge) * Vector3d::UnitZ());
@@ -39,7 +39,7 @@ Vector3d load_of(const RoofWedge& wedge, const RoofWedgeFaces& faces) {
 RoofWedgeState follow(const RoofWedge& wedge, const RoofWedgeSettings& settings) {
   const RoofWedgeFaces faces = roof_wedge_faces(wedge);
   const Matrix3d stress = stress_of(wedge);
-  // the in-situ tractions stand on the joints before the roof is cut; with the base's they balance
+  // the in-situ tractions act on the joints before the roof is cut; with the base's they balance
   std::vector<BlockJoint> joints;
   BlockState state;
   Vector3d in_situ = Vector3d::Zero();
@@ -65,9 +65,9 @@ RoofWedgeState follow(const RoofWedge& wedge, const RoofWedgeSettings& settings)
     return all;
   };
   if (!equilibrate(joints, tangents(settings.friction_start), load, size, size / softest, state))
-    throw std::domain_error("roof wedge: it does not hold at friction_start");
+    throw std::domain_error("roof wedge: the wedge is not stable at friction_start");
 
-  // the step is halved for good where equilibrium is lost
+  // the step is halved, and stays so, if equilibrium is lost
   double friction = settings.friction_start, step = settings.friction_step;
   while (step > settings.smallest_step && friction > 0) {
     const double next = std::max(0.0, friction - step);
@@ -94,7 +94,7 @@ RoofWedgeFaces roof_wedge_faces(const RoofWedge& wedge) {
   std::array<Vector3d, 3> up;
   for (int i = 0; i < 3; ++i) {
     const RoofPlane& plane = wedge.planes[i];
-    require(plane.dip > 0 && plane.dip < 0.5 * std::numbers::pi, "a dip must lie between 0 and pi/2 radians");
+    require(plane.dip > 0 && plane.dip < 0.5 * std::numbers::pi, "a dip must be between 0 and pi/2 radians");
     require(plane.strength > 0, "strengths must be positive");
     up[i] = to_eigen(upward_normal(plane.dip, plane.dip_direction));
     faces.normal[i] = {-up[i][0], -up[i][1], -up[i][2]};
@@ -105,7 +105,7 @@ RoofWedgeFaces roof_wedge_faces(const RoofWedge& wedge) {
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3, k = (i + 2) % 3;
     Vector3d line = up[j].cross(up[k]);
-    require(std::abs(line[2]) > 1e-9, "two planes meet in a level line");
+    require(std::abs(line[2]) > 1e-9, "two planes intersect in a horizontal line");
     line *= -wedge.height / line[2];
     corner[i] = apex + line;
     require(up[i].dot(line) < 0, "the planes do not enclose a wedge below their apex");
@@ -148,7 +148,7 @@ RoofWedgeState first_slip(const RoofWedge& wedge) {
 
 RoofWedgeState collapse(const RoofWedge& wedge, const RoofWedgeSettings& settings) {
   require(settings.friction_start > 0 && settings.friction_start < 0.5 * std::numbers::pi,
-          "friction_start must lie between 0 and pi/2 radians");
+          "friction_start must be between 0 and pi/2 radians");
   require(settings.friction_step > settings.smallest_step && settings.smallest_step > 0,
           "friction_step must exceed smallest_step, and both must be positive");
   RoofWedgeSettings finer = settings;

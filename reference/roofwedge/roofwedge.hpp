@@ -5,15 +5,15 @@
 // A wedge in a flat roof, held by the in-situ stress on three joints: the joint relaxation of Goodman, Shi & Boyle
 // (1982), Calculation of support for hard, jointed rock using the keyblock principle; Boon (2013), section 4.9.
 //
-// x east, y north, z up; SI, angles in radians. The three planes meet in an apex above the roof, the wedge lies below
-// all of them and above the roof at z = 0. It translates only.
+// x east, y north, z up; SI, angles in radians. The three planes meet in an apex above the roof, the wedge is below all
+// of them and above the roof at z = 0. It translates only.
 namespace voussoir::reference {
 
 using Vector3 = std::array<double, 3>;
 
 struct RoofPlane {
   double dip = 0, dip_direction = 0;  // 0 < dip < pi/2; clockwise from north
-  double strength = 1;                // tan of its friction angle over that of the common one, which is what is sought
+  double strength = 1;                // tan of its friction angle over that of the common one, which is sought
 };
 
 struct RoofWedge {
@@ -47,18 +47,18 @@ struct RoofWedgeState {
 //   sum A [kn n n^T + ks (I - n n^T)] d = -W e_z - P e_z A_base,
 //   N = A n.P n - kn A n.d,   T = A (I - n n^T) P n - ks A (I - n n^T) d,
 // and the plane with the greatest |T|/(N strength) slips at tan(friction) = that. Only kn/ks matters for the angle.
-// Throws std::domain_error when a plane opens, for then the joints are not linear.
+// Throws std::domain_error when a plane opens, since the joints are then not linear.
 RoofWedgeState first_slip(const RoofWedge& wedge);
 
 struct RoofWedgeSettings {
-  double friction_start = 1.3;   // rad: holds without slip
+  double friction_start = 1.3;   // rad: stable without slip
   double friction_step = 2e-4;   // rad
   double smallest_step = 1e-10;  // rad: the bracket on the collapse angle
 };
 
 // Collapse: friction falls from `friction_start`, planes slip one after the other at their Coulomb limits (elastic,
 // perfectly plastic, no dilation), until no equilibrium is left. The state is the last in equilibrium. Throws
-// std::domain_error when the wedge does not hold at the start.
+// std::domain_error when the wedge is not stable at the start.
 RoofWedgeState collapse(const RoofWedge& wedge, const RoofWedgeSettings& settings = {});
 
 }  // namespace voussoir::reference

@@ -48,7 +48,7 @@ TEST(RoofWedge, HasItsPublishedNumbers) {
   EXPECT_NEAR(first_slip(thesis_wedge(9.81)).friction / degree, 34.318632, 5.1e-7);
 }
 
-// the closed surface of the wedge carries no resultant area, and what the joints carry is what was cut and its weight
+// the closed surface of the wedge has no resultant area, and the joints' forces balance the cut traction and the weight
 TEST(RoofWedge, FacesCloseAndForcesBalance) {
   RoofWedge w = unequal_wedge();
   w.stress = {60e3, 45e3, 10e3, 2e3, -3e3, 5e3};
@@ -87,7 +87,7 @@ TEST(RoofWedge, OnlyTheRatioOfStiffnessesAndOfStressToWeightMatters) {
   EXPECT_GT(std::abs(first_slip(w).friction - slip), 0.1 * degree);
 }
 
-// with rigid joints in shear nothing relaxes: N stays what the stress gives
+// with rigid joints in shear nothing relaxes: N stays as given by the in-situ stress
 TEST(RoofWedge, StiffShearKeepsTheNormalForces) {
   RoofWedge w = thesis_wedge();
   w.shear_stiffness = 1e6 * w.normal_stiffness;
@@ -96,7 +96,7 @@ TEST(RoofWedge, StiffShearKeepsTheNormalForces) {
   EXPECT_NEAR(s.normal_force[0] / (0.75 * 0.05e6 * faces.area[0]), 1, 1e-5);
 }
 
-// equal planes slip together, and nothing is left to hold
+// equal planes slip together, and no reserve is left
 TEST(RoofWedge, EqualPlanesCollapseAtFirstSlip) {
   const RoofWedge w = thesis_wedge();
   const RoofWedgeState fall = collapse(w);
@@ -104,7 +104,7 @@ TEST(RoofWedge, EqualPlanesCollapseAtFirstSlip) {
   EXPECT_NEAR(fall.displacement[2], first_slip(w).displacement[2], 1e-9);
 }
 
-TEST(RoofWedge, UnequalPlanesHoldOnAfterFirstSlip) {
+TEST(RoofWedge, UnequalPlanesRemainStableAfterFirstSlip) {
   for (RoofWedge w : {unequal_wedge(), wedge_of({60, 60, 60}, {30, 150, 270})}) {
     if (w.planes[0].dip == w.planes[1].dip) w.planes[1].strength = 1.3;
     const RoofWedgeState slip = first_slip(w), fall = collapse(w);
@@ -135,7 +135,7 @@ bool holds_by_dynamics(const RoofWedge& w, double target) {
   const double from = 60 * degree;
   constexpr int fall = 60000, wait = 40000;
   for (int k = 0; k < fall + wait; ++k) {
-    // gravity and the cut come on while friction is high, then friction falls
+    // gravity and the cut are applied while friction is high, then friction falls
     const double on = std::min(1.0, k / 5000.0), down = std::clamp((k - 8000) / (fall - 8000.0), 0.0, 1.0);
     const double tangent = std::tan(from + (target - from) * down);
     Vector3d force = Vector3d(0, 0, -on * weight) + (1 - on) * faces.base_area * (stress * Vector3d::UnitZ());
@@ -164,7 +164,7 @@ TEST(RoofWedge, CollapseAgreesWithDynamics) {
   }
 }
 
-TEST(RoofWedge, RefusesWhatIsNoWedge) {
+TEST(RoofWedge, RefusesPlanesThatFormNoWedge) {
   EXPECT_THROW(roof_wedge_faces(wedge_of({60, 60, 60}, {30, 60, 90})), std::invalid_argument);
   EXPECT_THROW(roof_wedge_faces(wedge_of({60, 60, 95}, {30, 150, 270})), std::invalid_argument);
   EXPECT_THROW(roof_wedge_faces(wedge_of({60, 60, 60}, {30, 210, 120})), std::invalid_argument);

@@ -8,7 +8,7 @@
 namespace voussoir::reference {
 namespace {
 
-// normals of two planes whose sine is below this are parallel: sets of one orientation, whose rounding this is
+// normals of two planes whose sine is below this are parallel: sets of one orientation differ by rounding only
 constexpr double parallel = 1e-12;
 
 using Point2 = std::array<double, 2>;
@@ -33,7 +33,7 @@ bool inside(const std::array<double, Dim>& p, const Box<Dim>& box) {
   return true;
 }
 
-// whether a plane meets the interior: the box's corners lie on both of its sides
+// whether a plane meets the interior: the box's corners are on both of its sides
 template <int Dim>
 bool meets(const std::array<double, Dim>& normal, double offset, const Box<Dim>& box) {
   double least = -offset, most = -offset;

@@ -1,6 +1,6 @@
-// How many pieces planes in general position cut a convex body into, counted without cutting it: every plane, every
-// line that two of them share and every point that three of them share adds one piece if it meets the body's interior
-// (Buck 1943, Am. Math. Monthly 50; Zaslavsky 1975). And the area that a chain of lines bounds.
+// The number of pieces into which planes in general position cut a convex body, counted without cutting it: every
+// plane, every line that two of them share and every point that three of them share adds one piece if it meets the
+// body's interior (Buck 1943, Am. Math. Monthly 50; Zaslavsky 1975). Also the area that a chain of lines bounds.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ struct Box {
   std::array<double, Dim> low, high;
 };
 
-// Planes that are parallel share no line. No two may be the same, and no more than two lines (three planes) may share a
+// Planes that are parallel share no line. No two may coincide, and no more than two lines (three planes) may share a
 // point.
 long long pieces(const std::vector<Line2>& lines, const Box<2>& box);
 long long pieces(const std::vector<Plane3>& planes, const Box<3>& box);

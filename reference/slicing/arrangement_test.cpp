@@ -27,7 +27,7 @@ TEST(Arrangement, GridsOfParallelPlanes) {
 }
 
 TEST(Arrangement, PlanesInGeneralPositionThatAllCrossInside) {
-  // tangents of a small circle and of a small sphere about the middle: every crossing lies inside
+  // tangents of a small circle and of a small sphere about the middle: every crossing is inside
   std::vector<Line2> lines;
   std::vector<Plane3> planes;
   for (int i = 0; i < 7; ++i) {
@@ -39,7 +39,7 @@ TEST(Arrangement, PlanesInGeneralPositionThatAllCrossInside) {
   EXPECT_EQ(pieces(planes, cube), 1 + 7 + 21 + 35);
 }
 
-TEST(Arrangement, WhatLiesOutsideAddsNothing) {
+TEST(Arrangement, CrossingsOutsideAddNothing) {
   EXPECT_EQ(pieces({{{1, 0}, 1.5}, {{1, 1}, 1.9}, {{1, -1}, 1.9}}, square), 3);  // the last two meet at x = 1.9
   EXPECT_EQ(pieces({{{1, 1, 0}, 1.9}, {{1, -1, 0}, 1.9}, {{0, 0, 1}, 0.5}}, cube), 6);
 }

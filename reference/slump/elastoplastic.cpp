@@ -11,12 +11,12 @@
 namespace voussoir::reference {
 namespace {
 
-// a trial rests when no block's force is farther from balance than this fraction of the mean weight
+// a trial is in equilibrium when no block's residual force exceeds this fraction of the mean weight
 constexpr double balanced = 1e-7;
 // it has collapsed when a corner has moved by this many times the elastic displacement under the whole height's weight
 constexpr double far_away = 30;
-// of one trial: hundreds of times what those far from the critical angle take; a slide whose forces are nearly in
-// balance, 2e-6 of the mean weight, takes six million
+// of one trial: hundreds of times the number that trials far from the critical angle take; a slide whose forces are
+// nearly in balance, 2e-6 of the mean weight, takes six million
 constexpr int most_sweeps = 20'000'000;
 constexpr double mass_reserve = 1.1;  // above the bound on the stiffest mode: slip and gaps never stiffen a spring
 
@@ -79,13 +79,13 @@ struct Grid {
     return {u * std::cos(slope.base_dip) + v * std::cos(slope.dip),
             -u * std::sin(slope.base_dip) + v * std::sin(slope.dip)};
   }
-  // some of the cell above and behind it lies in the slope
+  // part of the cell above and behind it is in the slope
   bool is_block(int layer, int row) const {
     return layer < slope.layers && row >= 0 && std::min(node(layer, row).y, node(layer + 1, row).y) < slope.height;
   }
 };
 
-// what a convex line of points has below the top; a line is closed when it has more than two
+// the part of a convex line of points below the top; a line is closed when it has more than two
 std::vector<Point> below_top(const std::vector<Point>& line, double top) {
   std::vector<Point> kept;
   const std::size_t sides = line.size() > 2 ? line.size() : line.size() - 1;
@@ -103,7 +103,7 @@ Point along(const Point& normal) {
   return {-normal.y, normal.x};
 }
 
-// how a block's freedoms move a place
+// the displacement of a place by a block's freedoms
 Lever lever(const Assembly& assembly, int block, const Point& place, const Point& normal) {
   if (block < 0) return {};
   const Point &c = assembly.blocks[block].centroid, tangent = along(normal);
@@ -220,8 +220,8 @@ std::vector<Freedoms> moved_since(const Assembly& assembly, const std::vector<Fr
   return moved;
 }
 
-// Relaxes until rest (true) or until a block has moved away (false). The damping is that of the softest mode in motion:
-// twice the root of its stiffness over its mass, from what the last sweep changed (Underwood 1983).
+// Relaxes until equilibrium (true) or until a block has moved away (false). The damping is that of the softest mode in
+// motion: twice the square root of its stiffness over its mass, from the changes in the last sweep (Underwood 1983).
 bool comes_to_rest(Assembly& assembly, double friction, double away, long long& sweeps) {
   const std::vector<Freedoms> start = assembly.displacement;
   double mean_weight = 0;
@@ -255,7 +255,7 @@ bool comes_to_rest(Assembly& assembly, double friction, double away, long long& 
       }
     before.swap(forces);
   }
-  throw std::runtime_error("the blocks neither come to rest nor move away");
+  throw std::runtime_error("the blocks neither reach equilibrium nor move away");
 }
 
 std::vector<SlopeBlockMotion> describe(const Assembly& assembly, const std::vector<Freedoms>& moved) {
@@ -269,7 +269,7 @@ std::vector<SlopeBlockMotion> describe(const Assembly& assembly, const std::vect
   return motion;
 }
 
-// The blocks at rest under a friction; nothing where it does not hold them.
+// The blocks in equilibrium under a friction; empty if it does not hold them.
 std::optional<Assembly> settle(const LayeredSlope& slope, double friction, double away, long long& sweeps) {
   Assembly assembly = build(slope);
   set_masses(assembly);

@@ -1,5 +1,5 @@
 // A slope of steep layers on a base that dips into it, as rigid blocks on elastic, perfectly plastic Coulomb springs
-// that do not dilate: relaxed to equilibrium by a plain loop. The second opinion on limit analysis, whose joints open
+// that do not dilate: relaxed to equilibrium by a plain loop. A second opinion beside limit analysis, whose joints open
 // as they slip.
 #pragma once
 
@@ -19,7 +19,7 @@ struct LayeredSlope {
   double normal_stiffness = 0, shear_stiffness = 0;  // Pa/m
 };
 
-// what a block does in the collapse, relative to the largest motion of any corner
+// a block's motion in the collapse, relative to the largest motion of any corner
 struct SlopeBlockMotion {
   int layer = 0, row = 0;  // from the face, from the base
   double x = 0, y = 0;     // of its centroid, 1
@@ -35,12 +35,12 @@ struct SlopeCollapse {
 
 // The blocks settle at `from`; friction is then bisected between `from`, which must hold them, and `to`, which must
 // not, to a bracket of `tolerance`; every trial continues from the last equilibrium. Displacements are small: the
-// geometry stays, so that only the ratio of the stiffnesses matters. Throws std::runtime_error where an end of the
-// range is on the wrong side, or a trial neither comes to rest nor moves away.
+// geometry stays, so that only the ratio of the stiffnesses matters. Throws std::runtime_error if an end of the range
+// is on the wrong side, or a trial neither reaches equilibrium nor moves away.
 SlopeCollapse elastoplastic_collapse(const LayeredSlope& slope, double from, double to, double tolerance);
 
-// The same between the first of the friction coefficients 1, 2, 4 and 8 that holds the blocks, and none. Throws
-// std::runtime_error also where the last does not hold them.
+// The same between the first of the friction coefficients 1, 2, 4 and 8 that holds the blocks, and zero. Throws
+// std::runtime_error also if the last does not hold them.
 SlopeCollapse elastoplastic_collapse(const LayeredSlope& slope, double tolerance);
 
 std::vector<double> slope_block_areas(const LayeredSlope& slope);  // m², layer by layer, from the base upwards

@@ -1,4 +1,4 @@
-// The slope of blocks that slip without opening: against closed forms where it has them, and against itself.
+// The slope of blocks that slip without opening: against closed forms if there are any, and against itself.
 #include "reference/slump/elastoplastic.hpp"
 #include "text/angle.hpp"
 
@@ -25,7 +25,7 @@ TEST(ElastoplasticSlope, OfOneBlockSlidesAtTheDipOfItsBase) {
   const SlopeCollapse found = elastoplastic_collapse(slope, 60 * degree, 5 * degree, 0.001 * degree);
   ASSERT_EQ(found.motion.size(), 1u);
   EXPECT_LT(found.collapses, 20 * degree);
-  EXPECT_GE(found.stands, 20 * degree - 1e-7) << "what the force left at rest is worth";
+  EXPECT_GE(found.stands, 20 * degree - 1e-7) << "the residual force in equilibrium as an angle";
   EXPECT_NEAR(found.motion[0].y / found.motion[0].x, std::tan(20 * degree), 1e-3) << "along the base";
 }
 
@@ -42,7 +42,7 @@ TEST(ElastoplasticSlope, TurnsItsOuterLayerAt1534) {
   }
 }
 
-// neither stiffness, nor their ratio, nor where the search begins moves the angle
+// neither stiffness, nor their ratio, nor the start of the search changes the angle
 TEST(ElastoplasticSlope, DependsOnNoStiffnessAndNoPath) {
   constexpr double bracket = 0.005 * degree;
   const SlopeCollapse as_it_is = elastoplastic_collapse(slope_s0(), 60 * degree, 5 * degree, bracket);
@@ -64,7 +64,7 @@ TEST(ElastoplasticSlope, FindsItsOwnRange) {
   }
 }
 
-// Wherever the top cuts the cells, the blocks fill the layers: as long, along the dip, as in their middle.
+// At every height of the top through the cells, the blocks fill the layers: as long, along the dip, as in their middle.
 TEST(ElastoplasticSlope, FillsItsLayersUpToTheTop) {
   for (const double base_dip : {-10, 0, 5, 8})
     for (const double spacing : {3.1, 7.9, 16.0}) {

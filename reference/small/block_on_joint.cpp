@@ -15,7 +15,7 @@ double mass_of(const BlockOnJoint& block) {
   return block.density * block.breadth * block.height;
 }
 
-// m that the centroid is above the plane where the joint carries this force
+// m of the centroid above the plane at which the joint has this force
 double height_that_carries(const BlockOnJoint& block, double turn, double force) {
   const double b = block.breadth, h = block.height;
   double high = 0.5 * (b * std::sin(turn) + h * std::cos(turn)), low = 0.5 * high;
@@ -40,8 +40,8 @@ double slope_balanced(const BlockOnJoint& block, double turn) {
 // `sheared` elastically
 enum Entry { above_, rising_, along_, sliding_, turn_, spin_, sheared_, entries_ };
 
-// So often, in swings of the block on its joint, is shear settled that lies beyond Coulomb's limit. A fifth of it moves
-// the slip of a foot by less than 1 in 10 000.
+// Time between two returns of shear to Coulomb's limit, in periods of the block on its joint. A fifth of it changes the
+// slip of a foot by less than 1 in 10 000.
 constexpr double settled_each = 0.07;
 
 }  // namespace
@@ -50,7 +50,7 @@ JointPress press_on_joint(const BlockOnJoint& block, double above, double turn) 
   const double b = block.breadth, h = block.height;
   const bool back = turn < 0;  // the mirror image
   const double s = std::sin(std::abs(turn)), c = std::cos(turn), half = std::cos(0.5 * turn);
-  // both corners, how deep they are, and how that goes with the turn
+  // both corners, their depths, and the depth's derivative by the turn
   const JointPress::Place low{0.5 * (b * c - h * s), -0.5 * (b * s + h * c)}, high{low.x - b * c, low.y + b * s};
   const double d = -low.y - above, e = -high.y - above;
   JointPress p;
@@ -59,7 +59,7 @@ JointPress press_on_joint(const BlockOnJoint& block, double above, double turn) 
 
   // E = k f/(6 cos^7(t/2))
   double f, by_depth, by_turn;
-  JointPress::Place end;  // the other end of what is pressed
+  JointPress::Place end;  // the other end of the length in contact
   const double up = 0.5 / (half * half);
   if (e > 0) {
     f = b * (d * d + d * e + e * e);
@@ -90,7 +90,7 @@ double greatest_resting_slope(const BlockOnJoint& block) {
   const double b = block.breadth, h = block.height, k = block.normal_stiffness, weight = mass_of(block) * block.gravity;
   if (!(b > 0 && h > 0 && k > 0 && weight > 0))
     throw std::invalid_argument("greatest_resting_slope: all must be positive");
-  // golden section in the logarithm of the turn, from about where an end of the face lifts off
+  // golden section in the logarithm of the turn, from about the turn at which an end of the face lifts off
   double low = std::log(2 * weight / (k * b * b)), high = std::log(0.25 * b / h);
   if (!(low < high)) throw std::invalid_argument("greatest_resting_slope: the joint is too soft");
   constexpr double golden = 0.61803398874989485;
@@ -109,7 +109,7 @@ JointStart start_on_joint(const BlockOnJoint& block, double turn, double time) {
   const double inertia = mass * (b * b + h * h) / 12, friction = std::tan(block.friction_angle);
   const double along = block.gravity * std::sin(block.slope), into = block.gravity * std::cos(block.slope);
 
-  // with the dashpot, which acts half way along what is pressed
+  // with the dashpot, which acts half way along the length in contact
   const auto normal_force = [&](const JointPress& p, const double* s) {
     const double dashpot = 2 * block.dashpot_ratio * std::sqrt(block.normal_stiffness * p.length * mass);
     return std::max(p.force - dashpot * (s[rising_] - s[spin_] * p.centre.x), 0.0);
@@ -139,7 +139,7 @@ JointStart start_on_joint(const BlockOnJoint& block, double turn, double time) {
     start.turn = state[turn_];
     const JointPress p = press_on_joint(block, state[above_], state[turn_]);
     start.slip = state[along_] + p.corner.x - 0.5 * b;
-    // what has come under pressure is not sheared yet, and what lies beyond Coulomb's limit is slip
+    // length newly in contact is not sheared yet, and shear beyond Coulomb's limit is slip
     if (p.length > length && length > 0) state[sheared_] *= length / p.length;
     length = p.length;
     const double most = length > 0 ? friction * normal_force(p, state.data()) / (block.shear_stiffness * length) : 0;

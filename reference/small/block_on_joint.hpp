@@ -3,9 +3,9 @@
 // A block on an inclined plane that is wider, on an elastic joint without tension, whose normal and shear stiffness are
 // spread along the face. SI units, radians, per metre of width; a block leans by `turn` down the slope.
 //
-// At the turn t a block whose lower and upper corner lie d and e beneath the plane overlaps the plane in a wedge or,
-// where both do, in a strip. Along the line that halves the angle between face and plane, from one side of the block to
-// the other or to where face and plane meet, the overlap u is linear and the energy
+// At the turn t a block whose lower and upper corner are d and e beneath the plane overlaps the plane in a wedge or, if
+// both are beneath, in a strip. Along the line that halves the angle between face and plane, from one side of the block
+// to the other or to the intersection of face and plane, the overlap u is linear and the energy
 //
 //   E = k/2 int u^2 = k (d^3 - max(e, 0)^3)/(6 sin t cos^7(t/2)),
 //
@@ -25,7 +25,7 @@ struct BlockOnJoint {
   double ramp = 0;                  // s in which gravity grows from nothing, in proportion to time
 };
 
-// What the joint does to the block at a turn, its centroid `above` the plane; |turn| < pi/2.
+// Force of the joint on the block at a turn, its centroid `above` the plane; |turn| < pi/2.
 struct JointPress {
   struct Place {
     double x = 0, y = 0;  // m from the centroid: down the slope, off the plane
@@ -33,19 +33,19 @@ struct JointPress {
   double energy = 0;     // J/m, E
   double force = 0;      // N/m off the plane, -dE/d above
   double moment = 0;     // N m/m down the slope about the centroid, -dE/d turn
-  double length = 0;     // m of the line that halves the angle, where it is pressed
+  double length = 0;     // m of the line that halves the angle, in contact
   Place centre, corner;  // of that length; the lower one of the block
 };
 JointPress press_on_joint(const BlockOnJoint& block, double above, double turn);
 
-// The greatest slope at which the block rests, whatever its friction: the largest over all turns of the slope that a
-// turn balances, exact in the turn. Throws std::invalid_argument where a number is not positive, or where the whole
-// face is still pressed at a quarter of the turn that overturns a rigid block.
+// The greatest slope at which the block is in equilibrium, whatever its friction: the largest over all turns of the
+// slope that a turn balances, exact in the turn. Throws std::invalid_argument if a number is not positive, or if the
+// whole face is still pressed at a quarter of the turn that overturns a rigid block.
 double greatest_resting_slope(const BlockOnJoint& block);
 
 // The start from rest, the face just touching: Newton's laws of the block's three freedoms in time. Shear acts along
-// the plane, half way along what is pressed, and follows Coulomb's law; length that is no longer pressed takes its
-// shear with it. The dashpot acts at the same place.
+// the plane, half way along the length in contact, and follows Coulomb's law; length that loses contact takes its shear
+// with it. The dashpot acts at the same place.
 struct JointStart {
   double slip = 0;  // m that the lower corner has moved down the plane
   double turn = 0;  // rad

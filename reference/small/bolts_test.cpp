@@ -17,7 +17,7 @@ TEST(Bolts, OverAJointByPythagoras) {
 
 TEST(Bolts, ShareAPretensionWithTheJointLikeTwoSpringsInARow) {
   const double left = pretension_left(100, 2, 4, 3);
-  EXPECT_NEAR((100 - left) / 2, left / 12, 1e-12) << "the bolt shortens by what the joint closes";
+  EXPECT_NEAR((100 - left) / 2, left / 12, 1e-12) << "the bolt shortens by the closure of the joint";
 }
 
 TEST(Bolts, HoldABlockByForceAndByPressure) {

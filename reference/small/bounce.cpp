@@ -104,17 +104,17 @@ BounceResult with_gravity(double z, double gravity) {
   const Free start{-gravity, 1};
   BounceResult result;
   const double turn = first_zero(derivative(start, z), z, 0);
-  // over-damped and slow: the overlap creeps up to its rest value
+  // over-damped and slow: the overlap creeps up to its static value
   result.maximum_overlap = gravity + (std::isfinite(turn) ? free_motion(start, z, turn).value : 0);
 
-  // The force is zero where the acceleration equals gravity: on its way up to its first maximum after the start.
+  // The force is zero when the acceleration equals gravity: as it rises to its first maximum after the start.
   const Free acceleration = derivative(derivative(start, z), z), jerk = derivative(acceleration, z);
   double low = 0, high = first_zero(jerk, z, 0);
   if (jerk.value < 0 || (jerk.value == 0 && jerk.slope < 0)) {
     low = high;
     high = std::isfinite(low) ? first_zero(jerk, z, low * (1 + 1e-12)) : low;
   }
-  // The over-damped acceleration may rise for ever: it tends to zero, below gravity.
+  // The over-damped acceleration may rise without end: it tends to zero, below gravity.
   const Force force{acceleration, z, gravity};
   Force probe = force;
   if (!std::isfinite(high) || force_over_mass(high, &probe) > 0) {

@@ -29,7 +29,7 @@ struct Motion {
 double incomplete_integral(double phi, double parameter) {
   gsl_sf_result result;
   require(gsl_sf_ellint_F_e(phi, std::sqrt(parameter), GSL_PREC_DOUBLE, &result) == GSL_SUCCESS,
-          "the start lies on the middle axis, where the motion is unstable; tilt it");
+          "the start is on the middle axis, about which rotation is unstable; tilt it");
   return result.val;
 }
 
@@ -120,7 +120,7 @@ double free_rotation_period(const FreeRotation& body) {
 std::array<double, 3> free_rotation_in_space(const FreeRotation& body, double time) {
   require(time >= 0, "time must not be negative");
   double fastest = 0;
-  for (int i = 0; i < 3; ++i)  // the energy bounds what each axis can have
+  for (int i = 0; i < 3; ++i)  // the energy bounds the velocity about each axis
     for (int k = 0; k < 3; ++k)
       fastest += body.inertia[k] / body.inertia[i] * body.angular_velocity[k] * body.angular_velocity[k];
   const auto steps = static_cast<long>(std::ceil(time * std::sqrt(fastest) / largest_turn)) + 1;

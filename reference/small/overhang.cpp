@@ -22,13 +22,13 @@ std::vector<double> tilts_at(const OverhangStack& stack, const std::vector<doubl
   return tilt;
 }
 
-// Where the weights come to lie when the joints give as forces at `distance` make them: blocks are put on each other
-// from the ground up. Turns are clockwise, the edge of the ground is the origin.
+// Positions of the weights when the joints deform under forces at `distance`: blocks are put on each other from the
+// ground up. Rotations are clockwise, the edge of the ground is the origin.
 std::vector<double> distances_after(const OverhangStack& stack, const std::vector<double>& overhangs,
                                     const std::vector<double>& distance) {
   const int n = stack.blocks;
   const std::vector<double> tilt = tilts_at(stack, distance);
-  std::vector<Place> edge(n + 1), centre(n);  // edge[j]: upper right corner of what is below joint j + 1
+  std::vector<Place> edge(n + 1), centre(n);  // edge[j]: upper right corner of the block below joint j + 1
   std::vector<double> turn(n + 1);            // of the same
   for (int j = n - 1; j >= 0; --j) {
     const double pressed = 3 * distance[j];
@@ -48,7 +48,7 @@ std::vector<double> distances_after(const OverhangStack& stack, const std::vecto
   return after;
 }
 
-// The stack at rest; no distances when it falls. From the untilted stack the distances fall towards the largest
+// The stack in equilibrium; no distances when it falls. From the untilted stack the distances fall towards the largest
 // solution, if there is one, without ever passing it.
 OverhangState rest(const OverhangStack& stack, double fraction) {
   constexpr int limit = 1'000'000;

@@ -18,8 +18,8 @@ TEST(Overhang, IsHalfTheHarmonicSum) {
   EXPECT_DOUBLE_EQ(harmonic_overhang(stack_of(4)), 25.0 / 24);  // the first that passes a whole length
 }
 
-// the claim of the header: weights lie (1 - s) L/2 inside, by summing centroids
-TEST(Overhang, LeavesAllWeightsAlikeInside) {
+// the claim of the header: weights are (1 - s) L/2 inside, by summing centroids
+TEST(Overhang, LeavesAllWeightsEquallyFarInside) {
   for (const double fraction : {1.0, 0.9}) {
     const std::vector<double> overhangs = harmonic_overhangs(stack_of(6), fraction);
     double edge = 0, sum = 0;  // right end of the block, from that of the top; of the centroids above
@@ -31,12 +31,12 @@ TEST(Overhang, LeavesAllWeightsAlikeInside) {
   }
 }
 
-TEST(Overhang, LosesACubeRootToOneElasticJoint) {
+TEST(Overhang, LosesTheCubeRootOfTheComplianceOfOneJoint) {
   const OverhangStack one = stack_of(1);
   const double root = std::cbrt(2 * one.weight * one.height / (9 * one.normal_stiffness));
   const OverhangState limit = elastic_overhang_limit(one);
   EXPECT_NEAR((1 - limit.fraction) / (3 / one.length * root), 1, limit.turn);  // the first order
-  EXPECT_NEAR(limit.distance[0] / root, 1, 0.01);  // a double root: known to the root of the bracket
+  EXPECT_NEAR(limit.distance[0] / root, 1, 0.01);  // a double root: known to the square root of the bracket
 }
 
 // The header's formula, solved for the smallest (1 - s) L/2 by stepping it down from above.
@@ -63,7 +63,7 @@ double first_order_loss(const OverhangStack& stack) {
   return 2 * high / stack.length;
 }
 
-TEST(Overhang, IsTheFirstOrdersForMoreBlocks) {
+TEST(Overhang, IsThatOfTheFirstOrderForMoreBlocks) {
   for (const int blocks : {2, 5}) {
     OverhangStack stack = stack_of(blocks);
     const OverhangState limit = elastic_overhang_limit(stack);

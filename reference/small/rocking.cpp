@@ -65,7 +65,7 @@ double elastic_quarter_period(const RockingBlock& block, double lean, double nor
     const double beside = radius * std::sin(alpha - turn), above = radius * std::cos(alpha - turn);
     const double length = std::max(above - s[y_], 0.0) / std::sin(turn) / std::cos(half);  // of the pressed wedge
     const double pressure = normal_stiffness * std::tan(half) * length * length;
-    // where it acts, from the centroid: two thirds of the wedge from its tip, which lies on the base
+    // its point of action, from the centroid: two thirds of the wedge from its tip, which is on the base
     const double tip = beside - (above - s[y_]) / std::tan(turn);
     const double rx = tip + 2.0 / 3 * length * std::cos(half), ry = -s[y_] - 2.0 / 3 * length * std::sin(half);
     const double slip = (s[speed_x_] + s[spin_] * ry) * std::cos(half) - (s[speed_y_] - s[spin_] * rx) * std::sin(half);
@@ -80,14 +80,14 @@ double elastic_quarter_period(const RockingBlock& block, double lean, double nor
     slope[shear_] = -shear_stiffness * length * slip;
   };
 
-  // at rest the weight is carried upright: pressure and shear are its parts
+  // without motion the weight is supported upright: pressure and shear are its components
   const double length = std::sqrt(weight * std::cos(0.5 * lean) / (normal_stiffness * std::tan(0.5 * lean)));
   std::vector<double> state(entries_, 0.0);
   state[lean_] = lean;
   state[y_] = radius * std::cos(alpha - lean) - length * std::cos(0.5 * lean) * std::sin(lean);
   state[shear_] = -weight * std::sin(0.5 * lean);
 
-  // the last bit, where the wedge grows to the whole face, at constant speed
+  // the last part, in which the wedge grows to the whole face, at constant speed
   const double upright = 1e-3 * lean, step = 1e-3 / rocking_frequency(block);
   double time = 0;
   while (true) {
@@ -95,7 +95,8 @@ double elastic_quarter_period(const RockingBlock& block, double lean, double nor
     if (next[lean_] < upright) break;
     state = next;
     time += step;
-    if (time > 1e3 * housner_quarter_period(block, lean)) throw std::runtime_error("rocking block does not come back");
+    if (time > 1e3 * housner_quarter_period(block, lean))
+      throw std::runtime_error("rocking block: it does not return to upright");
   }
   return time - state[lean_] / state[spin_];
 }

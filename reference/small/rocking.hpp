@@ -22,17 +22,17 @@ double housner_quarter_period(const RockingBlock& block, double lean);
 double rigid_quarter_period(const RockingBlock& block, double lean);
 
 // The same on a joint without tension, whose stiffness (Pa/m) is spread along the face: the corner sinks in, the
-// pressed wedge carries k tan(lean/2) L^2 at a third of its length L from the corner, along the mean of both faces'
+// pressed wedge transfers k tan(lean/2) L^2 at a third of its length L from the corner, along the mean of both faces'
 // normals, and k_s L times the slip of that point across it. Newton's laws of the block's three freedoms, from rest
-// with the weight carried upright, integrated in time.
+// with the weight supported upright, integrated in time.
 double elastic_quarter_period(const RockingBlock& block, double lean, double normal_stiffness, double shear_stiffness);
 
 // Ratio of the speeds after and before a rigid block's impact on its other corner: 1 - 3/2 sin^2 alpha.
 double housner_restitution(const RockingBlock& block);
 
-// Moment (N m/m) that the base exerts about the middle of the face of a block that stands still at this lean: k b^3/12
-// lean while the whole face is pressed, and from lean = 2 W/(k b^2) on, where an end lifts off, W (b/2 - a/3) with the
-// pressed length a = (2 W/(k lean))^1/2. First order in the lean.
+// Moment (N m/m) of the base about the middle of the face of a block that does not move at this lean: k b^3/12 lean
+// while the whole face is pressed, and for lean > 2 W/(k b^2), when an end has lifted off, W (b/2 - a/3) with the
+// contact length a = (2 W/(k lean))^1/2. First order in the lean.
 double base_moment(const RockingBlock& block, double lean, double normal_stiffness);
 
 }  // namespace voussoir::reference

@@ -32,9 +32,9 @@ TEST(Rocking, TakesLongerOnAnElasticBase) {
   const double lean = 0.5 * slenderness(block), rigid = rigid_quarter_period(block, lean);
   const double delay = elastic_quarter_period(block, lean, 1e11, 1e11) - rigid;
   EXPECT_GT(delay, 0);
-  // the pressed length goes by the root of the stiffness, and so does the delay
+  // the contact length is proportional to the root of the compliance, and so is the delay
   EXPECT_NEAR((elastic_quarter_period(block, lean, 1e13, 1e13) - rigid) / delay, 0.1, 0.01);
-  // energy: the weight's arm shorter by a third of the pressed length, a sixth of which turns the axis
+  // energy: the weight's arm is shorter by a third of the contact length, a sixth of which is due to the turned axis
   double slow = 0;
   const double weight = 2500 * 4 * 9.81, radius = 0.5 * std::hypot(1.0, 4.0), mass = 1e4;
   const auto potential = [&](double q) {
@@ -46,7 +46,7 @@ TEST(Rocking, TakesLongerOnAnElasticBase) {
     const double inertia = mass * radius * radius / 3 + mass * (x * x + y * y);
     slow += 2 * lean * u / 20'000 / std::sqrt(2 / inertia * (potential(lean) - potential(q)));
   }
-  EXPECT_NEAR(delay / (slow - rigid), 1, 0.1);  // its corner neither rolls nor gives sideways
+  EXPECT_NEAR(delay / (slow - rigid), 1, 0.1);  // its corner neither rolls nor yields sideways
 }
 
 TEST(Rocking, LiftsOffItsBase) {

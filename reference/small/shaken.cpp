@@ -16,7 +16,7 @@ struct Plane {
   double displacement(double t) const { return speed / angular * (1 - std::cos(angular * t)); }
 };
 
-// the block's way against the plane since it began to slip at `begin`
+// the block's displacement against the plane since it began to slip at `begin`
 struct Slip {
   const Plane& plane;
   double begin, limit;  // s, m/s²
@@ -28,8 +28,8 @@ struct Slip {
   }
 };
 
-// the first return to rest; the relative velocity rises until the plane's acceleration has fallen to the limit, then
-// falls
+// the first time at which slip ends; the relative velocity rises until the plane's acceleration has fallen to the
+// limit, then falls
 double end_of(const Slip& slip, double fastest) {
   double step = 0.5 * std::numbers::pi / slip.plane.angular, low = fastest, high = low + step;
   while (slip.velocity(high) > 0)
@@ -50,7 +50,7 @@ ShakenPosition shaken_block(const ShakenIncline& shaken, double time) {
   const double down = i.gravity * std::sin(i.angle);
   const double friction = i.gravity * std::cos(i.angle) * std::tan(i.friction_angle);
   const double limit = friction - down, greatest = plane.speed * plane.angular;
-  if (!(limit > 0)) throw std::invalid_argument("shaken block: it does not rest on the plane");
+  if (!(limit > 0)) throw std::invalid_argument("shaken block: it slides without shaking");
   if (greatest >= friction + down) throw std::invalid_argument("shaken block: it would slip upwards as well");
   if (greatest <= limit) return {};
 
@@ -63,7 +63,7 @@ ShakenPosition shaken_block(const ShakenIncline& shaken, double time) {
     const double end = end_of(slip, (two_pi * cycle + reach) / plane.angular);
     if (end >= time) return {gone + slip.distance(time), slip.velocity(time)};
     gone += slip.distance(end);
-    // the next time the limit is passed, or at once where it is passed already
+    // the next time the limit is exceeded, or now if it is exceeded already
     const double phase = plane.angular * end, next = std::ceil((phase - reach) / two_pi);
     begin = std::max(end, (two_pi * next - reach) / plane.angular);
   }

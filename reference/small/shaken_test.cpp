@@ -43,7 +43,7 @@ TEST(ShakenBlock, AgreesWithSmallSteps) {
 }
 
 // begun at full acceleration: the first slip is v (1 - cos wt)/w - a t²/2
-TEST(ShakenBlock, FirstSlipIsTheDifferenceOfTwoWays) {
+TEST(ShakenBlock, FirstSlipIsTheDifferenceOfTwoDisplacements) {
   const double t = 0.05, w = 4 * pi,
                limit = 9.81 * (std::tan(30 * degree) * std::cos(10 * degree) - std::sin(10 * degree));
   EXPECT_NEAR(shaken_block(example, t).distance, 0.4 / w * (1 - std::cos(w * t)) - 0.5 * limit * t * t, 1e-15);

@@ -6,8 +6,8 @@
 namespace voussoir::reference {
 namespace {
 
-// the shear stress at which elastic and plastic slip make up the slip: the plastic slip is found by halving, since the
-// slip grows with it
+// the shear stress at which elastic and plastic slip add up to the slip: the plastic slip is found by bisection, since
+// the slip grows with it
 template <class Friction>
 double shear_at(const ShearCurve& curve, double slip, const Friction& friction) {
   double low = 0, high = slip;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Shear stress of a joint that is sheared one way under a constant normal stress, by the slip the joint has in all:
+// Shear stress of a joint that is sheared in one direction under a constant normal stress, by the joint's total slip:
 // elastic slip τ/ks and plastic slip β. Pa, Pa/m, m, rad. Boon (2013), Eqs 4.18 and 6.7.
 namespace voussoir::reference {
 

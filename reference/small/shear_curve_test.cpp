@@ -16,7 +16,7 @@ TEST(ShearCurve, WorkedValues) {
   EXPECT_DOUBLE_EQ(perfectly_plastic_shear(curve, 1e-3), 2e6 * std::tan(0.6));
 }
 
-// the other way round: slip by shear stress, with the logarithm in place of the search
+// the inverse: slip by shear stress, with the logarithm in place of the search
 TEST(ShearCurve, InvertsTheSlipAtAStress) {
   for (const double fraction : {0.01, 0.3, 0.7, 0.99}) {
     const double hard = fraction * 2e6 * std::tan(0.6);

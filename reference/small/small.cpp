@@ -13,9 +13,9 @@ constexpr double pi = std::numbers::pi;
 constexpr Require require{""};
 
 void check(const Incline& incline, double time) {
-  require(incline.angle >= 0 && incline.angle <= pi / 2, "incline: angle must lie in 0..pi/2 radians");
+  require(incline.angle >= 0 && incline.angle <= pi / 2, "incline: angle must be in 0..pi/2 radians");
   require(incline.friction_angle >= 0 && incline.friction_angle < pi / 2,
-          "incline: friction angle must lie in 0..pi/2 radians, pi/2 excluded");
+          "incline: friction angle must be in 0..pi/2 radians, pi/2 excluded");
   require(std::isfinite(incline.gravity) && incline.gravity > 0, "incline: gravity must be positive");
   require(std::isfinite(incline.initial_velocity) && incline.initial_velocity >= 0,
           "incline: initial velocity must be finite and down the plane");
@@ -62,7 +62,7 @@ double incline_rate_bias(const Incline& incline, double distance, double rate, d
   check(incline, 0);
   require(std::isfinite(distance) && distance > 0, "incline: distance must be positive");
   require(std::isfinite(rate) && rate > 0, "incline: rate must be positive");
-  require(damping >= 0 && damping < 1, "incline: damping must lie in 0..1, 1 excluded");
+  require(damping >= 0 && damping < 1, "incline: damping must be in 0..1, 1 excluded");
   return std::cbrt(6 * distance * std::cos(incline.angle) * rate * rate / ((1 - damping) * incline.gravity));
 }
 
@@ -76,7 +76,7 @@ std::vector<double> column_overlaps(const Column& column) {
 
 double column_frequency(const Column& column, int mode) {
   check(column);
-  require(mode >= 1 && mode <= column.blocks, "column: mode must lie in 1..blocks");
+  require(mode >= 1 && mode <= column.blocks, "column: mode must be in 1..blocks");
   return 2 * std::sqrt(column.stiffness / column.mass) * std::sin((2 * mode - 1) * pi / (2 * (2 * column.blocks + 1)));
 }
 

@@ -15,7 +15,7 @@ struct Incline {
   double initial_velocity = 0;  // m/s down the plane, >= 0
 };
 
-// The friction angle below which a block at rest starts: the angle of the plane.
+// The friction angle below which a block starts to slide: the angle of the plane.
 double incline_critical_friction(const Incline& incline);
 
 // Distance (m) down the plane after `time` (s, >= 0): v0 t + g (sin - cos tan phi) t^2/2 until it stops; a block at
@@ -39,13 +39,12 @@ struct ShakenPosition {
 
 // Slips while the plane's acceleration up the slope exceeds a = g (tan phi cos - sin), and after that until the speeds
 // are equal again: between t0 and t the relative velocity is v(t) - v(t0) - a (t - t0). Throws std::invalid_argument
-// when the block does not rest on the plane, or when the plane's acceleration is so great that it slips upwards, too.
+// when the block slides without shaking, or when the plane's acceleration is so great that it slips upwards, too.
 ShakenPosition shaken_block(const ShakenIncline& shaken, double time);
 
-// How far below the plane's angle (rad) a friction angle that falls at `rate` (rad/s, > 0) has got when the block has
-// slid by `distance` (m, > 0), local damping taking the fraction `damping` (0..<1) of the force that drives it:
-// (6 X cos(angle) r^2/((1 - damping) g))^(1/3), the leading term. With the next one it is 1 + tan(angle) bias/6 times
-// this.
+// By how much a friction angle that falls at `rate` (rad/s, > 0) is below the plane's angle (rad) when the block has
+// slid by `distance` (m, > 0), local damping taking the fraction `damping` (0..<1) of the force that drives it: (6 X
+// cos(angle) r^2/((1 - damping) g))^(1/3), the leading term. With the next one it is 1 + tan(angle) bias/6 times this.
 double incline_rate_bias(const Incline& incline, double distance, double rate, double damping);
 
 // --- a block that meets a spring and a dashpot which cannot pull
@@ -59,10 +58,10 @@ struct Bounce {
 };
 
 struct BounceResult {
-  bool rebounds = true;        // false: the force never comes back to zero, the block stays in contact
+  bool rebounds = true;        // false: the force never returns to zero, the block stays in contact
   double duration = 0;         // s, until the force is zero; 0 without rebound
   double restitution = 0;      // speed away / impact_speed when the force is zero; 0 without rebound
-  double end_overlap = 0;      // m, still positive when a damped contact lets go
+  double end_overlap = 0;      // m, still positive when a damped contact ends
   double maximum_overlap = 0;  // m
 };
 
@@ -107,7 +106,7 @@ std::array<double, 3> free_rotation(const FreeRotation& body, double time);
 // Period (s) of that motion, 4 K/lambda; +infinity on the separatrix, and for steady rotation, which has none.
 double free_rotation_period(const FreeRotation& body);
 
-// The same angular velocity (rad/s) along the axes that the body's had at time zero: its attitude, a quaternion, is
+// The same angular velocity (rad/s) along the axes that the body had at time zero: its attitude, a quaternion, is
 // integrated by Runge and Kutta's method of fourth order in steps of at most 0.005 rad, which leaves some 1e-11 per rad
 // turned.
 std::array<double, 3> free_rotation_in_space(const FreeRotation& body, double time);
@@ -118,7 +117,7 @@ struct FallOver {
   double mass = 1;        // kg, > 0
   double inertia = 1;     // kg m^2 about the edge, > 0
   double arm = 1;         // m from the edge to the centroid, > 0
-  double start = 0.1;     // rad: lean of the arm off the vertical, at rest, 1e-6 <= start < pi
+  double start = 0.1;     // rad: initial lean of the arm off the vertical, without motion, 1e-6 <= start < pi
   double gravity = 9.81;  // m/s^2, > 0
 };
 

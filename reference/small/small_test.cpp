@@ -64,7 +64,7 @@ TEST(Incline, TheBiasOfARateIsTheLeadingTerm) {
       slope[0] = y[1];
       slope[1] = (1 - damping) * 9.81 * (std::sin(angle) - std::cos(angle) * std::tan(angle - rate * time));
     };
-    // the found angle is where the distance is reached, by bisection in time
+    // the angle at which the distance is reached, by bisection in time
     double low = 0.5 * bias / rate, high = 2 * bias / rate;
     for (int i = 0; i < 40; ++i) {
       const double middle = 0.5 * (low + high);
@@ -131,7 +131,7 @@ TEST(Bounce, NumericalIntegration) {
       const Bounce b{2, 50, damping, 0.7, gravity};
       const BounceResult closed = bounce(b), numeric = bounce_by_integration(b, 4);
       ASSERT_EQ(closed.rebounds, numeric.rebounds) << damping << " " << gravity;
-      // sampling misses the top of the overlap by (step/2)^2 w^2/2; a block that stays creeps, so it is given longer
+      // sampling misses the top of the overlap by (step/2)^2 w^2/2; a block that stays creeps, so its time is longer
       const double top = closed.rebounds ? numeric.maximum_overlap : bounce_by_integration(b, 20).maximum_overlap;
       EXPECT_NEAR(closed.maximum_overlap, top, (closed.rebounds ? 1e-5 : 1e-4) * closed.maximum_overlap);
       if (!closed.rebounds) continue;
@@ -142,13 +142,13 @@ TEST(Bounce, NumericalIntegration) {
 }
 
 TEST(Bounce, Gravity) {
-  // Without damping the energy comes back: e = 1; the contact lasts longer, w t = 2 (pi/2 + atan(g/(v w))).
+  // Without damping the energy is returned: e = 1; the contact lasts longer, w t = 2 (pi/2 + atan(g/(v w))).
   const Bounce heavy{2, 50, 0, 0.7, 9.81};
   const BounceResult result = bounce(heavy);
   EXPECT_NEAR(result.restitution, 1, 1e-12);
   EXPECT_NEAR(result.duration, (pi + 2 * std::atan(9.81 / (0.7 * 5))) / 5, 1e-12);
   EXPECT_NEAR(result.end_overlap, 0, 1e-12);
-  // Small gravity is no gravity; large gravity with damping keeps the block.
+  // Small gravity has no effect; large gravity with damping keeps the block in contact.
   EXPECT_NEAR(bounce({2, 50, 0.3, 0.7, 1e-9}).restitution, bounce({2, 50, 0.3, 0.7, 0}).restitution, 1e-8);
   EXPECT_FALSE(bounce({2, 50, 0.3, 0.01, 9.81}).rebounds);
 }
@@ -236,7 +236,7 @@ TEST(FreeRotation, EulerEquationsIntegrated) {
   }
 }
 
-TEST(FreeRotation, EnergyAndAngularMomentumStay) {
+TEST(FreeRotation, EnergyAndAngularMomentumAreConserved) {
   const FreeRotation body{box_inertia(1, {1, 0.6, 0.3}), {0.01, 2, 0.01}};  // close to the middle axis: it tumbles
   auto invariants = [&](const std::array<double, 3>& w) {
     double energy = 0, momentum = 0;
@@ -282,8 +282,8 @@ TEST(FreeRotation, SymmetricBodyAndSteadyRotation) {
   EXPECT_EQ(free_rotation(ball, 5), ball.angular_velocity);
 }
 
-TEST(FreeRotation, InSpaceCirclesAboutTheMomentum) {
-  // A symmetric body: the spin, which lies in the plane of momentum and axis, turns with it about the momentum, L/I1.
+TEST(FreeRotation, CirclesAboutTheMomentumInSpace) {
+  // A symmetric body: the spin, which is in the plane of momentum and axis, turns with it about the momentum, L/I1.
   const FreeRotation disc{{1, 1, 1.8}, {0.3, 0, 2}};
   const double momentum = std::hypot(0.3, 3.6);
   const std::array<double, 3> along{0.3 / momentum, 0, 3.6 / momentum};
@@ -292,13 +292,13 @@ TEST(FreeRotation, InSpaceCirclesAboutTheMomentum) {
   for (const double t : {0.0, 1.0, 20.0}) {
     const double angle = momentum * t;
     const auto w = free_rotation_in_space(disc, t);
-    // along x (y) the momentum's cross product with what lies across it: in the y direction alone
+    // along x (y) the momentum's cross product with its transverse part: in the y direction only
     const double sideways = along[2] * across[0] - along[0] * across[2];
     EXPECT_NEAR(w[0], fraction * along[0] + std::cos(angle) * across[0], 1e-9);
     EXPECT_NEAR(w[1], std::sin(angle) * sideways, 1e-9);
     EXPECT_NEAR(w[2], fraction * along[2] + std::cos(angle) * across[2], 1e-9);
   }
-  // any body keeps its energy, which is the spin times the momentum
+  // any body conserves its energy, which is the spin times the momentum
   const FreeRotation box{{1, 1.3, 2}, {0.1, 2, 0.1}};
   for (const double t : {3.0, 45.0}) {
     const auto w = free_rotation_in_space(box, t);
@@ -339,7 +339,7 @@ TEST(FallOver, NumericalIntegration) {
 }
 
 TEST(FallOver, Limits) {
-  // a small lean grows like cosh; hanging, it is a quarter of a pendulum's swing of small amplitude
+  // a small lean grows like cosh; a hanging body takes a quarter of a pendulum's period of small amplitude
   const FallOver block{3, 6, 2, 1e-4, 10};
   const double rate = std::sqrt(3 * 10 * 2 / 6.0);
   EXPECT_NEAR(fall_over_time(block, 5e-4), std::acosh(5.0) / rate, 1e-6);

@@ -14,8 +14,8 @@ enum class BlockMode { stays, slides, topples, slides_and_topples };
 
 const char* name_of(BlockMode mode);
 
-// The map of four quadrants (Ashby 1971; Hoek & Bray 1977): slides where slope > friction, topples where
-// tan slope > b/h. Right at rest; once it moves, inertia enters the balance.
+// The map of four quadrants (Ashby 1971; Hoek & Bray 1977): slides if slope > friction, topples if tan slope > b/h.
+// Right in equilibrium; once it moves, inertia enters the balance.
 BlockMode block_mode_of_statics(const InclinedBlock& block);
 
 // The mode in which a rigid block starts from rest (Sagaseta 1986, Rock Mech. Rock Eng. 19, 261-266).
@@ -29,10 +29,10 @@ BlockMode block_mode(const InclinedBlock& block);
 double least_toppling_friction(const InclinedBlock& block);
 
 // The angle at which a block on an elastic joint (Pa/m, no tension) overturns, below atan(b/h). Pressed in a triangle
-// of length a, the joint carries N a/3 from its end and turns by t = 2 N/(k a^2), and turning carries the centroid out
-// by t h (1 + tan^2)/2 of the apparent weight's direction: the arm left is largest at a/3 = (2 N h (1 + tan^2)/(9
-// k))^(1/3), and costs 3/2 of it. The apparent weight (true and inertial forces per metre of width) leans by the sought
-// angle itself; `normal_force` (N/m) is its part into the plane.
+// of length a, the joint transfers N a/3 from its end and turns by t = 2 N/(k a^2), and the rotation moves the centroid
+// out by t h (1 + tan^2)/2 of the apparent weight's direction: the remaining arm is largest at a/3 = (2 N h (1 +
+// tan^2)/(9 k))^(1/3), and is reduced by 3/2 of it. The apparent weight (true and inertial forces per metre of width)
+// leans by the sought angle itself; `normal_force` (N/m) is its part into the plane.
 double overturning_angle(double breadth, double height, double normal_force, double normal_stiffness);
 
 // Columns on a stepped base (Goodman & Bray 1976), numbered from the toe: each is `shortening_below` less its step
@@ -46,7 +46,7 @@ struct SteppedColumns {
   double height(int column) const;  // m
 };
 
-// The friction angle of base and columns, equal, at which the toe needs no help: limit equilibrium, each column
+// The friction angle of base and columns, equal, at which the toe needs no support: limit equilibrium, each column
 // toppling or sliding, whichever pushes more on the one below. 38.15 degrees for the slope above (Hoek & Bray 1981,
 // chapter 9).
 double stepped_columns_friction(const SteppedColumns& slope);

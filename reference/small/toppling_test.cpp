@@ -21,13 +21,13 @@ TEST(Toppling, HasFourModes) {
   EXPECT_EQ(block_mode(block_at(40, 28)), BlockMode::slides_and_topples);
 }
 
-TEST(Toppling, IsThatOfStaticsWhereItRests) {
+TEST(Toppling, IsThatOfStaticsInEquilibrium) {
   for (double slope = 1; slope < 60; slope += 1.7)
     for (double friction = 1; friction < 60; friction += 1.7) {
       const InclinedBlock block = block_at(slope, friction);
       EXPECT_EQ(block_mode(block) == BlockMode::stays, block_mode_of_statics(block) == BlockMode::stays);
     }
-  // the two maps differ where inertia counts
+  // the two maps differ if inertia matters
   EXPECT_EQ(block_mode_of_statics(block_at(40, 20)), BlockMode::slides_and_topples);
   EXPECT_EQ(block_mode(block_at(40, 20)), BlockMode::slides);
   EXPECT_EQ(block_mode_of_statics(block_at(40, 35)), BlockMode::slides_and_topples);
@@ -66,7 +66,7 @@ TEST(Toppling, ComesEarlierOnElasticJoints) {
   }
   EXPECT_NEAR(angle, best, 2e-3 * (std::atan(0.5) - best) + 2e-4);
   EXPECT_LT(angle, std::atan(0.5));
-  // an eighth of the stiffness costs twice as much
+  // an eighth of the stiffness doubles the loss
   const double lost = std::atan(0.5) - angle, more = std::atan(0.5) - overturning_angle(b, h, force, stiffness / 8);
   EXPECT_NEAR(more / lost, 2, 0.1);
   EXPECT_THROW(overturning_angle(b, h, force, 1e5), std::invalid_argument);

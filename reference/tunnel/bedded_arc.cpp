@@ -31,7 +31,7 @@ struct Strains {
   Complex axial, bending, bending_slope;
 };
 
-// cosh λθ, R sinh λθ, over cosh λθ0, so that stiff modes stay finite
+// cosh λθ, R sinh λθ, divided by cosh λθ0, so that stiff modes stay finite
 Strains of_mode(const Numbers& n, Complex lambda, double angle, double end) {
   const Complex scale = 1.0 / std::cosh(lambda * end), even = std::cosh(lambda * angle) * scale,
                 odd = std::sinh(lambda * angle) * scale, square = lambda * lambda;

@@ -2,11 +2,11 @@
 
 #include "reference/tunnel/ring_moment.hpp"
 
-// An arc of a circle that lies in a circular bed, its ends free, under its own weight: what thrust and moment does it
-// carry? Small displacements, no shear deformation, per metre of tunnel.
+// Thrust and moment of an arc of a circle in a circular bed, its ends free, under its own weight. Small displacements,
+// no shear deformation, per metre of tunnel.
 namespace voussoir::reference {
 
-// The bed resists the arc's displacement radially and along it everywhere, pulled as well as pressed.
+// The bed resists the arc's displacement radially and along it everywhere, in tension as well as in compression.
 struct BeddedArc {
   double radius = 0;             // m, of its axis and of the bed
   double half_angle = 0;         // rad, from its lowest point to each end
@@ -26,7 +26,7 @@ struct BeddedArc {
 // cosh λθ, R sinh λθ, whose λ² are the roots of e x³ + e (2 - ks) x² + ((1 + k)(1 + e) - 1) x - (1 + k) ks = 0.
 MemberForces bedded_arc(const BeddedArc& arc, double angle);
 
-// The same on a bed that neither gives nor resists sliding, of an arc that does not shorten: γ a (cos θ - cos θ0).
+// The same on a rigid bed without resistance to sliding, of an arc that does not shorten: γ a (cos θ - cos θ0).
 double sliding_arc_thrust(const BeddedArc& arc, double angle);
 
 }  // namespace voussoir::reference

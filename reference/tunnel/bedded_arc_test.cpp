@@ -1,4 +1,5 @@
-// The bedded arc: against the energy of a chain of short pieces, as its bed slides, far from its ends, and scaled.
+// The bedded arc: against the energy of a chain of short pieces, on a bed without friction, far from its ends, and
+// scaled.
 #include "reference/tunnel/bedded_arc.hpp"
 
 #include <gtest/gtest.h>
@@ -58,7 +59,7 @@ MemberForces by_differences(const BeddedArc& arc, int n) {
   return {-arc.bending_stiffness * bending_at(0).dot(moved), arc.axial_stiffness * axial_in(0).dot(moved)};
 }
 
-TEST(BeddedArc, IsWhatItsEnergySays) {
+TEST(BeddedArc, MinimisesItsEnergy) {
   for (const double shear : {1e6, 1e8, 3e9}) {
     BeddedArc arc = invert();
     arc.shear_stiffness = shear;
@@ -68,7 +69,7 @@ TEST(BeddedArc, IsWhatItsEnergySays) {
   }
 }
 
-TEST(BeddedArc, SlidesWhereNothingHoldsIt) {
+TEST(BeddedArc, SlidesOnASmoothBed) {
   BeddedArc arc = invert();
   arc.shear_stiffness = 1;
   arc.normal_stiffness = 1e12;
@@ -84,8 +85,8 @@ TEST(BeddedArc, HasFreeEndsAndTwoSides) {
   EXPECT_DOUBLE_EQ(bedded_arc(arc, 0.4).thrust, bedded_arc(arc, -0.4).thrust);
 }
 
-// where both stiffnesses are one it sinks as a whole
-TEST(BeddedArc, CarriesNothingOnABedThatIsAlikeAllWays) {
+// if both stiffnesses are equal it sinks without deformation
+TEST(BeddedArc, HasNoForcesOnABedOfEqualStiffnesses) {
   BeddedArc arc = invert();
   arc.shear_stiffness = arc.normal_stiffness;
   const double scale = sliding_arc_thrust(arc, 0);

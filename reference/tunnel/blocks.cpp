@@ -30,8 +30,8 @@ Point unit(const Point& a) {
   return {a[0] / size, a[1] / size};
 }
 
-// The two sides of a line: where normal·x is below and above. A side thinner than `thinnest` is empty and the other
-// whole.
+// The two sides of a line: with normal·x below and above its offset. A side thinner than `thinnest` is empty and the
+// other whole.
 std::pair<Polygon, Polygon> parted(const Polygon& whole, const Line& line, double thinnest) {
   const double size = length(line.normal);
   std::vector<double> height;
@@ -60,7 +60,7 @@ Line side_of(const Polygon& outline, std::size_t i) {
   return {outwards, dot(outwards, outline[i])};
 }
 
-// ---- edges that lie on each other
+// ---- edges in contact
 
 struct Edge {
   int block = 0;
@@ -110,7 +110,7 @@ std::vector<std::pair<int, int>> near_pairs(const std::vector<Edge>& edges, doub
   return pairs;
 }
 
-// the stretch of `a` on which `b` lies; empty where start equals end
+// the part of `a` that `b` covers; empty if start equals end
 std::pair<double, double> shared(const Edge& a, const Edge& b, double tolerance) {
   const Point from = minus(b.start, a.start), to = minus(b.end, a.start);
   const double low = std::max(0.0, dot(a.direction, to)), high = std::min(a.length, dot(a.direction, from));
@@ -145,7 +145,7 @@ bool wholly_held(const Block& block) {
   return block.held[0] && block.held[1] && block.held[2];
 }
 
-// parts that hang together, each group a block
+// connected parts, each group a block
 void add_connected(const std::vector<Polygon>& parts, double tolerance, std::vector<Block>& blocks) {
   std::vector<Block> single;
   for (const Polygon& part : parts)
@@ -267,7 +267,7 @@ std::vector<Face> wall(const std::vector<Block>& blocks, const Polygon& outline,
   return sorted;
 }
 
-void let_off(std::vector<Block>& blocks, const std::vector<Face>& wall, const InSitu& stress, double share) {
+void relieve(std::vector<Block>& blocks, const std::vector<Face>& wall, const InSitu& stress, double share) {
   // two points of Gauss: the moment of a stress linear along the face is of second degree
   const double from_middle = 0.5 / std::numbers::sqrt3;
   for (const Face& face : wall)
@@ -310,7 +310,7 @@ std::vector<Bolt> bolts_across(const std::vector<Face>& faces, const Point& coll
 void tie_to_wall(Lining& lining, const std::vector<Face>& wall, double normal_stiffness, double shear_stiffness,
                  double tolerance) {
   const int count = static_cast<int>(lining.nodes.size());
-  const auto rest = [&](int node, bool ahead) -> const Face* {
+  const auto face_at = [&](int node, bool ahead) -> const Face* {
     for (const Face& face : wall) {
       const Point from = minus(lining.nodes[node].at, face.end);  // counter-clockwise about the opening from its end
       const Point direction = unit(minus(face.start, face.end));
@@ -320,7 +320,7 @@ void tie_to_wall(Lining& lining, const std::vector<Face>& wall, double normal_st
                 : place > tolerance && place < length(face) + tolerance)
         return &face;
     }
-    refuse("node " + std::to_string(node) + " of the lining does not lie on the wall");
+    refuse("node " + std::to_string(node) + " of the lining is not on the wall");
   };
   const auto tie = [&](int node, const Face& face, double share) {
     lining.ties.push_back({node, face.first, face.normal, share, normal_stiffness, shear_stiffness});
@@ -333,8 +333,8 @@ void tie_to_wall(Lining& lining, const std::vector<Face>& wall, double normal_st
       if (!lining.closed && (other < 0 || other >= count)) continue;
       halves[side] = length(minus(lining.nodes[(other + count) % count].at, lining.nodes[i].at)) / 2;
     }
-    const Face* behind = halves[0] > 0 ? rest(i, false) : nullptr;
-    const Face* ahead = halves[1] > 0 ? rest(i, true) : nullptr;
+    const Face* behind = halves[0] > 0 ? face_at(i, false) : nullptr;
+    const Face* ahead = halves[1] > 0 ? face_at(i, true) : nullptr;
     if (behind && ahead && behind->first == ahead->first && dot(behind->normal, ahead->normal) > same_direction) {
       tie(i, *ahead, halves[0] + halves[1]);
       continue;
@@ -347,18 +347,18 @@ void tie_to_wall(Lining& lining, const std::vector<Face>& wall, double normal_st
 double convergence_at(const Network& network, const Solution& solution, const std::vector<Face>& wall,
                       const Point& centre, double angle) {
   const Point ray{std::cos(angle), std::sin(angle)};
-  // the wall's place that is nearest to the ray: no gap of rounding between two faces lets it through
-  double least = std::numeric_limits<double>::infinity(), answer = 0;
+  // the wall's point that is nearest to the ray: no gap of rounding between two faces lets it through
+  double least = std::numeric_limits<double>::infinity(), convergence = 0;
   for (const Face& face : wall) {
     const double start = cross(ray, minus(face.start, centre)), end = cross(ray, minus(face.end, centre));
     const Point at = along(face.start, face.end, start == end ? 0 : std::clamp(start / (start - end), 0.0, 1.0));
     const double away = std::abs(cross(ray, minus(at, centre)));
     if (dot(ray, minus(at, centre)) < 0 || !(away < least)) continue;
     least = away;
-    answer = -dot(ray, displacement(network, solution, face.first, at));
+    convergence = -dot(ray, displacement(network, solution, face.first, at));
   }
   if (std::isinf(least)) refuse("there is no wall in the direction of " + std::to_string(angle) + " rad");
-  return answer;
+  return convergence;
 }
 
 double mean_convergence(const Network& network, const Solution& solution, const std::vector<Face>& wall,

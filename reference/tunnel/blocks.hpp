@@ -1,5 +1,4 @@
-// Blocks of a network from lines, and where they lie on each other: corner lists in, springs, loads, bolts and ties
-// out.
+// Blocks of a network from lines, and the faces between them: corner lists in, springs, loads, bolts and ties out.
 #pragma once
 
 #include <vector>
@@ -14,8 +13,8 @@ struct Line {
   double offset = 0;
 };
 
-// The pieces of a convex polygon between lines that all run through it. What a line would cut off thinner than
-// `thinnest` (m) stays whole.
+// The pieces of a convex polygon between lines that all run through it. A piece that would be thinner than `thinnest`
+// (m) is not cut off.
 std::vector<Polygon> cut(const Polygon& whole, const std::vector<Line>& lines, double thinnest);
 
 // Persistent sets of equal spacing over a circle of radius `reach` about the origin: lines with normals at `angles`
@@ -31,19 +30,19 @@ inline std::vector<Block> one_each(const std::vector<Polygon>& pieces) {
   return blocks;
 }
 
-// Every piece a block; what lies inside the convex outline is gone. A piece across the outline becomes a block of
-// convex parts, or several where it falls apart.
+// Every piece a block; the part inside the convex outline is removed. A piece across the outline becomes a block of
+// convex parts, or several if it is divided.
 std::vector<Block> take_out(const std::vector<Polygon>& pieces, const Polygon& outline, double thinnest);
 
-// A stretch on which two blocks lie on each other. `normal` is unit, from the first to the second; `start` and `end`
-// run counter-clockwise about the first.
+// A segment along which two blocks touch. `normal` is unit, from the first to the second; `start` and `end` run
+// counter-clockwise about the first.
 struct Face {
   int first = 0, second = 0;
   Point start, end, normal;
 };
 
-// All faces between different blocks that are not both wholly held, by (first, second), first < second. Edges lie on
-// each other where they run against each other, not further than `tolerance` (m) apart, for longer than that.
+// All faces between different blocks that are not both wholly held, by (first, second), first < second. Edges touch if
+// they run against each other, not further than `tolerance` (m) apart, over more than that length.
 std::vector<Face> faces(const std::vector<Block>& blocks, double tolerance);
 
 // `cells` equal cells a face, a spring at the middle of each. Spread l²/12 as the program's cells have it, or 0.
@@ -63,24 +62,24 @@ struct InSitu {
   double uniform = 0;  // Pa, added to both
 };
 
-// Loads the blocks by what the rock in the opening held them with, the other way round, times `share`: towards the
-// opening under compression. Exact in force and moment.
-void let_off(std::vector<Block>& blocks, const std::vector<Face>& wall, const InSitu& stress, double share = 1);
+// Loads the blocks by the reversed forces of the removed rock on them, times `share`: towards the opening under
+// compression. Exact in force and moment.
+void relieve(std::vector<Block>& blocks, const std::vector<Face>& wall, const InSitu& stress, double share = 1);
 
 // A spring at each face that the line from collar to toe crosses, its anchors `offset` (m) to both sides, but not
-// further than the middle of the bolt's stretch in that block; infinite: midway. The first block is nearer to the
+// further than the middle of the bolt's segment in that block; infinite: midway. The first block is nearer to the
 // collar.
 std::vector<Bolt> bolts_across(const std::vector<Face>& faces, const Point& collar, const Point& toe, double stiffness,
                                double offset, double across = 0, double pretension = 0);
 
-// Ties nodes that lie on the wall. Each half of a node's two beams rests where the wall goes on from the node to that
-// side: one tie where both halves rest on one block in one direction, else two. Throws std::invalid_argument naming the
-// node that is not on the wall.
+// Ties nodes on the wall. Each half of a node's two beams is on the wall's face on that side of the node: one tie if
+// both halves are on one block in one direction, else two. Throws std::invalid_argument naming the node that is not on
+// the wall.
 void tie_to_wall(Lining& lining, const std::vector<Face>& wall, double normal_stiffness, double shear_stiffness,
                  double tolerance);
 
-// How far the wall came towards `centre`: where the ray at `angle` (rad, from x counter-clockwise) meets it, and as
-// mean over the wall's length. m.
+// Displacement of the wall towards `centre`: at its intersection with the ray at `angle` (rad, from x
+// counter-clockwise), and as mean over the wall's length. m.
 double convergence_at(const Network& network, const Solution& solution, const std::vector<Face>& wall,
                       const Point& centre, double angle);
 double mean_convergence(const Network& network, const Solution& solution, const std::vector<Face>& wall,

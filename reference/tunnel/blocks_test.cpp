@@ -34,7 +34,7 @@ double length_of(const std::vector<Face>& faces) {
   return sum;
 }
 
-// Bricks: faces in part, and the ground that is longer than all of them.
+// Bricks: partial faces, and the ground that is longer than all of them.
 TEST(NetworkBlocks, FacesInPart) {
   std::vector<Block> blocks{{{box(-5, -1, 5, 0)}, {true, true, true}},
                             {{box(0, 0, 2, 1)}},
@@ -50,7 +50,7 @@ TEST(NetworkBlocks, FacesInPart) {
     EXPECT_GT(face.normal[0] * (to[0] - from[0]) + face.normal[1] * (to[1] - from[1]), 0);
   }
   blocks[1].held = blocks[2].held = {true, true, true};
-  EXPECT_EQ(faces(blocks, 1e-6).size(), 3u);  // no springs between what cannot move
+  EXPECT_EQ(faces(blocks, 1e-6).size(), 3u);  // no springs between two held blocks
   EXPECT_EQ(faces(blocks, 2e-3).size(), 4u);  // the gap of a millimetre counts as closed
 }
 
@@ -81,8 +81,8 @@ TEST(NetworkBlocks, CutByLines) {
 }
 
 // Spacing s at right angles: blocks of s by s. Three sets at 60°: any two cross sin 60°/s² times per area, and every
-// crossing stands for one block, on an area whose rim matters less and less. Two thirds of that where all three meet in
-// points, which they do where the outer shifts add up to the middle one.
+// crossing is a corner of one block, on an area whose rim matters less and less. Two thirds of that if all three meet
+// in points, which they do if the outer shifts add up to the middle one.
 TEST(NetworkBlocks, PersistentSets) {
   const std::vector<Block> squares =
       one_each(cut(box(-4, -4, 4, 4), persistent_sets({0, pi / 2}, {0.5, 0.5}, 1, 6), 1e-9));
@@ -106,14 +106,14 @@ TEST(NetworkBlocks, Opening) {
     EXPECT_NEAR(around[i].end[0], around[i - 1].start[0], 1e-7);
     EXPECT_NEAR(around[i].end[1], around[i - 1].start[1], 1e-7);
   }
-  // no block in two places: its parts hang together by faces
+  // no block is in two places: its parts are connected by faces
   for (const Block& block : blocks) {
     std::vector<Block> parts = one_each(block.parts);
     EXPECT_GE(faces(parts, 1e-9).size() + 1, parts.size());
   }
 }
 
-// A block that bulges into the opening on both sides of a neck falls apart.
+// A block that bulges into the opening on both sides of a neck is divided.
 TEST(NetworkBlocks, BlockPartedByTheOpening) {
   const std::vector<Block> blocks = take_out({box(-3, -0.5, 3, 0.5)}, box(-1, -2, 1, 2), 1e-9);
   ASSERT_EQ(blocks.size(), 2u);
@@ -123,15 +123,15 @@ TEST(NetworkBlocks, BlockPartedByTheOpening) {
   EXPECT_NEAR(area(notched[0]), 5, 1e-12);
 }
 
-// What is let off together is the weight of the rock that is gone, through its centroid, and at each wall the stress
+// The sum of the relief loads is the weight of the removed rock, through its centroid, and at each wall the stress
 // there.
-TEST(NetworkBlocks, LetOffIsTheWeightOfWhatIsGone) {
+TEST(NetworkBlocks, ReliefLoadsAreTheWeightOfTheRemovedRock) {
   Polygon outline = regular(12, 3);
   for (Point& corner : outline)
     corner = {corner[0] + 0.7, corner[1] - 1.2};
   std::vector<Block> blocks =
       take_out(cut(box(-8, -8, 8, 8), persistent_sets({0.2, 1.3}, {0.1, 0.4}, 1.1, 12), 1e-9), outline, 1e-9);
-  let_off(blocks, wall(blocks, outline, 1e-8), {25, 26e3, 0.6, 1e5}, 0.5);
+  relieve(blocks, wall(blocks, outline, 1e-8), {25, 26e3, 0.6, 1e5}, 0.5);
   double up = 0, right = 0, moment = 0, largest = 0;
   for (const Block& block : blocks) {
     const Point at = centroid(block);
@@ -147,7 +147,7 @@ TEST(NetworkBlocks, LetOffIsTheWeightOfWhatIsGone) {
   EXPECT_NEAR(moment, up * centroid(gone)[0], 1e-1);
 
   std::vector<Block> pair{{{box(-2, -1, -1, 1)}}, {{box(1, -1, 2, 1)}}};
-  let_off(pair, wall(pair, box(-1, -1, 1, 1), 1e-9), {0, 0, 1, 1e5});
+  relieve(pair, wall(pair, box(-1, -1, 1, 1), 1e-9), {0, 0, 1, 1e5});
   EXPECT_NEAR(pair[0].load[0], 2e5, 1e-6);  // into the opening
   EXPECT_NEAR(pair[1].load[0], -2e5, 1e-6);
 }
@@ -190,8 +190,8 @@ TEST(NetworkBlocks, TiesAtCornersAndJoints) {
   EXPECT_THROW(tie_to_wall(lining, wall(blocks, opening, 1e-9), 1e9, 1e8, 1e-9), std::invalid_argument);
 }
 
-// Nodes on a hundred rays to an outline of twelve sides: beams cut the corners, every node rests on the side it lies
-// on.
+// Nodes on a hundred rays to an outline of twelve sides: beams cut the corners, every node is tied to the side on which
+// it is.
 TEST(NetworkBlocks, RingOnRays) {
   Polygon outline = regular(12, 5);
   const std::vector<Block> blocks =

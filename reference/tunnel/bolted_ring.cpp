@@ -18,7 +18,7 @@ constexpr Require require{"bolted ring: "};
 void check(const BoltedRing& ring, double distance) {
   require(std::isfinite(ring.radius) && ring.radius > 0, "radius must be positive");
   require(std::isfinite(ring.shear_modulus) && ring.shear_modulus > 0, "shear modulus must be positive, in Pa");
-  require(ring.poisson_ratio >= 0 && ring.poisson_ratio < 0.5, "Poisson's ratio must lie in 0..0.5, 0.5 excluded");
+  require(ring.poisson_ratio >= 0 && ring.poisson_ratio < 0.5, "Poisson's ratio must be in 0..0.5, 0.5 excluded");
   require(std::isfinite(ring.in_situ_pressure), "in-situ pressure must be finite, in Pa");
   require(ring.bolt_stiffness >= 0 && ring.mean_joint_spacing >= 0 && ring.bolt_length >= 0,
           "bolt stiffness, mean joint spacing and bolt length must not be negative; use 0 for no bolts");
@@ -26,7 +26,7 @@ void check(const BoltedRing& ring, double distance) {
           "bolt spacings must be positive; in a plane model the longitudinal one is 1 m");
   require(ring.fixed_radius > ring.radius + ring.bolt_length, "the rock must be held beyond wall and bolts");
   require(std::isfinite(distance) && distance >= ring.radius && distance <= ring.fixed_radius,
-          "distance must lie between wall and held rock");
+          "distance must be between wall and held rock");
 }
 
 // Displacement over radius, and its slope by rho.
@@ -49,7 +49,7 @@ Displacement second_solution(double rho, double b) {
   return {h / rho, (h + 1 / (1 + x)) / (rho * rho)};
 }
 
-// Of 1/rho - rho a²/R², which plain rock takes beyond the bolts.
+// Of 1/rho - rho a²/R², the solution in plain rock beyond the bolts.
 Displacement beyond_bolts(const BoltedRing& ring, double rho) {
   const double held = ring.radius / ring.fixed_radius, pull = held * held;
   return {1 / rho - rho * pull, -1 / (rho * rho) - pull};
@@ -78,7 +78,7 @@ BoltedRingState state_of(const BoltedRing& ring, Displacement u, double rho, boo
 
 double modulus_of_held_rock(double shear_modulus, double poisson_ratio, double radius, double fixed_radius) {
   require(std::isfinite(shear_modulus) && shear_modulus > 0, "shear modulus must be positive, in Pa");
-  require(poisson_ratio >= 0 && poisson_ratio < 0.5, "Poisson's ratio must lie in 0..0.5, 0.5 excluded");
+  require(poisson_ratio >= 0 && poisson_ratio < 0.5, "Poisson's ratio must be in 0..0.5, 0.5 excluded");
   require(radius > 0 && fixed_radius > radius, "the rock must be held beyond a positive radius");
   const double ratio = radius / fixed_radius, square = ratio * ratio;
   return shear_modulus * (1 + square / (1 - 2 * poisson_ratio)) / (1 - square);
@@ -125,7 +125,7 @@ BoltedRingState bolted_ring_at_by_ode(const BoltedRing& ring, double distance) {
       dy[1] = (y[0] - x * y[1]) / (x * (x + stiff));
     };
   };
-  // beyond the bolts, but for a factor: inwards from where the rock is held, or the decaying solution
+  // beyond the bolts, up to a factor: inwards from the radius at which the rock is held, or the decaying solution
   const auto beyond = [&](double x) {
     if (std::isinf(ring.fixed_radius)) return Displacement{-1 / x, 1 / (x * x)};
     const auto y = integrate_ode(equation(0), {0, 1}, ring.fixed_radius / ring.radius, x);
@@ -140,7 +140,7 @@ BoltedRingState bolted_ring_at_by_ode(const BoltedRing& ring, double distance) {
     return Displacement{y[0], y[1]};
   };
 
-  // The problem is linear: scale so that the wall is free.
+  // The problem is linear: scaled so that the wall is free.
   const Displacement wall = inside(1);
   const double scale =
       ring.in_situ_pressure / (2 * ring.shear_modulus) / (radial_increment(wall, 1, nu) + beta * wall.slope);

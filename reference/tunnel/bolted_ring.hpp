@@ -13,11 +13,11 @@
 //   rho (rho + b) u'' + rho u' - u = 0          within the bolts' length
 //   u / a = C1 rho + C2 [(rho/b^2) ln(1 + b/rho) - 1/b]   there,     u / a = C3 / rho   beyond
 //
-// Rock that is held at a radius R, as a model of finite size is, has u / a = C3 (1/rho - rho a²/R²) beyond: plain rock
-// answers u = A r + B/r, and u(R) = 0. R to infinity gives the line above.
+// Rock that is held at a radius R, as in a model of finite size, has u / a = C3 (1/rho - rho a²/R²) beyond: plain rock
+// has u = A r + B/r, and u(R) = 0. R to infinity gives the line above.
 //
-// Wished in place: bolts feel the whole convergence, no pretension. At the wall the stress increment of rock and bolts
-// together takes off p0 (free wall); at the bolts' end u and the total radial stress are continuous.
+// Wished in place: bolts are loaded by the whole convergence, no pretension. At the wall the stress increment of rock
+// and bolts together cancels p0 (free wall); at the bolts' end u and the total radial stress are continuous.
 namespace voussoir::reference {
 
 struct BoltedRing {
@@ -30,7 +30,7 @@ struct BoltedRing {
   double bolt_length = 0;           // m
   double tangential_spacing = 0;    // s_theta, m along the wall: radius times the angle between bolts
   double longitudinal_spacing = 1;  // s_z, m: 1 for the unit thickness of a plane model
-  double fixed_radius = std::numeric_limits<double>::infinity();  // R, m, where the rock is held; beyond the bolts
+  double fixed_radius = std::numeric_limits<double>::infinity();  // R, m, at which the rock is held; beyond the bolts
 };
 
 struct BoltedRingState {
@@ -40,8 +40,8 @@ struct BoltedRingState {
   double hoop_stress = 0;    // Pa, compression positive
 };
 
-// Shear modulus of an infinite rock that would answer the wall's pressure as rock of modulus G that is held at R does,
-// G (1 + (a/R)²/(1 - 2 nu))/(1 - (a/R)²): at a, the radial stress of u = B (1/r - r/R²) over u.
+// Shear modulus of an infinite rock with the stiffness at the wall of rock of modulus G that is held at R: G (1 +
+// (a/R)²/(1 - 2 nu))/(1 - (a/R)²): at a, the radial stress of u = B (1/r - r/R²) over u.
 double modulus_of_held_rock(double shear_modulus, double poisson_ratio, double radius, double fixed_radius);
 
 // Force of a bolt of `ring`, mean over its length: its integral from wall to end over that length, N.
@@ -50,8 +50,8 @@ double mean_bolt_force(const BoltedRing& ring);
 // beta above.
 double bolt_relative_stiffness(const BoltedRing& ring);
 
-// The state at a distance (m, from the wall to where the rock is held) from the centre; just inside at the bolts' end.
-// Closed form. Throws std::invalid_argument on values out of range.
+// The state at a distance (m, from the wall to the held radius) from the centre; just inside at the bolts' end. Closed
+// form. Throws std::invalid_argument on values out of range.
 BoltedRingState bolted_ring_at(const BoltedRing& ring, double distance);
 
 // The same by integrating the differential equation inwards from the bolts' end.

@@ -46,7 +46,7 @@ TEST(BoltedRing, StressesAreInEquilibrium) {
     const double slope =
         (bolted_ring_at(ring, r + h).radial_stress - bolted_ring_at(ring, r - h).radial_stress) / (2 * h);
     const BoltedRingState here = bolted_ring_at(ring, r);
-    const double rock_and_bolts = here.radial_stress, hoop = here.hoop_stress;  // bolts carry no hoop stress
+    const double rock_and_bolts = here.radial_stress, hoop = here.hoop_stress;  // bolts have no hoop stress
     EXPECT_NEAR(slope + (rock_and_bolts - hoop) / r, 0, 1e-6 * 662175);
     // Hooke's law (Eqs 5.10 and 5.11) in the rock alone: hoop strain u/r from the stresses
     const double bolts = -here.bolt_force / (ring.tangential_spacing * ring.longitudinal_spacing * r / ring.radius);
@@ -54,7 +54,7 @@ TEST(BoltedRing, StressesAreInEquilibrium) {
     const double strain = ((1 - 0.2) * (hoop - 662175) - 0.2 * rock) / (2 * 0.385e9);
     EXPECT_NEAR(strain, here.convergence / r, 1e-9);
   }
-  // nothing jumps at the bolts' end but the bolts themselves
+  // at the bolts' end only the bolts' own stress jumps
   const BoltedRingState inner = bolted_ring_at(ring, 12), outer = bolted_ring_at(ring, 12 + 1e-9);
   EXPECT_NEAR(inner.radial_stress, outer.radial_stress, 1e-3);
   EXPECT_NEAR(inner.convergence, outer.convergence, 1e-11);
@@ -101,7 +101,7 @@ TEST(BoltedRing, HeldAtARadius) {
   EXPECT_NEAR(error[0] / error[1], 4, 1e-3);  // falls as (a/R)²
   EXPECT_LT(std::abs(error[1]), 1e-6 * bolted_ring_at(endless, 5).bolt_force);
 
-  // plain rock: u = B (1/r - r/R²), its radial stress 2G ((1 - nu) u' + nu u/r)/(1 - 2 nu) takes p0 off the wall
+  // plain rock: u = B (1/r - r/R²), its radial stress 2G ((1 - nu) u' + nu u/r)/(1 - 2 nu) cancels p0 at the wall
   ring.bolt_stiffness = 0, ring.fixed_radius = 35;
   const double a = 5, held = 35, nu = 0.2, two_g = 2 * 0.385e9;
   const double slope = -1 / (a * a) - 1 / (held * held), value = 1 / a - a / (held * held);

@@ -33,7 +33,7 @@ IsotropicModuli isotropic_moduli(double spacing, double normal_stiffness, double
 
 std::array<double, 2> isotropic_stiffnesses(const IsotropicModuli& moduli, double spacing) {
   require(positive(spacing) && positive(moduli.shear_modulus), "spacing and shear modulus must be positive");
-  require(moduli.poisson_ratio >= 0 && moduli.poisson_ratio < 0.5, "Poisson's ratio must lie in 0..0.5, 0.5 excluded");
+  require(moduli.poisson_ratio >= 0 && moduli.poisson_ratio < 0.5, "Poisson's ratio must be in 0..0.5, 0.5 excluded");
   // ks/kn = (1 - 2 nu)/(1 + 2 nu), so that kn/(kn + ks) = (1 + 2 nu)/2
   const double twice = 2 * moduli.poisson_ratio, scale = 3 * moduli.shear_modulus / spacing;
   return {scale / (1 - twice), scale / (1 + twice)};

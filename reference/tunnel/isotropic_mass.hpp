@@ -4,8 +4,8 @@
 //
 //   G = (2 s/3) kn ks/(kn + ks),   nu = (kn - ks)/(2 (kn + ks))
 //
-// wherever the lines lie: where the outer shifts add up to the middle one they make triangles, else triangles and
-// hexagons. Stress that varies sees blocks of finite size: corrections of the order of s over its length.
+// wherever the lines are: if the outer shifts add up to the middle one they make triangles, else triangles and
+// hexagons. If the stress varies, the finite size of the blocks matters: corrections of the order of s over its length.
 #pragma once
 
 #include <array>
@@ -29,7 +29,7 @@ std::array<double, 2> isotropic_stiffnesses(const IsotropicModuli& moduli, doubl
 // Joints per metre of a straight line, mean over its directions: 3 (2/pi)/s; between sqrt(3)/s and 2/s in any.
 double mean_crossings(double spacing);
 
-// An opening with a wall of many straight sides in such a mass, held from a radius on.
+// An opening with a wall of many straight sides in such a mass, held beyond a radius.
 struct IsotropicOpening {
   double radius = 0;        // a, m: the circle of the wall's area
   double fixed_radius = 0;  // blocks with centroids beyond it are held
@@ -53,7 +53,7 @@ OpeningNetwork build(const IsotropicOpening& opening);
 // `count` bolts from the wall outwards, at angles (k + 1/2) 2 pi/count.
 void add_fan(OpeningNetwork& built, int count, double length, double stiffness, double offset);
 
-// A closed ring with a node at every corner of the outline, on interface K_L both ways (Pa/m).
+// A closed ring with a node at every corner of the outline, on an interface K_L in both directions (Pa/m).
 void add_ring(OpeningNetwork& built, double axial, double bending, double interface);
 
 double sum_of_bolt_forces(const Solution& solution);  // N, over all springs

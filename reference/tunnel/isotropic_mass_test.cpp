@@ -52,7 +52,7 @@ TEST(IsotropicMass, ModuliAndBack) {
   EXPECT_THROW(isotropic_stiffnesses({1e9, 0.5}, 1), std::invalid_argument);
 }
 
-// Hooke's law, Eqs 5.10 and 5.11. Any uniform stress on the rim: every spring carries it exactly, no block turns, and
+// Hooke's law, Eqs 5.10 and 5.11. Any uniform stress on the rim: every spring transfers it exactly, no block turns, and
 // blocks far apart move as the isotropic solid does, but for the jumps of fewer than two joints of each set.
 TEST(IsotropicMass, UniformStressIsExact) {
   const Tensor stress{{{1.3e6, -0.4e6}, {-0.4e6, 0.5e6}}};  // tension positive
@@ -94,8 +94,8 @@ TEST(IsotropicMass, UniformStressIsExact) {
   }
 }
 
-// Mean stress of a mass whose rim follows a strain along one axis: sum of place times force of what crosses the
-// boundary of the blocks inside, over their area. Compression positive.
+// Mean stress of a mass whose rim follows a strain along one axis: sum of place times force across the boundary of the
+// inner blocks, over their area. Compression positive.
 Point pressed_stress(double half, double kn, double ks, double strain, int along) {
   Network network;
   network.blocks = mass(1, half, {0.1, 0.4, 0.8});
@@ -124,7 +124,7 @@ Point pressed_stress(double half, double kn, double ks, double strain, int along
 }
 
 // Oedometer, along either axis: G = (s1 - s3)/2e, nu = s3/(s1 + s3), Eqs 5.12 and 5.13. The rim, blocks that follow the
-// strain by their centroids, cannot give as the mass does: an error of a spacing over the width, 1/57 for the larger
+// strain by their centroids, cannot deform as the mass does: an error of a spacing over the width, 1/57 for the larger
 // mass, that falls with the width.
 TEST(IsotropicMass, Oedometer) {
   const double kn = 5e9, ks = 0.5e9, strain = 1e-4;
@@ -169,7 +169,7 @@ Ratios ratios(double relative_spacing, int offset) {
   const IsotropicOpening stated = opening(relative_spacing, offset);
   const IsotropicModuli& rock = stated.moduli;
   OpeningNetwork built = build(stated);
-  let_off(built.network.blocks, built.wall, {0, 0, 1, pressure});
+  relieve(built.network.blocks, built.wall, {0, 0, 1, pressure});
   Ratios ratio{};
   for (std::size_t i = 0; i < interfaces.size(); ++i) {
     OpeningNetwork lined = built;
@@ -208,8 +208,8 @@ TEST(IsotropicOpening, ApproachesTheSmearedForms) {
   }
 }
 
-// Least squares in s/a. What is left of the bolts is that they are 32 and not smeared: at s/a = 0.2 the ratio is 0.927,
-// 0.949, 0.961, 0.965 for 16, 32, 64, 128 bolts of the same stiffness together.
+// Least squares in s/a. The remaining deviation of the bolts is that they are 32 and not smeared: at s/a = 0.2 the
+// ratio is 0.927, 0.949, 0.961, 0.965 for 16, 32, 64, 128 bolts of the same total stiffness.
 TEST(IsotropicOpeningLong, ExtrapolatesToTheSmearedForms) {
   const std::array spacings{0.4, 0.2, 0.14};
   std::array<Ratios, 3> mean;
@@ -231,17 +231,17 @@ TEST(IsotropicOpeningLong, ExtrapolatesToTheSmearedForms) {
   }
 }
 
-// Support that meets only what is left of the convergence.
-TEST(IsotropicOpening, LetOffBeforeSupport) {
+// Support that is loaded by the remaining convergence only.
+TEST(IsotropicOpening, RelaxationBeforeSupport) {
   OpeningNetwork built = build(opening(0.4, 1));
   OpeningNetwork whole = built;
-  let_off(whole.network.blocks, whole.wall, {0, 0, 1, pressure});
+  relieve(whole.network.blocks, whole.wall, {0, 0, 1, pressure});
   add_fan(whole, bolts, bolt_length, bolt_stretch * mean_crossings(2), anchor);
   add_ring(whole, axial, bending, interfaces[2]);
   const Solution at_once = solve(whole.network);
   for (const double before : {0.3, 0.6}) {
     OpeningNetwork unsupported = built;
-    let_off(unsupported.network.blocks, unsupported.wall, {0, 0, 1, pressure}, before);
+    relieve(unsupported.network.blocks, unsupported.wall, {0, 0, 1, pressure}, before);
     OpeningNetwork late = whole;
     install(late.network, solve(unsupported.network));
     const Solution supported = solve(late.network);
@@ -255,11 +255,11 @@ TEST(IsotropicOpening, LetOffBeforeSupport) {
   }
 }
 
-// Plain rock that is held at 7 a: the wall comes as far as the annulus of the closed form, and evenly.
+// Plain rock that is held at 7 a: the wall converges as far as in the closed form for an annulus, and evenly.
 TEST(IsotropicOpening, UnsupportedConvergence) {
   const IsotropicOpening stated = opening(0.2, 2);
   OpeningNetwork built = build(stated);
-  let_off(built.network.blocks, built.wall, {0, 0, 1, pressure});
+  relieve(built.network.blocks, built.wall, {0, 0, 1, pressure});
   const Solution solution = solve(built.network);
   const double due = pressure * radius / 2 /
                      modulus_of_held_rock(stated.moduli.shear_modulus, stated.moduli.poisson_ratio, radius, 7 * radius);

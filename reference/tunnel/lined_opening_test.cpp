@@ -19,13 +19,13 @@ using std::numbers::pi;
 struct LinedOpening {
   double radius = 5, fixed_radius = 35, vertical = 662175, k0 = 0.5;
   IsotropicModuli rock = isotropic_moduli(1, 5e9, 0.5e9);
-  double axial = 7.5e9, bending = 56.25e6, interface = 0;  // both ways
+  double axial = 7.5e9, bending = 56.25e6, interface = 0;  // in both directions
 };
 
 // Michell's stress function (A r^-2 + B + C r^2 + D r^4) cos 2t of rock that is held at R, a thin ring inside, and an
-// interface between that gives by traction over K_L both ways. t from the springline; tension positive, displacements
-// outward and counter-clockwise. Unknowns as stresses at the wall: A/a^4, B/a^2, C, D a^2, the tractions p cos 2t, q
-// sin 2t there, and 2G/a times the ring's u cos 2t, v sin 2t.
+// interface between them whose displacement is traction over K_L in both directions. t from the springline; tension
+// positive, displacements outward and counter-clockwise. Unknowns as stresses at the wall: A/a^4, B/a^2, C, D a^2, the
+// tractions p cos 2t, q sin 2t there, and 2G/a times the ring's u cos 2t, v sin 2t.
 RingLiningForces by_stress_function(const LinedOpening& o) {
   const double a = o.radius, nu = o.rock.poisson_ratio, two_g = 2 * o.rock.shear_modulus,
                wave = o.vertical * (1 - o.k0) / 2;
@@ -41,7 +41,7 @@ RingLiningForces by_stress_function(const LinedOpening& o) {
   };
   Eigen::Matrix<double, 8, 8> m = Eigen::Matrix<double, 8, 8>::Zero();
   Eigen::Matrix<double, 8, 1> right = Eigen::Matrix<double, 8, 1>::Zero();
-  m.row(0) << -6, -4, -2, 0, -1, 0, 0, 0;  // stress there before, (wave, -wave), plus the stress function's
+  m.row(0) << -6, -4, -2, 0, -1, 0, 0, 0;  // in-situ stress there, (wave, -wave), plus the stress function's
   m.row(1) << -6, -2, 2, 6, 0, -1, 0, 0;
   right(0) = -wave, right(1) = wave;
   m.row(2).head<4>() = radial(out);
@@ -61,7 +61,7 @@ RingLiningForces by_stress_function(const LinedOpening& o) {
 
 // Rock that is held far away and a stiff interface: the relative stiffness solution, but for I/(A a²) = 3e-4, by which
 // the ring's bending adds to its hoop stiffness in one and not in the other.
-TEST(LinedOpening, StressFunctionFarFromWhereItIsHeld) {
+TEST(LinedOpening, StressFunctionOfRockHeldFarAway) {
   LinedOpening o;
   o.fixed_radius = 1e4, o.interface = 1e15;
   const double g = o.rock.shear_modulus, nu = o.rock.poisson_ratio;
@@ -77,7 +77,7 @@ RingLiningForces by_network(const LinedOpening& o, double relative_spacing) {
   OpeningNetwork built =
       build({o.radius, o.fixed_radius, 96, relative_spacing * o.radius, 0.1, {0.13, 0.55, 0.77}, o.rock, 2});
   constexpr double deep = 1e7;  // m: stress that is uniform to 1e-6
-  let_off(built.network.blocks, built.wall, {deep, o.vertical / deep, o.k0, 0});
+  relieve(built.network.blocks, built.wall, {deep, o.vertical / deep, o.k0, 0});
   add_ring(built, o.axial, o.bending, o.interface);
   const Solution solution = solve(built.network);
   RingLiningForces forces;
@@ -91,7 +91,7 @@ RingLiningForces by_network(const LinedOpening& o, double relative_spacing) {
   return forces;
 }
 
-// Blocks of a fifth of the radius: within 15 %, and nearer than twice as large ones do, to first order or faster.
+// Blocks of a fifth of the radius: within 15 %, and nearer than blocks twice as large, to first order or faster.
 TEST(LinedOpening, UnequalStresses) {
   for (const double interface : {0.1e9, 1e9}) {
     LinedOpening o;
@@ -100,7 +100,7 @@ TEST(LinedOpening, UnequalStresses) {
     const auto compare = [&](double RingLiningForces::*part) {
       const double error = std::abs(fine.*part / (rock.*part) - 1);
       EXPECT_LT(error, 0.15);
-      EXPECT_LT(error, 0.75 * std::abs(coarse.*part / (rock.*part) - 1));  // half, and what one mass scatters
+      EXPECT_LT(error, 0.75 * std::abs(coarse.*part / (rock.*part) - 1));  // half, and the scatter of one mass
     };
     compare(&RingLiningForces::thrust_mean);
     compare(&RingLiningForces::thrust_wave);

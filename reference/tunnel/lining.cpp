@@ -24,7 +24,7 @@ double lining_hoop_force(const SoftLining& lining) {
   require_positive(lining.lining_thickness, "lining thickness");
   require_positive(lining.interface_stiffness, "interface stiffness");
   require(std::isfinite(lining.in_situ_pressure), "in-situ pressure must be finite");
-  require(std::abs(lining.lining_poisson_ratio) < 1, "lining Poisson's ratio must lie between -1 and 1");
+  require(std::abs(lining.lining_poisson_ratio) < 1, "lining Poisson's ratio must be between -1 and 1");
   const double flexibility = lining.radius * (1 - lining.lining_poisson_ratio * lining.lining_poisson_ratio) /
                                  (lining.lining_modulus * lining.lining_thickness) +
                              1 / (lining.interface_stiffness * lining.radius);
@@ -42,8 +42,8 @@ RingLiningForces ring_lining(const RingLining& lining, LiningContact contact) {
   require(std::isfinite(lining.vertical_stress) && std::isfinite(lining.horizontal_ratio),
           "vertical stress and horizontal ratio must be finite");
   require(lining.ground_poisson_ratio >= 0 && lining.ground_poisson_ratio < 0.5,
-          "ground Poisson's ratio must lie in 0..0.5, 0.5 excluded");
-  require(std::abs(lining.lining_poisson_ratio) < 1, "lining Poisson's ratio must lie between -1 and 1");
+          "ground Poisson's ratio must be in 0..0.5, 0.5 excluded");
+  require(std::abs(lining.lining_poisson_ratio) < 1, "lining Poisson's ratio must be between -1 and 1");
 
   const double nu = lining.ground_poisson_ratio, radius = lining.radius;
   const double modulus_ratio = lining.ground_modulus * (1 - lining.lining_poisson_ratio * lining.lining_poisson_ratio) /

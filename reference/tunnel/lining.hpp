@@ -15,14 +15,14 @@ struct SoftLining {
   double lining_thickness = 0;      // t, m
   double interface_stiffness = 0;   // K_L, Pa/m
   double lining_poisson_ratio = 0;  // 0 for separate beams, as in a discrete-element lining
-  double fixed_radius = std::numeric_limits<double>::infinity();  // R, m, where the ground is held
+  double fixed_radius = std::numeric_limits<double>::infinity();  // R, m, at which the ground is held
   double ground_poisson_ratio = 0;                                // of ground that is held
 };
 
 // N = p0 a / (1 + 2 G a (1 - nu_L^2) / (E t) + 2 G / (K_L a)), N per metre of tunnel (Boon 2013, Eq. 5.14, after Eq.
-// H.6). Ground that is held at R answers the wall as one of the modulus of `modulus_of_held_rock` (bolted_ring.hpp)
-// without end does, which takes the place of G. Throws std::invalid_argument unless radius, moduli, thickness and
-// stiffness are positive.
+// H.6). Ground that is held at R has the stiffness at the wall of infinite ground with `modulus_of_held_rock`
+// (bolted_ring.hpp), which replaces G. Throws std::invalid_argument unless radius, moduli, thickness and stiffness are
+// positive.
 double lining_hoop_force(const SoftLining& lining);
 
 // Einstein & Schwartz (1979), Simplified analysis for tunnel supports, J. Geotech. Eng. Div. ASCE 105, 499-518: the

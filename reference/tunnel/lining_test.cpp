@@ -58,7 +58,7 @@ TEST(SoftLining, LimitsAndScaling) {
 }
 
 // Ground held at R: plain rock integrated inwards from there, and the lining's pressure from the wall's two conditions,
-// displacement = pressure times the support's flexibility, stress taken off = p0 - pressure.
+// displacement = pressure times the support's flexibility, stress decrease = p0 - pressure.
 TEST(SoftLining, HeldGroundByIntegration) {
   for (const double held : {7.0, 35.0})
     for (const double interface : {1e6, 0.1e9, 1e9}) {
@@ -189,7 +189,7 @@ TEST(RingLining, SymmetrySignsAndScaling) {
   for (const LiningContact contact : {LiningContact::full_slip, LiningContact::no_slip}) {
     const RingLiningForces low = ring_lining(boon_ring(0.5), contact);
     EXPECT_GT(moment_at(low, 0), 0);                       // the crown sags
-    EXPECT_GT(thrust_at(low, pi / 2), thrust_at(low, 0));  // the springline carries more
+    EXPECT_GT(thrust_at(low, pi / 2), thrust_at(low, 0));  // the thrust is larger at the springline
     EXPECT_NEAR(moment_at(low, 0.3), moment_at(low, pi - 0.3), 1e-6);
     EXPECT_NEAR(thrust_at(low, 0.3), thrust_at(low, -0.3), 1e-6);
 

@@ -25,8 +25,8 @@ bool is_lost(const BlockMotion& block, const MechanismRule& rule) {
   return std::hypot(block.dx, block.dy) > rule.moved;
 }
 
-// What bounds the lost blocks of a place towards blocks that did not move, m: lengths of each set by the side on which
-// they lie, seen from what moved.
+// The boundary of the lost blocks of a place towards blocks that did not move, m: lengths of each set by side, as seen
+// from the moved blocks.
 struct Bounds {
   double all = 0;
   std::vector<double> left, right, beneath;
@@ -58,8 +58,8 @@ Bounds bounds_of(Place place, const std::vector<BlockMotion>& blocks, const std:
   return found;
 }
 
-// Whether traces of these sets, at the left and the right flank, meet above what lies between them: the left one goes
-// up to the right of the other. Both angles from the right, of the way up, in 0..pi.
+// Whether traces of these sets, at the left and the right flank, meet above the part between them: the left one rises
+// to the right of the other. Both are angles of the upward direction from the right, in 0..pi.
 bool narrows_upwards(const JointSet& left, const JointSet& right) {
   const auto up = [](const JointSet& set) { return set.to_right ? std::numbers::pi - set.dip : set.dip; };
   return up(left) < up(right);
@@ -97,7 +97,7 @@ void check(const std::vector<BlockMotion>& blocks, const std::vector<JointStretc
   for (const JointStretch& joint : joints)
     if (joint.first < 0 || joint.first >= count || joint.second < 0 || joint.second >= count ||
         joint.set >= static_cast<int>(sets))
-      throw std::invalid_argument("a joint names a block or a set that is none");
+      throw std::invalid_argument("a joint names a block or a set that does not exist");
 }
 
 }  // namespace

@@ -61,7 +61,7 @@ TEST(Mechanism, ASplinterIsNoMechanism) {
   EXPECT_EQ(made.at(Place::roof).area, 0.05);
 }
 
-TEST(Mechanism, ABlockThatNothingHoldsFalls) {
+TEST(Mechanism, AnUnsupportedBlockFalls) {
   const Mechanism found = Made(0, 6, 0, -1).bounded(1, true).bounded(2, true, 0.2).at(Place::roof);
   EXPECT_EQ(found.kind, Kind::fall);
   EXPECT_EQ(found.area, 2);
@@ -95,7 +95,7 @@ TEST(Mechanism, ASlideNeedsTheJointBeneathAndTheDirection) {
   EXPECT_EQ(turned(-16), Kind::fall);
 }
 
-// Between a joint of 25 W at its left, which goes up to the right, and one of 25 E or 75 E at its right.
+// Between a joint of 25 W at its left, which rises to the right, and one of 25 E or 75 E at its right.
 TEST(Mechanism, AWedgeOfEachPairThatNarrowsUpwards) {
   for (const int right : {0, 1}) {
     const Mechanism found = Made(0, 6, 0, -1).bounded(2, true).bounded(right, true).at(Place::roof);
@@ -103,7 +103,7 @@ TEST(Mechanism, AWedgeOfEachPairThatNarrowsUpwards) {
     EXPECT_EQ(found.first_set, 2);
     EXPECT_EQ(found.second_set, right);
   }
-  // Both dip to the right: 75 E at its left lies beneath it, 25 E at its right above.
+  // Both dip to the right: 75 E at its left is beneath it, 25 E at its right above.
   const Mechanism leaning = Made(0, 6, 0.3, -1).bounded(0, false).bounded(1, true).at(Place::roof);
   EXPECT_EQ(leaning.kind, Kind::wedge);
   EXPECT_EQ(leaning.first_set, 0);
@@ -139,8 +139,8 @@ TEST(Mechanism, EachPlaceForItself) {
   EXPECT_EQ(found[3].kind, Kind::none);
 }
 
-// A joint between two blocks that both go is no bound of theirs; which block is the first does not matter.
-TEST(Mechanism, JointsWithinWhatMovesDoNotCount) {
+// A joint between two moved blocks is not part of their boundary; which block is the first does not matter.
+TEST(Mechanism, JointsBetweenMovedBlocksDoNotCount) {
   Made made = Made(0, 6, 0, -1).bounded(2, true).bounded(0, true);
   made.blocks.push_back({0, 7, 2, 0, -1, 0});
   const int last = static_cast<int>(made.blocks.size()) - 1;
@@ -172,7 +172,7 @@ TEST(Mechanism, MirroredMotionsGiveMirroredMechanisms) {
   EXPECT_EQ(left.kind, Kind::slide);
 }
 
-TEST(Mechanism, RefusesWhatIsNone) {
+TEST(Mechanism, RefusesBlocksAndSetsThatDoNotExist) {
   Made made = Made(0, 6, 0, -1).bounded(0, true);
   made.joints[0].set = 3;
   EXPECT_THROW(mechanisms(made.blocks, made.joints, sets), std::invalid_argument);

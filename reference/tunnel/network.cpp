@@ -10,8 +10,8 @@
 namespace voussoir::reference::network {
 namespace {
 
-// A pivot of the stiffness, scaled to a unit diagonal. Singular ones come out as rounding, some 1e-15 times the square
-// root of the blocks; a cantilever of a thousand blocks, the softest sane structure, has 1e-9.
+// A pivot of the stiffness, scaled to a unit diagonal. Singular ones are rounding, some 1e-15 times the square root of
+// the blocks; a cantilever of a thousand blocks, the softest structure that makes sense, has 1e-9.
 constexpr double least_pivot = 1e-12;
 
 constexpr int largest_row = 6;
@@ -157,8 +157,8 @@ void check(const Lining& lining, int blocks) {
   for (std::size_t i = 0; i < lining.ties.size(); ++i) {
     const Tie& tie = lining.ties[i];
     const std::string name = "tie " + std::to_string(i);
-    if (tie.node < 0 || tie.node >= count) refuse(name + " names a node that is not there");
-    if (tie.block < 0 || tie.block >= blocks) refuse(name + " names a block that is not there");
+    if (tie.node < 0 || tie.node >= count) refuse(name + " names a node that does not exist");
+    if (tie.block < 0 || tie.block >= blocks) refuse(name + " names a block that does not exist");
     if (!is_unit(tie.normal)) refuse(name + " needs a unit normal");
     if (!(std::isfinite(tie.length) && tie.length > 0)) refuse(name + " needs a positive length, in m");
     if (!is_stiffness(tie.normal_stiffness) || !is_stiffness(tie.shear_stiffness))
@@ -204,9 +204,9 @@ void add_ties(Assembly& a) {
     }
 }
 
-// Three modes of a beam, with w the displacement across to the left: stretch; turns of the ends towards each other,
-// e = t2 - t1, EI/l; turns alike, e = t1 + t2 - 2 (w2 - w1)/l, 3 EI/l. Together M = (EI/l)(4 t1 + 2 t2 - 6 w/l) and so
-// on.
+// Three modes of a beam, with w the displacement across to the left: stretching; opposite turns of the ends, e = t2 -
+// t1, EI/l; equal turns, e = t1 + t2 - 2 (w2 - w1)/l, 3 EI/l. Together M = (EI/l)(4 t1 + 2 t2 - 6 w/l), and the others
+// alike.
 void add_beams(Assembly& a) {
   const Lining& lining = a.network.lining;
   const int count = static_cast<int>(lining.nodes.size());
@@ -260,7 +260,7 @@ void refuse_loose(const Assembly& a, const std::vector<char>& held) {
   for (int i = 0; i < 3 * a.bodies(); ++i)
     if (held[i]) anchored[find(i / 3)] = 1;
   for (int i = 0; i < a.bodies(); ++i)
-    if (!anchored[find(i)]) refuse(name_of(a, 3 * i) + ": neither it nor what its springs join it to is held");
+    if (!anchored[find(i)]) refuse(name_of(a, 3 * i) + ": neither it nor any body joined to it by springs is held");
 }
 
 // The free freedoms from K u = f, scaled to a unit diagonal.
@@ -279,7 +279,7 @@ void find_displacements(const Assembly& a, const std::vector<char>& held, const 
     right[i] = force[freedom[i]];
   std::vector<Eigen::Triplet<double>> entries;
   for (const Row& row : a.rows) {
-    const double start = row.force(moved);  // of what is held, and pretension
+    const double start = row.force(moved);  // of held freedoms, and pretension
     for (int i = 0; i < row.count; ++i) {
       const int p = number[row.freedom[i]];
       if (p < 0) continue;

@@ -1,18 +1,18 @@
 // Rigid blocks in the plane on joint springs, with bolts and a lining, for small displacements: a linear network. The
-// same blocks as the program's, given as plain numbers, and nothing of its method: one sparse system, no steps, no
-// contact detection. x right, y up, turns counter-clockwise; forces per metre of thickness.
+// same blocks as the program's, given as plain numbers, but none of its method: one sparse system, no steps, no contact
+// detection. x right, y up, turns counter-clockwise; forces per metre of thickness.
 //
 // Against a joint of the program that stays closed, elastic and bonded, divided into n cells a face (sub_contacts = n):
-//   the same      normal stiffness: a cell of length l answers kn l times the overlap at its middle and acts at its
-//                 centre of pressure, which is a couple kn l³/12 per radian about the middle. A spring that has
-//                 `spread` l²/12 has that couple, and the face as a whole kn L³/12 whatever n is. With spread 0 two
+//   the same      normal stiffness: a cell of length l has the force kn l times the overlap at its middle, acting at
+//                 its centre of pressure: a couple kn l³/12 per radian about the middle. A spring that has
+//                 `spread` l²/12 has that couple, and the integrated face kn L³/12 whatever n is. With spread 0 two
 //                 points a face are softer in bending, kn L³/16.
 //                 shear: ks l times the slip, and no couple, since a turn moves points of a face along its normal only.
 //   not the same  finite turns and slips, the share of a face that slips away or closes at corners with overlap,
-//                 the force that a stressed joint or a pretensioned bolt carries along as it turns: all of the order
-//                 of displacement over block size. Friction, tension cut off: none here. And the path: shear that
-//                 built up while faces came into contact stays in the program's joints, so that increments from a
-//                 settled state are what compares.
+//                 the turning of the forces of a stressed joint or a pretensioned bolt with the blocks: all of the
+//                 order of displacement over block size. Friction, tension cut off: none here. And the path: shear that
+//                 built up while faces came into contact stays in the program's joints, so that only increments from a
+//                 settled state are comparable.
 // Three bricks, partly on each other, settled and then pushed at the top: displacements and turns of the program and of
 // this network with spread agree to 6e-5; without spread turns are a third too large.
 #pragma once
@@ -26,7 +26,7 @@ namespace voussoir::reference::network {
 
 using Freedoms = std::array<double, 3>;  // x, y, turn: m and rad, or N and N m about the centroid (at a node: there)
 
-// One rigid body of one or more convex parts. What is held takes `imposed`; the ground is a block with all three held.
+// One rigid body of one or more convex parts. Held freedoms take `imposed`; the ground is a block with all three held.
 struct Block {
   std::vector<Polygon> parts;
   std::array<bool, 3> held{};
@@ -45,7 +45,7 @@ struct Spring {
   double length = 0;            // m, of the face
   double normal_stiffness = 0;  // kn, Pa/m
   double shear_stiffness = 0;   // ks, Pa/m
-  double spread = 0;            // m²: l²/12 for a cell that answers as a whole, 0 for a point
+  double spread = 0;            // m²: l²/12 for a cell with its integrated moment, 0 for a point
 };
 
 // Between anchors fixed in two blocks, along `axis`, unit, from the first to the second. Across it (a dowel) both
@@ -56,10 +56,10 @@ struct Bolt {
   double stiffness = 0;   // K, N/m
   double across = 0;      // N/m
   double pretension = 0;  // F0, N: f = K (extension - installed) + F0
-  Point installed{};      // m, extension along the axis and slip across it that went before
+  Point installed{};      // m, initial extension along the axis and slip across it
 };
 
-// A joint of the beams. Held and loaded as a block, about its place.
+// A joint of the beams. Held and loaded as a block, about its position.
 struct Node {
   Point at;
   std::array<bool, 3> held{};
@@ -67,15 +67,15 @@ struct Node {
   Freedoms load{};
 };
 
-// A node on a block's wall, pressing where the two approach. `normal` is unit, from the block to the node. A node may
-// have several: at a corner of the outline one to each side, of half its length each.
+// A node on a block's wall, in compression when the two approach. `normal` is unit, from the block to the node. A node
+// may have several: at a corner of the outline one to each side, of half its length each.
 struct Tie {
   int node = 0, block = 0;
   Point normal;
   double length = 0;            // m, tributary
   double normal_stiffness = 0;  // Pa/m
   double shear_stiffness = 0;   // Pa/m
-  Point installed{};            // m, of node against wall, along the normal and the normal turned, that went before
+  Point installed{};            // m, initial displacement of node against wall, along the normal and the normal turned
 };
 
 // Euler-Bernoulli beams from node to node, counter-clockwise as seen from inside: the inside is on the left.
@@ -91,7 +91,7 @@ struct Network {
   std::vector<Block> blocks;
   std::vector<Spring> springs;
   std::vector<Bolt> bolts;
-  Lining lining;  // without nodes: none
+  Lining lining;  // no nodes: no lining
 };
 
 struct SpringForce {
@@ -116,21 +116,21 @@ struct Solution {
   std::vector<Freedoms> nodes;
   std::vector<SpringForce> springs;
   std::vector<BoltForce> bolts;
-  std::vector<SpringForce> ties;  // normal positive where wall and lining press; "second" is the node
+  std::vector<SpringForce> ties;  // normal positive in compression; "second" is the node
   std::vector<BeamForce> beams;   // from node i to i + 1
-  double unbalanced = 0;          // largest force left on a freedom, over the largest load or spring force on any
+  double unbalanced = 0;          // largest residual force of a freedom, over the largest load or spring force on any
 };
 
-// Puts the supports in when the blocks have moved by `before`, a solution of a network with these blocks: bolts have
-// only their pretension, dowels and ties no force there. Displacements of nodes then count from where the wall had come
-// to.
+// Installs the supports when the blocks have moved by `before`, a solution of a network with these blocks: bolts have
+// only their pretension, dowels and ties no force there. Displacements of nodes then count from the position of the
+// wall at installation.
 void install(Network& network, const Solution& before);
 
 // Displacement of a block's point, m.
 Point displacement(const Network& network, const Solution& solution, int block, const Point& at);
 
-// Throws std::invalid_argument, naming the block, node, spring, bolt or beam, where numbers are out of range, where a
-// block or node is loose (no springs hold it, alone or with its neighbours), or where springs leave it a mechanism.
+// Throws std::invalid_argument, naming the block, node, spring, bolt or beam, if numbers are out of range, if a block
+// or node is loose (no springs hold it, alone or with its neighbours), or if springs leave it a mechanism.
 Solution solve(const Network& network);
 
 }  // namespace voussoir::reference::network

@@ -42,7 +42,7 @@ TEST(Network, HungBlock) {
   for (const BoltForce& bolt : even.bolts)
     EXPECT_NEAR(bolt.axial, 2e4, 1e-8);
   EXPECT_NEAR(even.blocks[1][1], -1e-4, 1e-16);
-  // two bolts, weight off their middle: the lever rule, and the turn that goes with it
+  // two bolts, weight off their middle: the lever rule, and the resulting rotation
   network.bolts.erase(network.bolts.begin() + 1);
   network.blocks[1].load = {};
   add_force(network.blocks[1], {0.4, 0.7}, {0, -6e4});
@@ -55,7 +55,7 @@ TEST(Network, HungBlock) {
 
 // As stiff as a mass with a joint every L, E = kn L and G = ks L (Eqs 5.6, 5.7, 6.1, 6.2). Square blocks of side L on
 // each other, pressed, pushed and turned at the top: every joint shortens by N/(kn L), slips by V/(ks L) and turns by M
-// over kn L³/12, or kn L³/16 where its two points have no spread of their own.
+// over kn L³/12, or kn L³/16 if its two points have no spread of their own.
 TEST(Network, Column) {
   constexpr int count = 6;
   constexpr double side = 2, pressed = 3e5, pushed = 1e4;
@@ -80,7 +80,7 @@ TEST(Network, Column) {
     const Point moved = displacement(network, solution, count, {0, top});
     EXPECT_NEAR(moved[0], across, 1e-11 * across);
     EXPECT_NEAR(moved[1], -count * pressed / (kn * side), 1e-13);
-    // the lowest joint: what its two springs carry together, force by force
+    // the lowest joint: total force and moment of its two springs, force by force
     double thrust = 0, shear = 0, couple = 0;
     for (int i = 0; i < 2; ++i) {
       const SpringForce& force = solution.springs[i];
@@ -89,7 +89,7 @@ TEST(Network, Column) {
       couple += force.couple + network.springs[i].at[0] * force.normal;
     }
     EXPECT_NEAR(thrust, pressed, 1e-6);
-    EXPECT_NEAR(shear, pushed, 1e-6);  // normal up: turned by 90° it points left, where the joint holds the column
+    EXPECT_NEAR(shear, pushed, 1e-6);  // normal up: turned by 90° it points left, as does the joint's force
     EXPECT_NEAR(couple, pushed * top, 1e-6);
     EXPECT_LT(solution.unbalanced, 1e-12);
   }
@@ -136,11 +136,11 @@ TEST(Network, BoltAndDowelAcrossOneJoint) {
   EXPECT_NEAR(solution.blocks[1][0], x, 1e-15);
   EXPECT_NEAR(solution.blocks[1][1], y, 1e-15);
   EXPECT_NEAR(solution.bolts[0].axial, axial * (x * s + y * c), 1e-7);
-  // the turned axis is (cos, -sin); the second block stands still, the first drags it along
+  // the turned axis is (cos, -sin); the second block does not move, the first drags it along
   EXPECT_NEAR(solution.bolts[0].across, across * (x * c - y * s), 1e-7);
 }
 
-// A dowel off the centroids: the forces on both blocks have one line of action, so that the whole stays in balance.
+// A dowel off the centroids: the forces on both blocks have one line of action, so that the assembly stays in balance.
 TEST(Network, DowelKeepsTheBalanceOfMoments) {
   Network network;
   network.blocks = {ground(box(-1, -1, 1, 0)), {{box(-1, 0, 1, 2)}}};
@@ -156,7 +156,7 @@ TEST(Network, DowelKeepsTheBalanceOfMoments) {
   EXPECT_NEAR(moment, 0, 1e-6);
 }
 
-// Put in after half of the load, bolt and dowel take half of what they take of all of it, pretension apart.
+// Installed after half of the load, bolt and dowel take half of their forces under the full load, pretension apart.
 TEST(Network, InstalledUnderLoad) {
   Network network;
   network.blocks = {ground(box(-1, -1, 1, 0)), {{box(-1, 0, 1, 2)}}};
@@ -233,7 +233,7 @@ TEST(Network, RingUnderUniformPressure) {
   }
 }
 
-// p cos 2t on an inextensible ring: M = p a²/3 where it presses, w = p a⁴/(9 EI)
+// p cos 2t on an inextensible ring: M = p a²/3 at the greatest pressure, w = p a⁴/(9 EI)
 TEST(Network, RingUnderAnOvalPressure) {
   constexpr double radius = 5, ei = 56.25e6, pressure = 1e5;
   double error[2];
@@ -260,7 +260,7 @@ TEST(Network, RingUnderAnOvalPressure) {
 }
 
 // A lining of twelve straight sides, pressed by d = 1 mm by rigid sides without friction. Each side is a beam on an
-// elastic foundation, EI w'''' + K w = K d, w'(±h) = 0, and its ends give with the thrust of the sides, w(h)
+// elastic foundation, EI w'''' + K w = K d, w'(±h) = 0, and its ends yield to the thrust of the sides, w(h)
 // tan²(pi/12) EA/h = K int (d - w) over half a side: 4.97708 kN, -595.35 and 297.57 N m; 967.499 kN, -89017.7, 32401.4
 // N m.
 TEST(Network, TwelveSidesPressedInwards) {

@@ -6,7 +6,7 @@
 
 namespace voussoir::reference::network {
 
-using Point = std::array<double, 2>;  // m, or N where it is a force
+using Point = std::array<double, 2>;  // m, or N for a force
 using Polygon = std::vector<Point>;   // convex, counter-clockwise, m
 
 inline double dot(const Point& a, const Point& b) {

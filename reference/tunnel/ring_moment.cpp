@@ -30,7 +30,7 @@ MemberForces ring_under_vertical_pressure(double pressure, double radius, double
 MemberForces polygon_under_pressure(double pressure, double circumradius, int sides, double fraction) {
   check(pressure, circumradius);
   require(sides >= 3, "a polygon needs at least 3 sides");
-  require(fraction >= 0 && fraction <= 1, "fraction along the side must lie in 0..1");
+  require(fraction >= 0 && fraction <= 1, "fraction along the side must be in 0..1");
   const double length = 2 * circumradius * std::sin(pi / sides);
   return {pressure * length * length * (fraction * (1 - fraction) / 2 - 1.0 / 12),
           pressure * circumradius * std::cos(pi / sides)};

@@ -26,7 +26,7 @@ MemberForces polygon_under_pressure(double pressure, double circumradius, int si
 double pressure_from_moments(const std::vector<double>& position, const std::vector<double>& moment);
 
 // Smoothing of moments (Boon 2013, Eqs I.1-I.4): radial pressures at equally spaced angles k 2 pi/count from the crown
-// on a ring of radius a; what is out of balance is taken by a shear A cos t + B sin t. With p = sum p_n cos(n t - f_n),
+// on a ring of radius a; their resultant is balanced by a shear A cos t + B sin t. With p = sum p_n cos(n t - f_n),
 // equilibrium M''' + M' = -a^2 (p' + tau) and closure give M = a^2 sum_{n >= 2} p_n cos(n t - f_n)/(n^2 - 1). At least
 // four angles. Throws std::invalid_argument, as the others do, on values out of range.
 std::vector<double> ring_moments(const std::vector<double>& pressure, double radius);

@@ -25,7 +25,7 @@ struct FrameForces {
 
 // A closed polygonal frame by the direct stiffness method: corners clockwise from the crown, members with axial
 // stiffness EA and bending stiffness EI under a load per member length, uniform over the member. Rigid motions are held
-// at corner 0; the loads balance, so the supports carry nothing.
+// at corner 0; the loads balance, so the reactions are zero.
 FrameForces solve_frame(const std::vector<Vector2d>& corner, const std::function<Vector2d(int member)>& load, double ea,
                         double ei) {
   const int count = static_cast<int>(corner.size());

@@ -14,7 +14,7 @@ namespace {
 
 constexpr Require require{"rock mass: "};
 
-// how far inside a polygon's edge a point lies: offset - normal·x, normal unit
+// how far inside a polygon's edge a point is: offset - normal·x, normal unit
 struct Side {
   double x = 0, y = 0, offset = 0;
   double inside(const Point& at) const { return offset - x * at[0] - y * at[1]; }
@@ -31,12 +31,12 @@ std::vector<Side> sides_of(const Polygon& polygon, const Point& origin) {
   return sides;
 }
 
-// the trace's stretch within a convex polygon has a length
+// the trace's part within a convex polygon has a length
 bool enters(const Trace& trace, const Polygon& polygon) {
   const double c = std::cos(trace.angle), s = std::sin(trace.angle);
   double low = -trace.length / 2, high = trace.length / 2;
   for (const Side& side : sides_of(polygon, trace.middle)) {
-    const double slope = side.x * c + side.y * s;  // inside where slope·t < offset
+    const double slope = side.x * c + side.y * s;  // inside if slope·t < offset
     if (slope > 0)
       high = std::min(high, side.offset / slope);
     else if (slope < 0)
@@ -54,7 +54,7 @@ double distance(const Point& a, const Point& b) {
 struct Piece {
   Polygon polygon;
   Point middle;
-  double reach = 0;  // of a circle about the middle that holds it
+  double reach = 0;  // of a circle about the middle that contains it
 };
 
 Piece piece_of(Polygon polygon) {
@@ -90,7 +90,7 @@ std::vector<Trace> draw_traces(const Point& low, const Point& high, double densi
 SpacedJointsModuli spaced_joints_moduli(double spacing, double normal_stiffness, double shear_stiffness,
                                         double poisson_ratio) {
   require(spacing > 0 && normal_stiffness > 0 && shear_stiffness > 0, "spacing and stiffnesses must be positive");
-  require(poisson_ratio >= 0 && poisson_ratio < 0.5, "Poisson's ratio must lie in 0..0.5, 0.5 excluded");
+  require(poisson_ratio >= 0 && poisson_ratio < 0.5, "Poisson's ratio must be in 0..0.5, 0.5 excluded");
   const double young = normal_stiffness * spacing;
   return {young, shear_stiffness * spacing, young / (2 * (1 + poisson_ratio))};
 }
@@ -127,7 +127,7 @@ std::vector<Polygon> cut_by_traces(const Polygon& whole, const std::vector<Trace
     for (std::size_t i = 0; i < before; ++i) {
       if (distance(pieces[i].middle, trace.middle) > pieces[i].reach + trace.length / 2) continue;
       if (!enters(trace, pieces[i].polygon)) continue;
-      // a piece that thin could not hold the circle
+      // so thin a piece could not contain the circle
       std::vector<Polygon> halves = cut(pieces[i].polygon, {line}, least_radius);
       if (halves.size() < 2 ||
           std::ranges::any_of(halves, [&](const Polygon& half) { return inscribed_radius(half) < least_radius; }))

@@ -1,4 +1,4 @@
-// Rock cut by joints that end, and how it answers an oedometer: the mass of Boon (2013), section 5.4.1, made again by
+// Rock cut by joints that end, and its moduli in an oedometer: the mass of Boon (2013), section 5.4.1, made again by
 // another slicer and the network.
 #pragma once
 
@@ -47,7 +47,7 @@ struct OedometerAnswer {
 };
 
 // Blocks that fill the box from low to high, pressed along x or y (`along` 0 or 1) between four rigid walls without
-// friction, on which they lie as on each other. A mass much larger than its blocks: the two joints at the walls count
+// friction, with contacts as between blocks. For a mass much larger than its blocks: the two joints at the walls count
 // as joints of the mass do.
 OedometerAnswer oedometer(std::vector<Block> blocks, const Point& low, const Point& high, int cells,
                           double normal_stiffness, double shear_stiffness, int along, double tolerance);

@@ -56,7 +56,7 @@ TEST(RockMass, TracesAreDrawnAsStated) {
   EXPECT_THROW(draw_traces({0, 0}, {0, 1}, 1, 0, 0, 1, 1), std::invalid_argument);
 }
 
-// Eqs 5.6-5.9: the moduli of table 5.3, rounded as printed; where kn = 2 (1 + nu) ks both shear moduli are one
+// Eqs 5.6-5.9: the moduli of table 5.3, rounded as printed; if kn = 2 (1 + nu) ks both shear moduli are equal
 TEST(RockMass, SpacedJoints) {
   const SpacedJointsModuli printed = spaced_joints_moduli(0.77, 5e9, 0.5e9, 0.2);
   EXPECT_NEAR(printed.shear_modulus / 1e9, 0.385, 0.0005);
@@ -68,7 +68,8 @@ TEST(RockMass, SpacedJoints) {
   EXPECT_THROW(spaced_joints_moduli(1, 1, 1, 0.5), std::invalid_argument);
 }
 
-// Squares in columns: n + 1 joints of kn over the height, nothing sideways; pressed sideways the same with its numbers.
+// Squares in columns: n + 1 joints of kn over the height, no lateral stress; pressed sideways the same with its
+// numbers.
 TEST(RockMass, OedometerOfColumns) {
   std::vector<Polygon> squares;
   for (int i = 0; i < 3; ++i)
@@ -105,8 +106,8 @@ TEST(RockMass, OneDrawOfTheChapter) {
   EXPECT_NEAR(up.poisson_ratio, 0.365, 0.012);
 }
 
-// Means of four draws; a radius of 0.5 m, as Table 5.2 can be read, gives a third of the blocks and nearly twice the
-// modulus. Pressed horizontally the mass is stiffer: it is not isotropic.
+// Means of four draws; a radius of 0.5 m, a possible reading of Table 5.2, gives a third of the blocks and nearly twice
+// the modulus. Pressed horizontally the mass is stiffer: it is not isotropic.
 TEST(RockMassLong, Chapter) {
   for (const double least : {0.25, 0.5}) {
     double up[2] = {0, 0}, across[2] = {0, 0}, blocks = 0;

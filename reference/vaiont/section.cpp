@@ -17,8 +17,8 @@ constexpr Require require{"section of a slide: "};
 
 using Polygon = std::vector<SectionPoint>;
 
-// what of a polygon lies where a x + b y <= c; edges that it leaves along the line enclose nothing, so that areas stay
-// right where a polygon that is not convex falls into pieces
+// the part of a polygon with a x + b y <= c; the edges left along the line enclose no area, so that areas stay right if
+// a polygon that is not convex falls into pieces
 Polygon cut(const Polygon& polygon, double a, double b, double c) {
   Polygon kept;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -76,7 +76,7 @@ SlideSection vaiont_section(double seat_dip) {
   require(std::abs(seat_dip) < right_angle / 9, "the seat must dip less than 10 degrees");
   const SectionPoint head{20.8119, 1179.0372}, upper{718.3777, 644.0025}, lower{818.3777, 620};
   const SectionPoint front{1214.3866, 620}, crest{920, 850};
-  // where the seat's line meets the front's
+  // intersection of the seat's line with the front's
   const double fall = std::tan(seat_dip), face = (front.y - crest.y) / (front.x - crest.x);
   const double x = (lower.y - crest.y + fall * lower.x + face * crest.x) / (face + fall);
   const SectionPoint toe{x, lower.y - fall * (x - lower.x)};
@@ -120,7 +120,7 @@ std::vector<double> section_forces(const std::vector<SectionBlock>& blocks, cons
 }
 
 double critical_slide_friction(const std::vector<SectionBlock>& blocks, double cross, double cross_dip) {
-  // at the steepest dip every block holds; before a slide's reaction is parallel to a cross joint, the block on it
+  // at the steepest dip every block is stable; before a slide's reaction is parallel to a cross joint, the block on it
   // holds any force
   double steepest = 0, locked = cross_dip - cross;
   for (const SectionBlock& block : blocks) {
@@ -129,7 +129,7 @@ double critical_slide_friction(const std::vector<SectionBlock>& blocks, double c
   }
   const double high = std::min(steepest, (1 - before_locking) * locked);
   const auto held = [&](double slide) { return -force_at_toe(blocks, {slide, cross, cross_dip}); };
-  require(high > 0 && held(0) < 0 && held(high) >= 0, "no friction angle of the slide is just enough");
+  require(high > 0 && held(0) < 0 && held(high) >= 0, "no friction angle of the slide is critical");
   return root(0, high, held);
 }
 
@@ -153,7 +153,7 @@ double section_factor_of_safety(const std::vector<SectionBlock>& blocks, const S
     low /= 2;
   for (int doubling = 0; doubling < 10 && driven(high) < 0; ++doubling)
     high *= 2;
-  require(driven(low) < 0 && driven(high) >= 0, "no factor between 1/1000 and 1000 is just enough");
+  require(driven(low) < 0 && driven(high) >= 0, "no factor between 1/1000 and 1000 is critical");
   return root(low, high, driven);
 }
 

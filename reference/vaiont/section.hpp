@@ -5,7 +5,7 @@
 // A slide in the plane on a surface that bends, cut by one cross joint at each bend, by limit equilibrium: the blocks
 // translate along the slide, the cross joints between them are fully mobilised. SI units per metre of slope, radians.
 //
-// The force from block to block lies at an angle delta below the horizontal, downslope: delta = phi_c + pi/2 - beta,
+// The force from block to block is at an angle delta below the horizontal, downslope: delta = phi_c + pi/2 - beta,
 // phi_c the cross joints' friction angle, beta their dip into the slope (pi/2: vertical). A block under the vertical
 // force W and the horizontal force H, downslope, on a slide of dip alpha and friction phi adds to the horizontal part
 // of that force
@@ -13,9 +13,9 @@
 //   E_out - E_in = (H + W tan(alpha - phi))/(1 + tan(delta) tan(alpha - phi)),
 //
 // and at the critical friction the sum over all blocks vanishes: no force at the head, none at the toe. Rigid-block
-// limit analysis, whose joints open as they slip, finds the same where the blocks translate, as they do behind vertical
-// joints; joints parallel to those at the bends change nothing, for they do not slip. Where another mechanism needs
-// more friction (cross joints that dip 50 degrees into the slope) this one is a lower bound of the angle.
+// limit analysis, whose joints open as they slip, finds the same if the blocks translate, as they do behind vertical
+// joints; joints parallel to those at the bends change nothing, since they do not slip. If another mechanism needs more
+// friction (cross joints that dip 50 degrees into the slope) this one is a lower bound of the angle.
 namespace voussoir::reference {
 
 struct SectionPoint {
@@ -42,7 +42,7 @@ struct SectionBlock {
   double dip = 0;         // rad, of the slide below it
   double area = 0;        // m^2
   double vertical = 0;    // N/m, weight less the water's lift, downwards
-  double horizontal = 0;  // N/m, downslope: the water's, where its surface falls, and the coefficient's
+  double horizontal = 0;  // N/m, downslope: by the water, if its surface falls, and by the coefficient
 };
 
 // The blocks from head to toe. One water acts on all faces of all blocks: its force is gamma_w times the submerged area
@@ -53,21 +53,22 @@ std::vector<SectionBlock> section_blocks(const SlideSection& section, const Sect
 
 struct SectionFriction {
   double slide = 0, cross = 0;            // rad
-  double cross_dip = 1.5707963267948966;  // rad, into the slope; the one that section_blocks was asked for
+  double cross_dip = 1.5707963267948966;  // rad, into the slope; as given to section_blocks
 };
 
-// Horizontal part of the force from each block to the next (N/m, compression positive); the last one is the force that
-// the toe would have to be held by.
+// Horizontal part of the force from each block to the next (N/m, compression positive); the last one is the force
+// needed to hold the toe.
 std::vector<double> section_forces(const std::vector<SectionBlock>& blocks, const SectionFriction& friction);
 
-// The friction angle of the slide at which the last force vanishes. Throws std::invalid_argument where none of 0 to the
+// The friction angle of the slide at which the last force vanishes. Throws std::invalid_argument if none of 0 to the
 // steepest dip does.
 double critical_slide_friction(const std::vector<SectionBlock>& blocks, double cross, double cross_dip);
 
-// The coefficient by which `blocks`, under their own weights, just stand when their weights act also downslope.
+// The coefficient at which `blocks`, under their own weights, are just stable when that fraction of their weights also
+// acts downslope.
 double critical_horizontal_coefficient(const std::vector<SectionBlock>& blocks, const SectionFriction& friction);
 
-// The factor by which both tangents may be divided; below one when the slide does not stand.
+// The factor by which both tangents may be divided; below one if the slide is unstable.
 double section_factor_of_safety(const std::vector<SectionBlock>& blocks, const SectionFriction& friction);
 
 }  // namespace voussoir::reference

@@ -29,8 +29,9 @@ double critical_deg(const SlideSection& section, const SectionLoads& loads = {},
   return critical_slide_friction(section_blocks(section, loads, cross_dip), cross, cross_dip) / degree;
 }
 
-// Second derivation: six balances of three blocks, solved at once for the forces on the slide (inclined at its friction
-// from the normal) and on the cross joints, with the force that must hold the toe. Zero at the critical friction.
+// Second derivation: six balances of three blocks, solved together for the forces on the slide (inclined at its
+// friction from the normal) and on the cross joints, with the force that must hold the toe. Zero at the critical
+// friction.
 double toe_force_by_balances(const std::vector<SectionBlock>& blocks, double slide, double cross) {
   Eigen::Matrix<double, 6, 6> equations = Eigen::Matrix<double, 6, 6>::Zero();  // R0 R1 R2, F01 F12, toe
   Eigen::Matrix<double, 6, 1> loads;
@@ -41,7 +42,7 @@ double toe_force_by_balances(const std::vector<SectionBlock>& blocks, double sli
     loads(2 * k) = -blocks[k].horizontal;
     loads(2 * k + 1) = blocks[k].vertical;
     if (k < 2) {
-      equations(2 * k, 3 + k) = -std::cos(cross);  // what it gives to the next pushes it back and up
+      equations(2 * k, 3 + k) = -std::cos(cross);  // its reaction on the next block pushes that block back and up
       equations(2 * k + 1, 3 + k) = std::sin(cross);
       equations(2 * k + 2, 3 + k) = std::cos(cross);
       equations(2 * k + 3, 3 + k) = -std::sin(cross);
@@ -110,7 +111,7 @@ TEST(VaiontSection, WorkedValues) {
 }
 
 // Cross joints dipping into the slope through both bends, beside limit analysis of the same three blocks. At 50 degrees
-// that finds 7.13: one mechanism, here the blocks' translation, shows only that no less friction is enough.
+// that finds 7.13: one mechanism, here the blocks' translation, shows only that no less friction suffices.
 TEST(VaiontSection, CrossJointsIntoTheSlope) {
   EXPECT_NEAR(critical_deg(vaiont_section(), {}, rock, 71.25 * degree), 14.58993, 1e-5);
   EXPECT_LT(critical_deg(vaiont_section(), {}, rock, 50 * degree), 7.13);
@@ -169,10 +170,10 @@ TEST(VaiontSection, Limits) {
   EXPECT_NEAR(blocks[0].horizontal / blocks[0].vertical, pushed / lifted, 1e-12);
   EXPECT_NEAR(section_forces(blocks, {std::atan(0.5) + std::atan2(pushed, lifted), rock}).back() / blocks[0].vertical,
               0, 1e-12);
-  // water of no weight, or below all, is none; smooth cross joints give less than rough ones
+  // water without weight, or below all, has no effect; smooth cross joints give less than rough ones
   EXPECT_NEAR(critical_deg(vaiont_section(), water(-1)), critical_deg(vaiont_section()), 1e-12);
   EXPECT_GT(critical_deg(vaiont_section(), {}, 0), critical_deg(vaiont_section(), {}, rock));
-  // dry, the rock's unit weight does not matter; nor wet, if the water's goes with it
+  // dry, the rock's unit weight does not matter; nor wet, if the water's changes with it
   SectionLoads heavy = water(90);
   heavy.unit_weight *= 7;
   heavy.water_unit_weight *= 7;
@@ -189,7 +190,7 @@ TEST(VaiontSection, Scaling) {
   EXPECT_NEAR(critical_deg(large, wet), critical_deg(vaiont_section(), water(90)), 1e-11);
 }
 
-TEST(VaiontSection, RefusesWhatItCannotAnswer) {
+TEST(VaiontSection, RefusesInvalidInput) {
   SectionLoads crooked;
   crooked.table = {{900, 710}, {800, 680}};
   EXPECT_THROW(section_blocks(vaiont_section(), crooked), std::invalid_argument);

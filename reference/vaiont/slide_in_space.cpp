@@ -39,7 +39,7 @@ SlideInSpace vaiont_in_space(double east) {
 
 namespace {
 
-// midpoints of cells no wider than `spacing`, none of which lies across one of these borders
+// midpoints of cells no wider than `spacing`, none of which crosses one of these borders
 struct Cells {
   std::vector<double> middle, width;
 };

@@ -17,7 +17,7 @@ constexpr Require require{"floating block: "};
 void check(const FloatingBlock& block) {
   require(std::isfinite(block.width) && block.width > 0, "width must be positive");
   require(std::isfinite(block.height) && block.height > 0, "height must be positive");
-  require(block.relative_density > 0 && block.relative_density < 1, "relative density must lie between 0 and 1");
+  require(block.relative_density > 0 && block.relative_density < 1, "relative density must be between 0 and 1");
   require(std::isfinite(block.gravity) && block.gravity > 0, "gravity must be positive");
 }
 
@@ -106,9 +106,9 @@ Submerged submerged_rectangle(double width, double height, double turn, double a
 
 Submerged submerged_cube_on_corner(double level) {
   const double diagonal = std::numbers::sqrt3;
-  require(level >= 0 && level <= diagonal, "the level must lie between the cube's lowest and highest corner");
+  require(level >= 0 && level <= diagonal, "the level must be between the cube's lowest and highest corner");
   Submerged found;
-  // of edge, sign times number, from a corner that lies this high
+  // of edge, sign times number, from a corner at this height
   const auto add = [&](double edge, double times, double from) {
     if (edge <= 0) return;
     const double volume = times * edge * edge * edge / 6;

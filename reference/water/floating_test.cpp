@@ -51,7 +51,7 @@ TEST(FloatingBlock, LimitsOfStability) {
     EXPECT_NEAR(metacentric_height({ratio, 1, density, 9.81}), 0, 1e-14);
     EXPECT_GT(metacentric_height({1.001 * ratio, 1, density, 9.81}), 0);
     EXPECT_LT(metacentric_height({0.999 * ratio, 1, density, 9.81}), 0);
-    EXPECT_NEAR(least_stable_ratio(1 - density), ratio, 1e-14);  // what stands out of the water floats in the air
+    EXPECT_NEAR(least_stable_ratio(1 - density), ratio, 1e-14);  // the part above the water floats in the air
   }
   EXPECT_NEAR(least_stable_ratio(0.6), 1.2, 1e-14);
   EXPECT_LT(angle_of_loll({0.999999 * least_stable_ratio(0.5), 1, 0.5, 9.81}), 0.01);
@@ -67,7 +67,7 @@ TEST(FloatingBlock, Scales) {
   EXPECT_NEAR(angle_of_loll({110, 100, 0.5, 1}), angle_of_loll(tender), 1e-14);
 }
 
-TEST(FloatingBlock, RefusesWhatItCannotAnswer) {
+TEST(FloatingBlock, RefusesInvalidInput) {
   EXPECT_THROW(draught({1, 1, 1.2, 9.81}), std::invalid_argument);
   EXPECT_THROW(draught({0, 1, 0.5, 9.81}), std::invalid_argument);
   EXPECT_THROW(roll_period(tender), std::invalid_argument);

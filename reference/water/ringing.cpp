@@ -8,10 +8,10 @@
 namespace voussoir::reference {
 namespace {
 
-// A phase is looked at this often in a period of the faster vibration: one that ends sooner after it began is none. The
-// slips are some tenth of a period long.
+// A phase is sampled this often in a period of the faster vibration: one that ends sooner is not counted. The slips are
+// some tenth of a period long.
 constexpr int looks_in_a_period = 2000;
-// Strength, over the incline's force, by which rounding may miss: a block that stays on the limit does not slip.
+// Rounding of the strength, over the incline's force: a block that stays on the limit does not slip.
 constexpr double rounding = 1e-12;
 
 struct Ringing {
@@ -56,7 +56,7 @@ double ringing_slip(const RingingBlock& block, double time) {
       !positive(block.gravity))
     throw std::invalid_argument("ringing block: mass, stiffnesses and gravity must be positive");
   if (!(block.incline > 0 && block.incline < block.friction_angle && block.friction_angle < std::numbers::pi / 2))
-    throw std::invalid_argument("ringing block: the incline must lie between 0 and the friction angle");
+    throw std::invalid_argument("ringing block: the incline must be between 0 and the friction angle");
   if (!(std::isfinite(time) && time >= 0)) throw std::invalid_argument("ringing block: time must not be negative");
   const Ringing r{std::sqrt(block.normal_stiffness / block.mass), std::sqrt(block.shear_stiffness / block.mass),
                   block.gravity * std::sin(block.incline),
@@ -65,7 +65,7 @@ double ringing_slip(const RingingBlock& block, double time) {
   const double look = 2 * std::numbers::pi / std::max(r.normal_rate, r.shear_rate) / looks_in_a_period;
 
   Motion start{0.5 * r.drive / spring, 0};
-  double t0 = 0, slip = 0, travelled = 0, sense = 0;  // 0: it sticks; else the way it slips
+  double t0 = 0, slip = 0, travelled = 0, sense = 0;  // 0: it sticks; else the direction in which it slips
   while (t0 < time) {
     const auto at = [&](double t) {
       return sense == 0 ? sticking(r, start, slip, t0, t) : slipping(r, start, sense, t0, t);

@@ -17,7 +17,7 @@ RingingBlock block(double shear_stiffness) {
   return {2000, 35 * degree, 40 * degree, 1e7, shear_stiffness, 9.81};
 }
 
-// Second derivation: leapfrog in short steps with the joint's force returned to its strength, normal motion and all.
+// Second derivation: leapfrog in short steps with the joint's force returned to its strength, normal motion included.
 double slip_by_steps(const RingingBlock& b, double time) {
   const double dt = 2e-6, c = std::cos(b.incline), s = std::sin(b.incline);
   double overlap = 0.5 * b.mass * b.gravity * c / b.normal_stiffness, closing = 0;
@@ -49,14 +49,14 @@ TEST(RingingBlock, ByShortSteps) {
 }
 
 TEST(RingingBlock, Limits) {
-  // both vibrations alike: the shear force keeps its ratio to the normal one
+  // both vibrations equal: the shear force keeps its ratio to the normal one
   EXPECT_EQ(ringing_slip(block(1e7), 1), 0);
   EXPECT_EQ(ringing_slip(block(2.5e6), 0), 0);
-  // friction that even the lightest contact under the largest shear force does not reach
+  // so much friction that the largest shear force never exceeds it, even at the smallest contact force
   RingingBlock held = block(2.5e6);
   held.friction_angle = std::atan(3.001 * std::tan(35 * degree));
   EXPECT_EQ(ringing_slip(held, 1), 0);
-  // slip never comes back
+  // slip is irreversible
   double last = 0;
   for (double time = 0; time < 0.6; time += 0.05) {
     EXPECT_GE(ringing_slip(block(2.5e6), time), last);
@@ -65,7 +65,7 @@ TEST(RingingBlock, Limits) {
 }
 
 TEST(RingingBlock, Scaling) {
-  // four times gravity at half the time: the same places
+  // four times gravity at half the time: the same positions
   RingingBlock quick = block(4 * 2.5e6);
   quick.normal_stiffness *= 4;
   quick.gravity *= 4;

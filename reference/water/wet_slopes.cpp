@@ -13,7 +13,7 @@ constexpr double right_angle = std::numbers::pi / 2;
 
 constexpr Require require{"water: "};
 
-// along a joint of this dip: what drives, and what presses on it when the water is taken off
+// along a joint of this dip: the driving force, and the normal force less the water's
 struct Balance {
   double driving = 0, effective = 0;
 };
@@ -27,8 +27,8 @@ Balance balance(const PlaneFailure& slope) {
 }  // namespace
 
 double submerged_acceleration(double incline, double friction_angle, double density_ratio, double gravity) {
-  require(incline >= 0 && incline <= right_angle, "an incline lies between 0 and pi/2 radians");
-  require(friction_angle >= 0 && friction_angle < right_angle, "a friction angle lies between 0 and pi/2 radians");
+  require(incline >= 0 && incline <= right_angle, "an incline must be between 0 and pi/2 radians");
+  require(friction_angle >= 0 && friction_angle < right_angle, "a friction angle must be between 0 and pi/2 radians");
   require(std::isfinite(density_ratio) && density_ratio > 1, "the block must be denser than water");
   require(positive(gravity), "gravity must be positive");
   const double slides = std::sin(incline) - std::cos(incline) * std::tan(friction_angle);
@@ -39,17 +39,17 @@ PlaneFailureForces forces_of(const PlaneFailure& slope) {
   require(positive(slope.height) && positive(slope.unit_weight), "height and unit weight must be positive");
   require(slope.joint > 0 && slope.joint < slope.face && slope.face <= right_angle,
           "the joint must dip less than the face, and the face no more than pi/2 radians");
-  require(slope.crack_distance >= 0, "the crack must lie behind the crest");
+  require(slope.crack_distance >= 0, "the crack must be behind the crest");
   require(slope.cohesion >= 0 && slope.friction_angle >= 0 && slope.friction_angle < right_angle,
-          "cohesion must not be negative, and a friction angle lie between 0 and pi/2 radians");
+          "cohesion must not be negative, and a friction angle must be between 0 and pi/2 radians");
   const double crest = slope.height / std::tan(slope.face), crack = crest + slope.crack_distance;
   const double rise = crack * std::tan(slope.joint);
   PlaneFailureForces f;
   f.joint_length = crack / std::cos(slope.joint);
   f.crack_depth = slope.height - rise;
-  require(f.crack_depth >= 0, "where the crack stands the joint must be below the top");
+  require(f.crack_depth >= 0, "at the crack the joint must be below the top");
   require(slope.water_in_crack >= 0 && slope.water_in_crack <= f.crack_depth, "the crack does not hold so much water");
-  // under the face and the top, less what is below the joint
+  // under the face and the top, less the part below the joint
   f.weight =
       slope.unit_weight * (0.5 * crest * slope.height + slope.crack_distance * slope.height - 0.5 * crack * rise);
   f.uplift = 0.5 * water_unit_weight * slope.water_in_crack * f.joint_length;
@@ -65,18 +65,18 @@ double factor_of_safety(const PlaneFailure& slope) {
 
 double critical_friction(const PlaneFailure& slope) {
   const auto [driving, effective] = balance(slope);
-  require(effective > 0, "the water lifts the block; no friction holds it");
+  require(effective > 0, "the water lifts the block; no friction angle holds it");
   return std::atan2(driving, effective);
 }
 
 double critical_friction(const GravityBlock& block) {
   require(positive(block.width) && positive(block.height) && positive(block.unit_weight),
           "width, height and unit weight must be positive");
-  require(block.water >= 0 && block.water <= block.height, "the water must not stand above the block");
+  require(block.water >= 0 && block.water <= block.height, "the water must not be above the block");
   const double thrust = 0.5 * water_unit_weight * block.water * block.water;
   const double effective =
       block.unit_weight * block.width * block.height - 0.5 * water_unit_weight * block.water * block.width;
-  require(effective > 0, "the water lifts the block; no friction holds it");
+  require(effective > 0, "the water lifts the block; no friction angle holds it");
   return std::atan2(thrust, effective);
 }
 
@@ -96,7 +96,7 @@ double tipping_water(const GravityBlock& block) {
 double highest_corner(const DrawnDownBlock& block) {
   require(positive(block.length) && positive(block.height) && positive(block.unit_weight),
           "length, height and unit weight must be positive");
-  require(block.incline >= 0 && block.incline < right_angle, "an incline lies between 0 and pi/2 radians");
+  require(block.incline >= 0 && block.incline < right_angle, "an incline must be between 0 and pi/2 radians");
   return block.length * std::sin(block.incline) + block.height * std::cos(block.incline);
 }
 
@@ -107,7 +107,7 @@ double critical_friction(const DrawnDownBlock& block) {
   const double weight = block.unit_weight * block.length * block.height;
   const double uplift = water_unit_weight * block.length * (block.level - 0.5 * rise);
   const double effective = weight * std::cos(block.incline) - uplift;
-  require(effective > 0, "the water lifts the block; no friction holds it");
+  require(effective > 0, "the water lifts the block; no friction angle holds it");
   return std::atan2(weight * std::sin(block.incline), effective);
 }
 

@@ -6,9 +6,9 @@ namespace voussoir::reference {
 
 inline constexpr double water_unit_weight = 9810;  // N/m^3
 
-// Acceleration (m/s^2) down an incline of a block wholly below one level of still water, joint and all: buoyancy takes
-// the same fraction off weight and contact force, (1 - rho_w/rho) g (sin - cos tan phi); 0 where friction holds it.
-// `density_ratio` rho/rho_w > 1. The water's resistance and added mass are left out.
+// Acceleration (m/s^2) down an incline of a block wholly below one level of still water, its joint included: buoyancy
+// reduces weight and contact force by the same fraction, (1 - rho_w/rho) g (sin - cos tan phi); 0 if friction holds it.
+// `density_ratio` rho/rho_w > 1. The water's resistance and added mass are neglected.
 double submerged_acceleration(double incline, double friction_angle, double density_ratio, double gravity);
 
 // --- plane failure with a vertical tension crack behind the crest (Hoek & Bray 1981, Rock Slope Engineering, ch. 7)
@@ -16,7 +16,7 @@ double submerged_acceleration(double incline, double friction_angle, double dens
 struct PlaneFailure {
   double height = 0;           // m, of the slope
   double face = 0, joint = 0;  // rad, dips: joint < face
-  double crack_distance = 0;   // m behind the crest, where the joint must still be below the horizontal top
+  double crack_distance = 0;   // m behind the crest, at which the joint must still be below the horizontal top
   double unit_weight = 0;      // N/m^3
   double water_in_crack = 0;   // m above the joint, 0 .. crack_depth
   double cohesion = 0;         // Pa, on the joint
@@ -34,13 +34,13 @@ struct PlaneFailureForces {
 // Throws std::invalid_argument on values out of range.
 PlaneFailureForces forces_of(const PlaneFailure& slope);
 
-// (c A + (W cos - U - V sin) tan phi)/(W sin + V cos); 0 where the contact force is no longer compressive.
+// (c A + (W cos - U - V sin) tan phi)/(W sin + V cos); 0 if the contact force is not compressive.
 double factor_of_safety(const PlaneFailure& slope);
 
-// The friction angle at which it slides without cohesion, rad. Throws std::invalid_argument where none holds it.
+// The friction angle at which it slides without cohesion, rad. Throws std::invalid_argument if none holds it.
 double critical_friction(const PlaneFailure& slope);
 
-// --- a gravity block on its foundation, water on one side and uplift below that falls linearly to nil at the other
+// --- a gravity block on its foundation, water on one side and uplift below that falls linearly to zero at the other
 
 struct GravityBlock {
   double width = 0, height = 0;  // m
@@ -51,11 +51,11 @@ struct GravityBlock {
 // tan phi = V/(W - U), V = gamma_w h^2/2, U = gamma_w h b/2.
 double critical_friction(const GravityBlock& block);
 
-// The water (m, `water` of the block ignored) at which it tips about its dry edge, resting on it alone: gamma_w h^3/6 +
-// gamma_w h b^2/3 = gamma H b^2/2. Throws std::invalid_argument where that is above its top.
+// The depth of water (m, `water` of the block ignored) at which it tips about its dry edge, supported there only:
+// gamma_w h^3/6 + gamma_w h b^2/3 = gamma H b^2/2. Throws std::invalid_argument if that is above its top.
 double tipping_water(const GravityBlock& block);
 
-// --- a block on an incline whose joint is still full when the reservoir has gone
+// --- a block on an incline whose joint is still full after the drawdown of the reservoir
 
 struct DrawnDownBlock {
   double length = 0, height = 0;  // m, along the incline and across it
@@ -67,7 +67,7 @@ struct DrawnDownBlock {
 // The height (m) of its highest corner above its lowest.
 double highest_corner(const DrawnDownBlock& block);
 
-// tan phi = W sin/(W cos - U), U = gamma_w l (level - l sin/2). Throws std::invalid_argument where the water lifts it.
+// tan phi = W sin/(W cos - U), U = gamma_w l (level - l sin/2). Throws std::invalid_argument if the water lifts it.
 double critical_friction(const DrawnDownBlock& block);
 
 }  // namespace voussoir::reference

@@ -18,8 +18,8 @@ struct Point {
   double x = 0, y = 0;
 };
 
-// Second derivation of whatever the water does to a block: its pressure summed along short pieces of its faces. Corners
-// counter-clockwise; the head over a point that a face's midpoints ask for; moment about the origin.
+// Second derivation of the water's forces on a block: its pressure summed along short pieces of its faces. Corners
+// counter-clockwise; the head over a point, evaluated at the midpoints; moment about the origin.
 struct WaterForce {
   double x = 0, y = 0, moment = 0;
 };

@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 
 constexpr double half_turn = std::numbers::pi;
 
-// Below this sine of the angle between them the planes have no usable line of intersection: the normal forces carry
+// Below this sine of the angle between them the planes have no usable line of intersection: the normal forces have
 // an error of about one rounding unit divided by it.
 constexpr double smallest_sine = 1e-9;
 
@@ -39,10 +39,10 @@ constexpr Require require{"wedge: "};
 void check_plane(const WedgePlane& plane, const std::string& name) {
   const std::string of = " of plane " + name;
   require(plane.dip >= 0 && plane.dip <= half_turn / 2 + rounding,
-          "dip" + of + " must lie in 0..pi/2 radians; give degrees times pi/180, and turn the dip direction round");
+          "dip" + of + " must be in 0..pi/2 radians; give degrees times pi/180, and turn the dip direction round");
   require(std::isfinite(plane.dip_direction), "dip direction" + of + " must be finite, in radians");
   require(plane.friction_angle >= 0 && plane.friction_angle < half_turn / 2,
-          "friction angle" + of + " must lie in 0..pi/2 radians, pi/2 excluded");
+          "friction angle" + of + " must be in 0..pi/2 radians, pi/2 excluded");
   require(std::isfinite(plane.cohesion_force) && plane.cohesion_force >= 0,
           "cohesion force" + of + " must be finite and not negative (cohesion times area)");
   require(std::isfinite(plane.uplift_force) && plane.uplift_force >= 0,
@@ -121,7 +121,7 @@ WedgeSolution solve_wedge(const Wedge& wedge) {
   const double trend = std::atan2(line.x(), line.y());
   solution.line_trend = trend < 0 ? trend + 2 * half_turn : trend;
 
-  // pushes into the planes, and the normal forces if both held
+  // driving forces into the planes, and the normal forces if both are in contact
   const double push_a = -resultant.dot(n_a), push_b = -resultant.dot(n_b);
   const double sine_squared = n_a.cross(n_b).squaredNorm();
   const double both_a = (push_a - cosine * push_b) / sine_squared;
@@ -139,8 +139,8 @@ WedgeSolution solve_wedge(const Wedge& wedge) {
     return solution;
   }
 
-  // Contact on one. At most one of the two can carry: with both normal forces negative, both pushes positive would need
-  // |N_A| < |cos| |N_B| < cos^2 |N_A|.
+  // Contact on one. At most one of the two can be in contact: with both normal forces negative, both driving forces
+  // positive would need |N_A| < |cos| |N_B| < cos^2 |N_A|.
   const bool on_a = both_b < 0 && push_a > 0, on_b = both_a < 0 && push_b > 0;
   if (on_a || on_b) {
     const Vector3d& normal = on_a ? n_a : n_b;
@@ -154,7 +154,7 @@ WedgeSolution solve_wedge(const Wedge& wedge) {
     return solution;
   }
 
-  // no contact: nothing resists
+  // no contact: no strength
   solution.mode = WedgeMode::lifts_off;
   solution.driving_force = resultant.norm();
   if (solution.driving_force > 0) solution.sliding_direction = to_array(resultant.normalized());
@@ -189,9 +189,9 @@ WedgeClass classify_wedge(const Wedge& wedge) {
   const bool both = solution.mode == WedgeMode::both_planes;
   const double share_a = solution.normal_force_a / dry.weight, share_b = solution.normal_force_b / dry.weight;
   if ((both || solution.mode == WedgeMode::plane_a) && share_a < least_normal_fraction)
-    return {false, "plane A carries " + number(share_a) + " of the weight, below 0.05"};
+    return {false, "plane A supports " + number(share_a) + " of the weight, below 0.05"};
   if ((both || solution.mode == WedgeMode::plane_b) && share_b < least_normal_fraction)
-    return {false, "plane B carries " + number(share_b) + " of the weight, below 0.05"};
+    return {false, "plane B supports " + number(share_b) + " of the weight, below 0.05"};
 
   if (both && clearance_a > -least_clearance)
     return {false, "sliding on both planes, but t_A.n_B = " + number(clearance_a) + " is above -0.3"};
@@ -201,7 +201,7 @@ WedgeClass classify_wedge(const Wedge& wedge) {
     return {false, "sliding on plane A, but t_A.n_B = " + number(clearance_a) + " is below 0.3"};
   if (solution.mode == WedgeMode::plane_b && clearance_b < least_clearance)
     return {false, "sliding on plane B, but t_B.n_A = " + number(clearance_b) + " is below 0.3"};
-  if (solution.mode == WedgeMode::lifts_off) return {false, "the block rests on neither plane"};
+  if (solution.mode == WedgeMode::lifts_off) return {false, "the block is in contact with neither plane"};
   return {true, ""};
 }
 

@@ -16,7 +16,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 // Radians (0.25 degrees) from the closed form over which the friction step doubles: of 40 000 equal steps from 70
-// degrees about 1500 are left, at the same error.
+// degrees about 1500 remain, at the same error.
 constexpr double widening_distance = 0.0044;
 
 constexpr Require require{"wedge path: "};
@@ -54,7 +54,7 @@ WedgePathResult follow(const ElasticPlasticWedge& block, const WedgePathSettings
   };
   const auto put_on = [&](const Vector3& now) {
     require(equilibrate(joints, equal(settings.friction_start), now, size, settlement, state),
-            "the block does not hold while its loads are put on; raise friction_start or gravity_steps");
+            "the block does not hold while its loads are applied; raise friction_start or gravity_steps");
   };
   const auto part = [&](int step) { return static_cast<double>(step) / settings.gravity_steps; };
   for (int step = 1; step <= settings.gravity_steps; ++step)
@@ -67,8 +67,8 @@ WedgePathResult follow(const ElasticPlasticWedge& block, const WedgePathSettings
   result.start_shear_ratio_a = state.normal[0] > 0 ? length(state.shear[0]) / state.normal[0] : 0;
   result.start_shear_ratio_b = state.normal[1] > 0 ? length(state.shear[1]) / state.normal[1] : 0;
 
-  // Friction falls, in steps that widen with the distance from the closed form's angle: what slips early slips little.
-  // The step is halved for good where equilibrium is lost.
+  // Friction falls, in steps that widen with the distance from the closed form's angle: early slips are small. The step
+  // is halved, and stays so, if equilibrium is lost.
   const double target = critical_friction(wedge).value_or(0);
   double friction = settings.friction_start, step = settings.friction_step;
   while (step > settings.smallest_step && friction > 0) {
@@ -94,7 +94,7 @@ WedgePathResult elastic_plastic_path(const ElasticPlasticWedge& block, const Wed
   for (const double value : {block.area_a, block.area_b, block.normal_stiffness, block.shear_stiffness})
     require(std::isfinite(value) && value > 0, "areas and stiffnesses must be positive and finite");
   require(settings.friction_start > 0 && settings.friction_start < 1.5707963,
-          "friction_start must lie between 0 and pi/2 radians");
+          "friction_start must be between 0 and pi/2 radians");
   require(settings.gravity_steps >= 1, "gravity_steps must be at least 1");
   require(settings.friction_step > settings.smallest_step && settings.smallest_step > 0,
           "friction_step must exceed smallest_step, and both must be positive");
@@ -115,7 +115,7 @@ WedgeFaces wedge_faces(const Wedge& wedge, double face_dip, double face_dip_dire
   const Vector3d face = to_eigen(upward_normal(face_dip, face_dip_direction));
   const Vector3d up(0, 0, 1);
 
-  // Corners: the line daylights at the origin; the others lie on the top plane z = height.
+  // Corners: the line daylights at the origin; the others are on the top plane z = height.
   auto corner = [&](const Vector3d& first, const Vector3d& second) -> Vector3d {
     Matrix3d rows;
     rows << first.transpose(), second.transpose(), up.transpose();
@@ -125,14 +125,14 @@ WedgeFaces wedge_faces(const Wedge& wedge, double face_dip, double face_dip_dire
     return factors.solve(Vector3d(0, 0, height));
   };
   const Vector3d back = corner(n_a, n_b), on_a = corner(n_a, face), on_b = corner(n_b, face);
-  require(
-      solution.line_plunge > 0 && face.dot(back) < 0 && n_b.dot(on_a) > 0 && n_a.dot(on_b) > 0,
-      "the slope face does not cut a finite wedge above both planes; make it steeper or turn it to the line's trend");
+  require(solution.line_plunge > 0 && face.dot(back) < 0 && n_b.dot(on_a) > 0 && n_a.dot(on_b) > 0,
+          "the slope face does not cut a finite wedge above both planes; make it steeper or turn it towards the line's "
+          "trend");
   return {0.5 * back.cross(on_a).norm(), 0.5 * back.cross(on_b).norm(), std::abs(back.dot(on_a.cross(on_b))) / 6};
 }
 
 WedgeUplift wedge_uplift(const WedgeFaces& faces, double height, double level, double unit_weight) {
-  require(level >= 0 && level <= height, "water must stand between the wedge's lowest corner and its top");
+  require(level >= 0 && level <= height, "the water level must be between the wedge's lowest corner and its top");
   require(std::isfinite(unit_weight) && unit_weight >= 0, "the unit weight of water must not be negative");
   const double wet = level / height, mean_pressure = unit_weight * level / 3;
   return {faces.area_a * wet * wet * mean_pressure, faces.area_b * wet * wet * mean_pressure};

@@ -3,35 +3,35 @@
 #include "reference/wedge/wedge.hpp"
 
 // The wedge as a rigid block with three translations on two elastic, perfectly plastic Coulomb joints, followed
-// quasi-statically: gravity is put on in small steps at a high friction angle, then friction falls until no equilibrium
-// is left. Unlike limit equilibrium it keeps the history: settling under gravity locks shear across the sliding
-// direction, which raises the normal forces, so the block holds to a slightly lower angle than the closed form.
+// quasi-statically: gravity is applied in small steps at a high friction angle, then friction falls until no
+// equilibrium is left. Unlike limit equilibrium it keeps the history: settling under gravity locks shear across the
+// sliding direction, which raises the normal forces, so the block holds to a slightly lower angle than the closed form.
 //
 // Law per unit area (elastic, perfectly plastic Mohr-Coulomb joints as in Boon 2013, section 4.8):
 //   sigma = kn <w>,  w the overlap;   tau += -ks (slip);   |tau| <= sigma tan(phi), radial return, no dilation.
 // Weight, kn and the size of the block cancel; ks/kn and area_a/area_b do not. For planes 40/130 and 60/220, gravity
-// put on at 60 degrees or more, in degrees (step error below 0.0005; closed form 33.3572):
+// applied at 60 degrees or more, in degrees (step error below 0.0005; closed form 33.3572):
 //
 //   area_a/area_b   ks/kn = 0.1     0.5        1          2
 //        0.8        33.325     33.252     33.195     33.142
-//        1.0        33.353     33.318     33.274     33.229     (33.267 at ks/kn = 1 if gravity is put on at 36)
+//        1.0        33.353     33.318     33.274     33.229     (33.267 at ks/kn = 1 if gravity is applied at 36)
 //        1.1305     33.357     33.345     33.320     33.293     (vertical face, dip direction 180)
-//     1.3 to 5      33.3572 throughout, the closed form (but 33.341 at 1.3, ks/kn = 1, if gravity is put on at 36)
+//     1.3 to 5      33.3572 throughout, the closed form (but 33.341 at 1.3, ks/kn = 1, if gravity is applied at 36)
 //
-// So a comparison needs the areas of its own block: wedge_faces. What the model leaves out bounds its use: rotations,
-// and the inertia of a reduction at a finite rate.
+// So a comparison needs the areas of its own block: wedge_faces. The model neglects rotations, and the inertia of a
+// reduction at a finite rate, which limits its use.
 //
-// Water lifts the block off its planes by the planes' uplift forces; sigma is then the effective stress. When it comes
-// matters as much as the joints' stiffness. The wedge of cases/wedge (areas 0.814083 and 0.773385 m^2, 4584.2747 N)
-// under 1 kPa on both planes (closed form 46.6373), in degrees:
+// Water lifts the block off its planes by the planes' uplift forces; sigma is then the effective stress. The
+// order of loading matters as much as the joints' stiffness. The wedge of cases/wedge (areas 0.814083 and 0.773385 m^2,
+// 4584.2747 N) under 1 kPa on both planes (closed form 46.6373), in degrees:
 //
 //   ks/kn   water with gravity, 70 degrees   water after gravity, 70    water after gravity, at 48 to 50
 //    0.01           46.608                         46.608                     46.602 to 46.604
 //    0.1            46.410                         46.410                     46.382 to 46.389
 //     1             45.937                         45.937                     45.917 to 45.923
 //
-// Another calculation, whose path is not stated, gives 46.38 and 45.92 for the last two rows: the last column, where
-// friction was already low when the water came. A scene's water grows with gravity's factor: the first.
+// Another calculation, whose path is not stated, gives 46.38 and 45.92 for the last two rows: the last column, in which
+// friction was already low when the water was applied. A scene's water grows with gravity's factor: the first.
 namespace voussoir::reference {
 
 struct ElasticPlasticWedge {
@@ -43,7 +43,7 @@ struct ElasticPlasticWedge {
 };
 
 struct WedgePathSettings {
-  double friction_start = 1.2217304763960306;  // radians (70 degrees): gravity is put on at this angle
+  double friction_start = 1.2217304763960306;  // radians (70 degrees): gravity is applied at this angle
   int gravity_steps = 100;
   bool uplift_with_gravity = true;             // false: after it, in as many steps, still at friction_start
   double friction_step = 8.7266462599716e-06;  // radians (0.0005 degrees), near failure; wider far from it

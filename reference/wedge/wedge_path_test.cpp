@@ -79,8 +79,8 @@ double critical_deg_by_dynamics(const ElasticPlasticWedge& block, double slower_
 }
 
 TEST(WedgePath, BoonWedgeWithEqualAreas) {
-  // Values of an independent calculation that does not state its areas; equal ones come within 0.03, which is what
-  // 8 % on the area ratio does. Its 33.135 at ks/kn = 2 would need a ratio of 0.8 and is not gated here.
+  // Values of an independent calculation that does not state its areas; equal ones are within 0.03, the effect of 8 %
+  // on the area ratio. Its 33.135 at ks/kn = 2 would need a ratio of 0.8 and is not checked here.
   EXPECT_NEAR(critical_deg(0.1), 33.355, 0.03);
   EXPECT_NEAR(critical_deg(0.5), 33.330, 0.03);
   EXPECT_NEAR(critical_deg(1), 33.300, 0.03);
@@ -95,8 +95,8 @@ TEST(WedgePath, BoonWedgeWithEqualAreas) {
 }
 
 TEST(WedgePath, DampedDynamicsAgrees) {
-  // Failure is seen late: the block, weight 1, damper c = 0.2, rate r = 2e-6 degrees, moves 2.5 units (four less the
-  // settlement) within sqrt(2 c 2.5 r / 0.016) = 0.011 degrees.
+  // Failure is detected late: the block, weight 1, damper c = 0.2, rate r = 2e-6 degrees, moves 2.5 units (four less
+  // the settlement) within sqrt(2 c 2.5 r / 0.016) = 0.011 degrees.
   for (const double ratio : {1.0, 2.0})
     EXPECT_NEAR(critical_deg_by_dynamics({boon_wedge(), 1, 1, 1, ratio}, 36, 33.4), critical_deg(ratio), 0.015);
 }
@@ -145,7 +145,7 @@ TEST(WedgeUplift, ByStrips) {
   const WedgeUplift uplift = wedge_uplift({1, 3, 1}, 1, level, 9810);
   EXPECT_NEAR(uplift.a, sum, 1e-5 * sum);
   EXPECT_NEAR(uplift.b, 3 * uplift.a, 1e-9);
-  // of faces ten times as high it is a thousand times as great
+  // of faces ten times as high the uplift is a thousand times as great
   EXPECT_NEAR(wedge_uplift({100, 300, 1000}, 10, 10 * level, 9810).a, 1000 * uplift.a, 1e-7);
 }
 
@@ -159,7 +159,7 @@ TEST(WedgePath, WithWater) {
   EXPECT_NEAR(wet_critical_deg(wet_wedge(1, 1000), 50, false), 45.923, 1e-3);
   EXPECT_NEAR(wet_critical_deg(wet_wedge(0.1, 0, 0.5)), 37.879, 1e-3);
   EXPECT_NEAR(wet_critical_deg(wet_wedge(1, 0, 0.5)), 37.724, 1e-3);
-  // no shear stiffness, nothing to lock; buoyancy of all faces is less weight and nothing else
+  // no shear stiffness, no locked shear; buoyancy of all faces only reduces the weight
   EXPECT_NEAR(wet_critical_deg(wet_wedge(0.001, 1000)), 46.637, 4e-3);
   ElasticPlasticWedge light = wet_wedge(0.5, 0), dry = light;
   light.wedge.weight *= 0.5;
@@ -182,11 +182,11 @@ TEST(WedgePath, NeverAboveTheClosedForm) {
     last = now;
   }
   EXPECT_NEAR(critical_deg(1, 3), closed, 1e-6);   // a wide face A: the closed form itself
-  EXPECT_NEAR(critical_deg(0.001), closed, 2e-4);  // no shear stiffness, nothing to lock
+  EXPECT_NEAR(critical_deg(0.001), closed, 2e-4);  // no shear stiffness, no locked shear
 }
 
 TEST(WedgePath, SinglePlaneAndSymmetricWedge) {
-  // Single plane: nothing to lock against. Symmetric: both normal forces rise alike.
+  // Single plane: no locked shear. Symmetric: both normal forces rise equally.
   const Wedge symmetric = wedge(50, 30, 50, 330), single = wedge(35, 180, 70, 190);
   for (const double ratio : {0.1, 2.0}) {
     const WedgePathResult one = elastic_plastic_path({single, 1, 1, 1, ratio});

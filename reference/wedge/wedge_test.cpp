@@ -35,7 +35,7 @@ Vector3d eigen(const Vector3& v) {
   return {v[0], v[1], v[2]};
 }
 
-// Plane through the block's foot in words of a strike and a pole, so that no formula is shared with the code.
+// Plane through the block's foot by a strike and a pole, so that no formula is shared with the code.
 Vector3d pole(const WedgePlane& p) {
   const Vector3d east(1, 0, 0), north(0, 1, 0), up(0, 0, 1);
   const Vector3d horizontal = std::cos(p.dip_direction) * north + std::sin(p.dip_direction) * east;
@@ -123,7 +123,7 @@ TEST(Wedge, SymmetricWedge) {
 }
 
 TEST(Wedge, SinglePlaneSlidesDownItsDip) {
-  // B dips the same way as A but more steeply: the block parts from B and slides down A.
+  // B dips the same way as A but more steeply: the block separates from B and slides down A.
   const Wedge w = wedge(35, 180, 70, 190);
   const WedgeSolution s = solve_wedge(w);
   EXPECT_EQ(s.mode, WedgeMode::plane_a);
@@ -136,9 +136,9 @@ TEST(Wedge, SinglePlaneSlidesDownItsDip) {
 TEST(Wedge, ExtremesOfStrengthAndLoad) {
   EXPECT_EQ(solve_wedge(boon_wedge(0)).factor_of_safety, 0);
 
-  // horizontal line of intersection: nothing drives
+  // horizontal line of intersection: no driving force
   const WedgeSolution ridge = solve_wedge(wedge(45, 90, 45, 270, 30));
-  EXPECT_GT(ridge.factor_of_safety, 1e10);  // a rounding of the driving force may be left
+  EXPECT_GT(ridge.factor_of_safety, 1e10);  // a rounding of the driving force may remain
 
   // a lift larger than the weight
   Wedge lifted = boon_wedge(30);
@@ -153,7 +153,7 @@ TEST(Wedge, ExtremesOfStrengthAndLoad) {
   EXPECT_EQ(*critical_friction(glued), 0);
 }
 
-TEST(Wedge, UpliftTakesOffItsOwnNormalForceOnly) {
+TEST(Wedge, UpliftReducesItsOwnNormalForceOnly) {
   Wedge w = boon_wedge(40);
   const WedgeSolution dry = solve_wedge(w);
   w.a.uplift_force = 0.1;
@@ -226,7 +226,7 @@ TEST(Wedge, EquilibriumSolvedNumerically) {
       EXPECT_GE(active.dot(n_a), 0);
       EXPECT_GE(active.dot(n_b), 0);
     } else {
-      // sliding must leave the other plane, and press on its own
+      // sliding must move away from the other plane, and press on its own
       ++one;
       const bool on_a = s.mode == WedgeMode::plane_a;
       EXPECT_GE(eigen(s.sliding_direction).dot(on_a ? n_b : n_a), 0);
@@ -254,7 +254,7 @@ TEST(Wedge, CriticalFrictionGivesAFactorOfOne) {
 
 // --- scaling and symmetry
 
-TEST(Wedge, WeightRotationAndNamesDoNotMatter) {
+TEST(Wedge, IsIndependentOfWeightRotationAndNames) {
   RandomWedges random;
   for (int i = 0; i < 500; ++i) {
     const Wedge w = random.next();

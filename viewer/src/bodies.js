@@ -1,15 +1,15 @@
-// Where bodies are: what the pictures and the sections ask, from displacement and rotation of a frame. A point x of a
-// body's frame lies at
+// Positions of bodies for pictures and sections, from displacement and rotation of a frame. A point x of a body's frame
+// is at
 //
 //   reference + x + magnified (displacement + (R - 1) x) + exploded (reference - centre),
 //
-// so a magnified picture has as many times the displacement of every point, and points that touch stay together.
+// so a magnified picture multiplies the displacement of every point, and points in contact stay together.
 import { DataTexture, FloatType, NearestFilter, RGBAFormat } from 'three';
 import { FIXED, PRESENT } from './data.js';
 
 const TEXELS = 5, ROW = 256; // of a shape; shapes in a row of the texture
 
-// R - 1 by rows from a rotation vector, exact also where it is small
+// R - 1 by rows from a rotation vector, exact also if it is small
 export function turnLessOne(x, y, z, out) {
   const angle2 = x * x + y * y + z * z, angle = Math.sqrt(angle2);
   const a = angle > 1e-4 ? Math.sin(angle) / angle : 1 - angle2 / 6;
@@ -74,7 +74,7 @@ export class Bodies {
     return out;
   }
 
-  // where the material of a body is that now, as it truly moved, lies by `arm` from its centroid
+  // initial position of the material point that, in the true motion, is now at `arm` from the body's centroid
   placeOfArm(shape, f, arm, look, out) {
     const m = this.turn(f, shape.body), x = [0, 0, 0];
     for (let k = 0; k < 3; ++k) x[k] = arm[k] + m[k] * arm[0] + m[3 + k] * arm[1] + m[6 + k] * arm[2];

@@ -1,4 +1,4 @@
-// Parallel projection, so that one scale holds for the whole picture. The eye goes around a target, z upwards; in the
+// Parallel projection, so that one scale holds for the entire picture. The eye orbits a target, z upwards; in the
 // plane it looks straight down.
 import { OrthographicCamera, Vector3 } from 'three';
 
@@ -16,7 +16,7 @@ export class Camera {
     this.listen();
   }
 
-  // whence the eye looks, degrees from x (east) counter-clockwise, and above the horizontal
+  // direction to the eye, degrees from x (east) counter-clockwise, and above the horizontal
   look(azimuth, height) {
     this.azimuth = azimuth * degree;
     this.height = Math.max(-90, Math.min(90, height)) * degree;
@@ -29,7 +29,7 @@ export class Camera {
     return { eye, right, up: new Vector3().crossVectors(eye, right) };
   }
 
-  // all of a box, `times` as large, and something around it
+  // an entire box, `times` as large, with a margin
   fit(box, times = 1) {
     const { right, up } = this.axes(), { low, high, centre } = box;
     const extent = (axis) => Math.abs(axis.x) * (high[0] - low[0]) + Math.abs(axis.y) * (high[1] - low[1]) + Math.abs(axis.z) * (high[2] - low[2]);
@@ -126,7 +126,7 @@ export class Camera {
   }
 }
 
-// Whence the free faces of the free blocks are seen best: that is where rock can go.
+// The direction from which the free faces of the free blocks are seen best: the side to which rock can move.
 export function bestAzimuth(run, faces, normals, bodies) {
   const sum = [0, 0];
   faces.forEach((face, f) => {

@@ -1,11 +1,11 @@
-// What colours say: the figures' colours (reports/style.gp), and for each choice its values, unit and range over all
+// Meaning of colours: the figures' colours (reports/style.gp), and for each choice its values, unit and range over all
 // times.
 
 // Okabe and Ito (2008), which stay apart for colour-blind readers
 export const OKABE = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9', '#f0e442', '#404040'];
 export const ROCK = '#efe6d2', HELD = '#d9d9d9', EDGE = '#4a4a4a', INK = '#202020';
 export const PRESSED = '#0072b2', PULLED = '#d55e00';
-// from little to much, ever darker, so that it can be read in grey
+// from small to large, increasingly dark, so that it can be read in grey
 const RAMP = ['#f2f6fa', '#cfe2f0', '#a3cdea', '#6ab8e8', '#8ca0ac', '#c07f52', '#c85a08', '#8f3500'];
 
 export const rgb = (hex) => [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16) / 255);
@@ -25,13 +25,13 @@ export function rampColour(t) {
   return ramp[i].map((c, k) => c + (at - i) * (ramp[i + 1][k] - c));
 }
 
-// where a value lies between the ends of the legend, 0 to 1
+// place of a value between the ends of the legend, 0 to 1
 export function share(value, { low, high, logarithmic }) {
   const scale = logarithmic ? Math.log : (x) => x;
   return high > low ? (scale(value) - scale(low)) / (scale(high) - scale(low)) : 0;
 }
 
-// how the shader is to find the value: none, of the point, of the body, of the face
+// source of the value in the shader: none, of the point, of the body, of the face
 export const FLAT = 0, POINT = 1, BODY = 2, FACE = 3, PROPERTIES = 4;
 
 export function choices(run, bodies) {
@@ -87,7 +87,7 @@ function farthest(run, bodies) {
   return Math.sqrt(most);
 }
 
-// The share of friction that is mobilised at each face: the largest over its contacts; -1 where there is none.
+// The fraction of friction that is mobilised at each face: the largest over its contacts; -1 without contacts.
 export function frictionByFace(run, faces, f, out) {
   out.fill(-1);
   const { contacts } = run.frames[f], { pairs } = run;

@@ -3,7 +3,7 @@
 export const HEAD = 1, SHAPE = 2, FRAME = 3, AGAIN = 4;
 export const START = 0, TRIAL = 2;
 export const PRESENT = 1, FIXED = 2;
-// the columns of a pair of faces that touch
+// the columns of a pair of faces in contact
 export const PAIR = ['bodyA', 'partA', 'faceA', 'bodyB', 'partB', 'faceB', 'joint', 'properties'];
 
 export async function inflate(base64) {
@@ -49,7 +49,7 @@ function readPart(reader, dimension) {
     const joint = reader.int();
     return { joint, corners: Array.from({ length: reader.int() }, () => reader.int()) };
   });
-  // in the plane faces are edges, and the outline is what is filled
+  // in the plane faces are edges, and the outline is filled
   const outline = dimension === 2 ? faces.pop().corners : null;
   return { points, smooth, faces, outline };
 }
@@ -123,8 +123,8 @@ export function readRun(buffer) {
   return run;
 }
 
-// Joints of a set belong together, and so do the faces of an excavation; another joint is a group by itself. The last
-// group is of faces that no joint made.
+// The joints of a set are a group, and so are the faces of an excavation; any other joint is a group by itself. The last
+// group contains faces that no joint made.
 function nameGroups(run) {
   const { joints, sets } = run.head, outlines = new Map();
   run.groups = sets.map((name) => ({ name, joints: [] }));

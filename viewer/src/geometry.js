@@ -14,7 +14,7 @@ export function polygonNormal(points, corners) {
   return n;
 }
 
-// Every face gets a number; in the plane the first faces of a part are its edges and the last is what is filled.
+// Every face gets a number; in the plane the first faces of a part are its edges and the last is the filled outline.
 export function listFaces(run) {
   const faces = [];
   const plane = run.head.dimension === 2;
@@ -55,7 +55,7 @@ export function faceGeometry(run, faces) {
     properties: [properties, 1] });
 }
 
-// ---- what lies inside of a body of several parts: construction joints are no joints to be seen
+// ---- the interior of a body of several parts: construction joints are not shown as joints
 
 const midpoint = (points, corners) => [0, 1, 2].map((k) => corners.reduce((s, c) => s + points[3 * c + k], 0) / corners.length);
 const dot = (n, p) => n[0] * p[0] + n[1] * p[1] + n[2] * p[2];
@@ -70,7 +70,7 @@ function planesOf(part) {
 }
 
 // In the plane the pieces of each edge that are edges of the body, from 0 to 1; in space whether an edge of a part is
-// none of the body, as it ends a face on another part and the surface goes on without a bend.
+// none of the body, because it ends a face on another part and the surface continues without a bend.
 export function findInner(run) {
   const plane = run.head.dimension === 2, joints = run.head.joints;
   for (const shape of run.shapes) {
@@ -83,7 +83,7 @@ export function findInner(run) {
   }
 }
 
-// what is left of an edge when those of other parts on the same joint are taken away
+// the rest of an edge after edges of other parts on the same joint are removed
 function outerPieces(part, face, parts, slack) {
   const at = (of, c) => [of.points[3 * c], of.points[3 * c + 1]], [a, b] = face.corners.map((c) => at(part, c));
   const d = [b[0] - a[0], b[1] - a[1]], size = Math.hypot(...d);
@@ -156,7 +156,7 @@ function buffers(lists) {
   return geometry;
 }
 
-// the box of shapes where they began
+// the box of shapes in their initial positions
 export function boxOf(shapes) {
   const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
   for (const shape of shapes)

@@ -1,4 +1,4 @@
-// What a picked block tells.
+// The information on a picked block.
 import { digits, withUnit } from './colours.js';
 import { nameOf } from './data.js';
 import { orientationText } from './stereonet.js';

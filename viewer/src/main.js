@@ -1,9 +1,9 @@
-// Finds the figures of a page and shows them: at once, or when their poster is clicked.
+// Finds the figures of a page and shows them: immediately, or when their poster is clicked.
 import style from './style.css';
 import { inflate, readRun } from './data.js';
 import { Viewer } from './viewer.js';
 
-const MOST = 8; // pictures at once: browsers refuse more than some 16 contexts
+const MOST = 8; // simultaneous pictures: browsers refuse more than about 16 contexts
 const views = [];
 
 const message = (element, text) => {
@@ -16,7 +16,7 @@ const message = (element, text) => {
 async function start(element, base64) {
   try {
     const run = readRun(await inflate(base64));
-    // a page of one has its look in its address, a piece of many in itself
+    // a page with one figure has its look in its address, a fragment in itself
     const look = atob(element.dataset.look) || location.hash.slice(1);
     const viewer = new Viewer(element, run, new URLSearchParams(look));
     views.push(viewer);

@@ -1,5 +1,5 @@
 // The shaders. One for faces, which also draws their numbers to be picked; one for edges; one for straight pieces that
-// are some pixels wide (forces, bolts, edges in the plane); one for what a section cuts.
+// are some pixels wide (forces, bolts, edges in the plane); one for the faces of a section.
 import { Color, DataTexture, DoubleSide, FloatType, NearestFilter, RedFormat, RGBAFormat, ShaderMaterial, UnsignedByteType, Vector2, Vector3, Vector4 } from 'three';
 import { bodyShader } from './bodies.js';
 import { EDGE, HELD, ramp, ROCK } from './colours.js';
@@ -16,7 +16,7 @@ export function listTexture(count, { bytes = false } = {}) {
   return { values, texture };
 }
 
-// what all materials of one viewer share: they are set once
+// values that all materials of one viewer share: they are set once
 export function sharedUniforms(bodies, groups, properties, faceValues) {
   const u = (value) => ({ value });
   return {
@@ -148,7 +148,7 @@ export function edgeMaterial(uniforms) {
   `, { transparent: true });
 }
 
-// What a section cuts, already where it is; its colours are found outside.
+// The polygons of a section, already in their positions; their colours are determined elsewhere.
 export function cutMaterial(uniforms) {
   return material(uniforms, `
     attribute vec3 colour;
@@ -161,9 +161,9 @@ export function cutMaterial(uniforms) {
   `, { polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
 }
 
-// Straight pieces from `begin` to `end`, `width` pixels wide, with a head at their end where `head` is 1. Those with a
-// `share` are as much wider as that of `widest`. `position` is the place in one: along, across, and whether it belongs
-// to the head.
+// Straight pieces from `begin` to `end`, `width` pixels wide, with a head at their end if `head` is 1. With a `share`
+// their width is scaled up to that of `widest`. `position` is the place in one: along, across, and whether it belongs to
+// the head.
 export function pieceMaterial(uniforms) {
   return material(uniforms, `
     uniform vec2 viewport;

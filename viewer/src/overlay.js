@@ -1,4 +1,4 @@
-// What lies on the picture, and goes into its PNG: title and time, legend with units, scale bar, directions, stereonet.
+// The overlay of the picture, also in its PNG: title and time, legend with units, scale bar, directions, stereonet.
 import { digits, groupColour, listColour, PRESSED, PULLED, rampColour, ROCK, withUnit } from './colours.js';
 import { label, shortened, svg } from './svg.js';
 

@@ -131,7 +131,7 @@ export class Panel {
     return row;
   }
 
-  // what a click on a block does, by keyboard: its number or name
+  // the keyboard's equivalent of a click on a block: its number or name
   blockInput() {
     const input = node('input', { type: 'text', name: 'block', placeholder: 'number or name' });
     input.onchange = () => this.viewer.pickByName(input.value);

@@ -53,7 +53,7 @@ export function largestBetween(run) {
   return most;
 }
 
-// the bodies that touch, with all that their contacts carry together
+// pairs of bodies in contact, with the resultant of their contact forces
 export function bodyPairs(run, { contacts }) {
   const found = new Map();
   for (let i = 0; i < contacts.count; ++i) {
@@ -68,8 +68,8 @@ export function bodyPairs(run, { contacts }) {
 
 const centroid = (run, frame, shape, k) => shape.reference[k] + run.frames[frame].displacement[k][shape.body];
 
-// What acts on each free body at its contacts: an arrow that ends at the contact, its length by the force. Of a body
-// that is picked, what acts on it alone.
+// Contact forces on each free body: an arrow that ends at the contact, with a length by the force. If a body is picked,
+// only the forces on it.
 export function addArrows(pieces, { run, bodies, look, frame, reach, picked }) {
   const { contacts } = run.frames[frame], latest = latestShapes(run, frame), most = largestForce(run);
   const point = [0, 0, 0], at = [0, 0, 0];
@@ -79,12 +79,12 @@ export function addArrows(pieces, { run, bodies, look, frame, reach, picked }) {
     if (!sides[0] || !sides[1] || size < 1e-4 * most) continue;
     sides.forEach((shape, side) => {
       if (picked ? shape !== picked : bodies.isFixed(shape, frame)) return;
-      // seen from its own centroid, so that the arrow goes with the body when displacements are magnified
+      // relative to its own centroid, so that the arrow moves with the body when displacements are magnified
       const apart = (k) => centroid(run, frame, sides[0], k) - centroid(run, frame, shape, k);
       for (let k = 0; k < 3; ++k) point[k] = contacts.point[k][i] + apart(k);
       bodies.placeOfArm(shape, frame, point, look, at);
       const sign = side ? 1 : -1, scale = (sign * reach) / most;
-      // pushing: it comes from outside; pulling: it leaves
+      // compression: it comes from outside; tension: it points outwards
       const tail = at.map((x, k) => x - scale * f[k]), tint = rgb(contacts.normal[i] >= 0 ? PRESSED : PULLED);
       if (contacts.normal[i] >= 0) pieces.add(tail, at, tint, 2.5, 1);
       else pieces.add(at, at.map((x, k) => x + scale * f[k]), tint, 2.5, 1);
@@ -92,7 +92,7 @@ export function addArrows(pieces, { run, bodies, look, frame, reach, picked }) {
   }
 }
 
-// lines as wide as what goes through them
+// lines with a width by the force between the bodies
 export function addNetwork(pieces, { run, bodies, look, frame }) {
   const latest = latestShapes(run, frame), most = largestBetween(run), ends = [[0, 0, 0], [0, 0, 0]];
   const pairs = [...bodyPairs(run, run.frames[frame]).values()].sort((x, y) => length(x.force) - length(y.force));
@@ -104,7 +104,7 @@ export function addNetwork(pieces, { run, bodies, look, frame }) {
   }
 }
 
-// bolts and linings, at their places as they truly are
+// bolts and linings, at their true positions
 export function addSupport(pieces, run, frame) {
   const { support } = run.frames[frame];
   for (let i = 0; i < support.count; ++i) {
@@ -113,7 +113,7 @@ export function addSupport(pieces, run, frame) {
   }
 }
 
-// In the plane the joints are edges: of the colour of their set, their properties, or what friction they mobilise.
+// In the plane the joints are edges: in the colour of their set, their properties, or their mobilised friction.
 export function addJointEdges(pieces, { run, faces, bodies, look, frame, colours, hidden, chosenGroup, showFixed }) {
   const ends = [[0, 0, 0], [0, 0, 0]];
   faces.forEach((face, f) => {

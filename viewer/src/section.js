@@ -3,7 +3,7 @@ import { BufferAttribute, BufferGeometry } from 'three';
 import { edgesOf } from './geometry.js';
 import { HELD, rampColour, rgb, ROCK, share } from './colours.js';
 
-// the plane's unit normal and how far along it the cut lies; what lies beyond is taken away
+// the plane's unit normal and the position of the cut along it; everything beyond is removed
 export function cutParts({ run, bodies, look, frame, showFixed }, normal, offset) {
   const polygons = [], place = [0, 0, 0], away = [0, 0, 0];
   run.shapes.forEach((shape, s) => {

@@ -6,7 +6,7 @@ import { label, shortened, svg } from './svg.js';
 const MOST_LABELS = 8, MOST_POLES = 2000;
 const degrees = 180 / Math.PI;
 
-// where the lower end of a unit vector lies in a net of radius 1; east is x, north is y
+// place of the lower end of a unit vector in a net of radius 1; east is x, north is y
 export function onNet([x, y, z]) {
   const sign = z > 0 ? -1 : 1, across = Math.hypot(x, y);
   if (across === 0) return [0, 0];
@@ -63,7 +63,7 @@ export class Stereonet {
     this.circle = svg('polyline', { fill: 'none', 'stroke-width': 1.6 });
     this.element.append(this.circle);
     this.poles = new Map();
-    // of very many joints every so many-th, and the first of each set
+    // of very many joints at regular intervals, and the first of each set
     const every = Math.ceil(run.head.joints.length / MOST_POLES);
     run.head.joints.forEach((joint, j) => {
       if (j % every === 0 || run.groups[joint.group].joints[0] === j) this.addPole(joint, j);

@@ -1,4 +1,4 @@
-// SVG by hand. Text only ever goes in as text.
+// SVG by hand. Text is only inserted as text.
 export function svg(name, attributes = {}, ...children) {
   const element = document.createElementNS('http://www.w3.org/2000/svg', name);
   for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);

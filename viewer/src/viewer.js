@@ -1,4 +1,4 @@
-// One picture of a run: what is shown is a function of `look`, which controls, keys and the page's address change.
+// One picture of a run, a function of `look`, which controls, keys and the page's address change.
 import { Color, LineSegments, Mesh, Scene, Vector3, WebGLRenderer, WebGLRenderTarget, LineBasicMaterial, LinearSRGBColorSpace } from 'three';
 import { Bodies } from './bodies.js';
 import { bestAzimuth, Camera } from './camera.js';
@@ -13,7 +13,7 @@ import { addArrows, addJointEdges, addNetwork, addSupport, largestBetween, large
 import { cutGeometry, cutParts } from './section.js';
 import { Stereonet } from './stereonet.js';
 
-// pixels: of the network's widest line, at most; blocks smaller than the second show their edges ever paler
+// pixels: of the network's widest line, at most; of blocks, below which their edges fade
 const WIDEST = 16, FULL_EDGES = 14;
 
 const initialLook = (run) => ({
@@ -22,7 +22,7 @@ const initialLook = (run) => ({
   edges: true, shape: -1, face: -1,
 });
 
-// m: a block of middle volume is so wide
+// m: width of a block of median volume
 function typicalSize(run) {
   const volumes = run.shapes.map((shape) => shape.volume).sort((a, b) => a - b);
   return volumes[volumes.length >> 1] ** (1 / run.head.dimension);
@@ -99,7 +99,7 @@ export class Viewer {
     this.cut.visible = this.cutLines.visible = false;
   }
 
-  // ---- what changes the look
+  // ---- changes of the look
 
   set(change) {
     Object.assign(this.look, change);
@@ -113,11 +113,11 @@ export class Viewer {
   }
 
   choose(group) { this.set({ chosen: this.look.chosen === group ? -1 : group }); }
-  // what is shown fills the picture
+  // the blocks fill the picture
   fit() {
     const { look, run, bodies } = this;
     const box = boxOf(run.shapes.filter((s) => bodies.isShown(s, look.frame) && (look.showFixed || !bodies.isFixed(s, look.frame))));
-    if (run.shapes.length === 1) { // what is alone may turn as it likes
+    if (run.shapes.length === 1) { // a single block may rotate freely
       box.low = box.centre.map((c) => c - box.radius);
       box.high = box.centre.map((c) => c + box.radius);
     }
@@ -155,7 +155,7 @@ export class Viewer {
 
   pickedName() { return this.look.shape >= 0 ? nameOf(this.run, this.run.shapes[this.look.shape].body) : ''; }
 
-  // the page's address may state what is shown: view.html#frame=3&magnified=100&colour=displacement
+  // the page's address may state the look: view.html#frame=3&magnified=100&colour=displacement
   readAddress(address) {
     const { look } = this, number = (key, low, high) => {
       const value = Number(address.get(key));
@@ -188,7 +188,7 @@ export class Viewer {
     this.size();
   }
 
-  // ---- what is shown
+  // ---- the picture
 
   update() {
     const { look, run, uniforms: u } = this, choice = this.choices[look.colour];
@@ -211,7 +211,7 @@ export class Viewer {
     u.chosenGroup.value = this.plane ? -1 : look.chosen;
     u.picked.value = look.shape;
     u.showFixed.value = look.showFixed;
-    // forces and bolts lie inside of blocks
+    // forces and bolts are inside of blocks
     const through = look.forces !== 'none' || run.frames[look.frame].support.count > 0;
     this.through = through;
     u.opacity.value = !through ? 1 : this.plane ? 0.5 : 0.28;
@@ -227,7 +227,7 @@ export class Viewer {
     this.askDraw();
   }
 
-  // unit normal and offset of the section; what lies beyond is taken away
+  // unit normal and offset of the section; everything beyond is removed
   cutPlane() {
     const { look, box } = this, joint = look.section.match(/^joint (\d+)$/);
     const axis = { x: [1, 0, 0], y: [0, 1, 0], z: [0, 0, 1] }[look.section];
@@ -236,7 +236,7 @@ export class Viewer {
     const reach = normal.reduce((r, n, k) => r + 0.5 * Math.abs(n) * (box.high[k] - box.low[k]), 0);
     const middle = normal.reduce((r, n, k) => r + n * box.centre[k], 0);
     const stretched = reach * (1 + look.exploded);
-    // a joint's own plane lies in the middle of its slider
+    // a joint's own plane is in the middle of its slider
     const own = joint ? this.run.head.joints[joint[1]].offset : middle;
     const offset = own + (2 * look.cutAt - 1) * stretched * (joint ? 1 + Math.abs(own - middle) / reach : 1);
     return { normal, offset };
@@ -328,7 +328,7 @@ export class Viewer {
     this.uniforms.viewport.value.set(width, height);
     this.pickTarget?.dispose();
     this.pickTarget = new WebGLRenderTarget(Math.max(1, width * ratio), Math.max(1, height * ratio));
-    // room for what lies on the picture
+    // room for the overlay
     this.overlay.fitInto(width, height);
     if (this.camera) this.camera.inset = { left: 16, right: width > 400 ? Math.max(120, this.overlay.netWidth) : 8, top: 70, bottom: 56 };
     this.camera?.update();
@@ -371,7 +371,7 @@ export class Viewer {
 
   // ---- for others
 
-  // where corners of a body lie in a frame, world coordinates, m; as they are drawn
+  // positions of the corners of a body in a frame, world coordinates, m; as drawn
   positions(body, frame, magnified = 1) {
     const shape = this.run.shapes.find((s) => s.body === body && this.bodies.isShown(s, frame)), out = [0, 0, 0];
     const look = { magnified, exploded: 0 }, origin = [...this.run.head.origin, 0];
@@ -385,7 +385,7 @@ export class Viewer {
     return [((p.x + 1) / 2) * w, ((1 - p.y) / 2) * h];
   }
 
-  // blocks and what lies over them
+  // blocks and overlay
   async drawn() {
     const { picture, renderer } = this, ratio = renderer.getPixelRatio();
     this.draw();

@@ -1,4 +1,4 @@
-// Corners of blocks in a frame that was written for ParaView, by body: an account of the state that shares no code with
+// Corners of blocks in a frame that was written for ParaView, by body: an output of the state that shares no code with
 // the viewer's.
 import { readFileSync } from 'node:fs';
 

@@ -1,4 +1,4 @@
-// Headless Chromium by chromedriver's WebDriver, with software WebGL; of node's own library alone.
+// Headless Chromium by chromedriver's WebDriver, with software WebGL; uses only node's own library.
 import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
 import { accessSync, constants } from 'node:fs';
@@ -67,7 +67,7 @@ export class Browser {
   async type(css, keys) { return this.command(`/element/${await this.find(css)}/value`, { text: keys }); }
   async png() { return Buffer.from(await this.ask('GET', `${this.path}/screenshot`), 'base64'); }
 
-  // a mouse: presses at the first point and lets go at the last
+  // a mouse: presses at the first point and releases at the last
   mouse(points, keys = []) {
     const move = ([x, y]) => ({ type: 'pointerMove', duration: 30, x: Math.round(x), y: Math.round(y), origin: 'viewport' });
     const actions = [move(points[0]), { type: 'pointerDown', button: 0 }, ...points.slice(1).map(move), { type: 'pointerUp', button: 0 }];
@@ -75,7 +75,7 @@ export class Browser {
   }
 
   async log(type) { return this.command('/se/log', { type }); }
-  // what the console said, and what was asked for, since last time
+  // the console's lines, and the requests, since last time
   async logs() {
     const consoleLines = (await this.log('browser')).filter((line) => line.level === 'SEVERE' || line.source === 'javascript');
     const requests = (await this.log('performance')).map((line) => JSON.parse(line.message).message)
@@ -89,12 +89,12 @@ export class Browser {
     assert.fail(`${what}: never came`);
   }
 
-  // the page has asked for nothing but itself, and said nothing
+  // the page has requested only itself, and its console is empty
   async quiet(file) {
     const { console: lines, requests } = await this.logs();
     assert.deepEqual(lines, [], `${file}: the console has errors`);
     const outside = requests.filter((url) => !/^(data:|blob:|about:)/.test(url) && !url.split('#')[0].endsWith(encodeURI(file)));
-    assert.deepEqual(outside, [], `${file}: it asks for more than itself`);
+    assert.deepEqual(outside, [], `${file}: it requests more than itself`);
   }
 
   async close() {

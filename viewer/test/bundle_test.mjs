@@ -1,6 +1,6 @@
-// node bundle_test.mjs COMMITTED MADE: the committed bundle is what src/ and three.js give now, and so is the licence. The
-// script is compared unpacked, for its packing depends on the version of node. Ends with 77 if it could not be made, which
-// VOUSSOIR_NO_SKIP=1 makes a failure.
+// node bundle_test.mjs COMMITTED MADE: the committed bundle is that of the present src/ and three.js, and so is the licence.
+// The script is compared unpacked, because its packing depends on the version of node. Ends with 77 if it could not be
+// made, which VOUSSOIR_NO_SKIP=1 makes a failure.
 import assert from 'node:assert/strict';
 import { readFileSync, statSync } from 'node:fs';
 import { join } from 'node:path';
@@ -20,7 +20,7 @@ function parts(folder) {
 }
 
 const kept = parts(committed), now = parts(made);
-const repair = "viewer/bundle is not what viewer/src gives: run 'ninja -C build viewer_bundle' and commit it";
+const repair = "viewer/bundle differs from the bundle of viewer/src: run 'ninja -C build viewer_bundle' and commit it";
 assert.ok(kept.script.length > 100000, 'the committed bundle holds a script');
 assert.ok(kept.script === now.script, repair);
 assert.ok(kept.around === now.around, repair);

@@ -1,5 +1,5 @@
 // node view_test.mjs PROGRAM SOURCE SCRIPT FOLDER: runs scenes, opens their pages from disk in headless Chromium, and uses
-// every control. SCRIPT is the bundled viewer.js; pictures that are looked at stay in FOLDER. Ends with 77 where a program
+// every control. SCRIPT is the bundled viewer.js; pictures for inspection stay in FOLDER. Ends with 77 if a program
 // is missing, which VOUSSOIR_NO_SKIP=1 makes a failure.
 import assert from 'node:assert/strict';
 import { execFileSync, spawn, spawnSync } from 'node:child_process';
@@ -37,7 +37,7 @@ const wait = (ms) => new Promise((done) => setTimeout(done, ms));
 
 const until = (what, text) => browser.until(what, text);
 
-// the page is there, has asked for nothing but itself, and said nothing
+// the page is shown, has requested only itself, and its console is empty
 async function open(file, hash = '') {
   await browser.go(file, hash);
   await until(`${file} opens`, "document.querySelector('.voussoir')?.dataset.state !== undefined");
@@ -48,7 +48,7 @@ async function quiet(file) {
   assert.equal(await js("return document.querySelector('.voussoir').dataset.state"), 'ready');
 }
 
-// what there is to see: a number from the picture's pixels, and all text
+// the visible content: a number from the picture's pixels, and all text
 const SEEN = `
   const v = window.voussoir.views[0], gl = v.renderer.getContext();
   v.draw();
@@ -65,7 +65,7 @@ async function changes(what, act, { pixels = true, text = null } = {}) {
   await act();
   const after = await seen();
   if (pixels) assert.notEqual(after.pixels, before.pixels, `${what}: the picture stays the same`);
-  if (text) assert.match(after.text, text, `${what}: the text does not say so`);
+  if (text) assert.match(after.text, text, `${what}: the text does not match`);
 }
 
 const at = (name) => `.voussoir [name="${name}"]`;
@@ -83,7 +83,7 @@ const viewer = (text, ...args) => js(`const v = window.voussoir.views[0]; ${text
 
 const FALL = ['--until', 'fall', '--set', 'stage.fall.duration_s=1', '--set', 'output.frame_interval_s=0.0205'];
 
-// what is more is darker, printed in grey as well: the luminance of sRGB
+// larger values are darker, also printed in grey: the luminance of sRGB
 function testGrey() {
   const linear = (c) => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4);
   const luminance = ramp.map(([r, g, b]) => 0.2126 * linear(r) + 0.7152 * linear(g) + 0.0722 * linear(b));
@@ -180,7 +180,7 @@ async function testPlay() {
   await set('magnified', 0);
 }
 
-// faces choose poles, poles choose faces, and a block tells what it is
+// faces choose poles, poles choose faces, and a block shows its information
 async function testLinks() {
   await viewer('v.set({ exploded: 0.6, shape: -1, face: -1 }); v.lookFrom(-60, 24)');
   await changes('a pole', () => browser.click('.voussoir .pole[data-joint="0"]'));
@@ -239,7 +239,7 @@ async function testKeyboard(out) {
   assert.deepEqual([...all, 'pole 0', 'pole 1', 'CANVAS'].filter((name) => !reached.has(name)), [], 'no key reaches these');
 }
 
-// ---- what a first look wants, without help: ten inputs at most
+// ---- a first inspection without help: at most ten inputs
 
 async function testTenInputs(out) {
   await open(page(out));
@@ -262,7 +262,7 @@ async function testTenInputs(out) {
   console.log(`turned, magnified, chosen, held: ${inputs} inputs`);
 }
 
-// ---- what must open too
+// ---- other pages that must open
 
 async function testOthers() {
   const tunnel = run(join(source, 'app/testing/tunnel.toml'), 'tunnel', '--set', 'output.frames=false');
@@ -270,7 +270,7 @@ async function testOthers() {
   await save('tunnel');
   const area = await viewer('return [0, v.run.frames.length - 1].map((f) => v.run.shapes.filter((s) => v.bodies.isShown(s, f)).reduce((a, s) => a + s.volume, 0))');
   const tunnelArea = 12 * Math.tan(Math.PI / 12);  // twelve sides about a circle of 1 m
-  assert.ok(Math.abs(area[0] - 64) < 1e-4 && Math.abs(area[0] - area[1] - tunnelArea) < 1e-4, `what is excavated is gone: ${area}`);
+  assert.ok(Math.abs(area[0] - 64) < 1e-4 && Math.abs(area[0] - area[1] - tunnelArea) < 1e-4, `the excavated rock is removed: ${area}`);
   await changes('before it was dug', () => browser.type(at('frame'), KEY.home));
   const alone = run(own('alone.toml'), 'alone');
   await open(page(alone), '#colour=friction&forces=network');
@@ -284,7 +284,7 @@ async function testOthers() {
   await save('bench');
 }
 
-// Names as they come, and drawn at random: none runs, none is lost.
+// Given and random names: none runs, none is lost.
 async function testNames() {
   const pieces = ['</script>', "<script>window['broken']++</script>", '"', "'", '`', '<', '>', '&lt;', '<!--', '-->', ']]>', '\\', '\\u003c', '${1}',
     'é', 'ß', '岩', '\u{1F9F1}', ' ', '%3C', 'javascript:', '<iframe>', '<b>', '\\0', '{{', '#'];
@@ -312,7 +312,7 @@ point = [0, 1, 0]
   await quiet(page(out));
 }
 
-// pieces for a page with many: a poster first, a picture when it is clicked
+// fragments for a page with many: a poster first, a picture when it is clicked
 async function testFragments(out) {
   const poster = join(folder, 'poster.png'), piece = join(folder, 'piece.html'), code = join(folder, 'script.html');
   execFileSync(process.execPath, [join(source, 'viewer/poster.mjs'), page(out), poster, 'colour=displacement', '480', '320']);
@@ -330,7 +330,7 @@ async function testFragments(out) {
   assert.equal(await js("return document.querySelectorAll('canvas').length"), 1);
 }
 
-// a run that is interrupted and resumed keeps what one keeps that is not
+// an interrupted and resumed run keeps the same file as an uninterrupted one
 async function testResumed(whole, ...settings) {
   const out = join(folder, 'resumed'), data = join(out, 'view.bin');
   const child = spawn(program, ['run', join(source, 'cases/free_fall/scene.toml'), '--view', '--quiet', '--out', out, ...settings], { stdio: 'ignore' });
@@ -350,7 +350,7 @@ async function testResumed(whole, ...settings) {
   });
 }
 
-// what is missing is named
+// missing parts are named
 function testFaults(out) {
   const fails = (args, text) => {
     const { status, stderr } = spawnSync(program, args, { encoding: 'utf8' });
@@ -359,9 +359,9 @@ function testFaults(out) {
   };
   const bare = join(folder, 'bare');
   execFileSync(program, ['run', own('alone.toml'), '--quiet', '--out', bare]);
-  assert.throws(() => statSync(join(bare, 'view.bin')), 'a run that is not asked keeps nothing');
+  assert.throws(() => statSync(join(bare, 'view.bin')), 'a run without --view keeps no file');
   fails(['view', bare], /has no view\.bin.*--view/);
-  fails(['view', folder], /holds no run/);
+  fails(['view', folder], /contains no run/);
   fails(['view', join(folder, 'nowhere')], /not a folder/);
   fails(['view', out, '--out', join(bare, 'results.json')], /--overwrite/);
   writeFileSync(join(bare, 'view.bin'), 'VOUSVIEW and no more');

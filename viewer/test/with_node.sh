@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# with_node.sh NODE TEST …: runs TEST, a file beside this one, if there is a node to run it.
+# with_node.sh NODE TEST …: runs TEST, a file in this folder, if there is a node to run it.
 node=$1 test=$2
 shift 2
 if [ ! -x "$node" ]; then

@@ -1,5 +1,5 @@
-// A program that uses Voussoir's library and another one: what that hands over arrives, and the scenes end in the bits
-// of the program `voussoir`, whatever both are compiled with. Prints the state hash of each scene that is named.
+// A program that uses Voussoir's library and another one: the other's values arrive, and the scenes end in the bits of
+// the program `voussoir`, with any flags of either. Prints the state hash of each scene that is named.
 #include <Eigen/Dense>
 #include <cstdio>
 #include <vector>

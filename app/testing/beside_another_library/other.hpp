@@ -1,4 +1,4 @@
-// A library of someone else, built with its own flags, whose interface holds a fixed-size vector of Eigen.
+// A third-party library, built with its own flags, whose interface has a fixed-size vector of Eigen.
 #pragma once
 
 #include <Eigen/Core>

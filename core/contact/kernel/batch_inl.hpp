@@ -1,4 +1,4 @@
-// A batch of pairs, as many as one register holds, and what they need until they are resolved (warm_start_inl.hpp,
+// A batch of pairs, as many as one register holds, and their data until they are resolved (warm_start_inl.hpp,
 // central_inl.hpp).
 #if defined(VOUSSOIR_BATCH_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef VOUSSOIR_BATCH_INL
@@ -35,15 +35,15 @@ struct Batch : Fields<Dim> {
   Real across, inverse_across;  // 3-D
   Real reach;                   // m, the larger of the parts' radii
   Real tolerance, potential_radius;
-  Real smoothing, diameter[2];  // m, on the central path alone
+  Real smoothing, diameter[2];  // m, only on the central path
   Bool good;
-  Bool fallback;  // a face's normal stood in for a gradient
+  Bool fallback;  // a face's normal replaced a gradient
 
   Real rounding;                 // m, of a slack
   Components<Real, Dim> moved;   // contact frame
   Real least;                    // smallest slack
   Components<Real, Dim> normal;  // along the frame's rows
-  Real bound, stiffness_factor;  // on the central path alone
+  Real bound, stiffness_factor;  // only on the central path
   Real overlap, area, iterations;
   typename L::Number face_a, face_b;
 
@@ -104,8 +104,8 @@ HWY_INLINE Components<Real, Dim> from_frame(const Components<Real, Dim> (&rows)[
   return r;
 }
 
-// A vector that is unit but for rounding, made so by one step of Newton for 1/√: what axes and rotations lack would
-// else gather in the axis that goes from step to step.
+// A vector that is unit but for rounding, made so by one step of Newton for 1/√: otherwise the errors of axes and
+// rotations would accumulate in the axis that is kept from step to step.
 template <class L, int Dim>
 HWY_INLINE Components<typename L::Real, Dim> unit_again(const Components<typename L::Real, Dim>& x) {
   return scaled(L::real(1.5) - L::real(0.5) * dot(x, x), x);

@@ -49,7 +49,7 @@ HWY_INLINE void bordered_direction(const typename L::Real (&sums)[Size + Size * 
     decrement2 = decrement2 - sums[k] * step[k];
 }
 
-// Damped Newton; the slots' slacks become t = s + d - a·x, their inverses with them. Pairs that are done stand still.
+// Damped Newton; the slots' slacks become t = s + d - a·x, their inverses with them. Pairs that are done do not move.
 template <class L, int Dim>
 HWY_INLINE void follow_path(Batch<L, Dim>& m, double tolerance, int limit) {
   using Real = typename L::Real;
@@ -122,7 +122,7 @@ HWY_INLINE void follow_path(Batch<L, Dim>& m, double tolerance, int limit) {
 // below it a product of distances over diameters has lost its digits, or has none: too many planes for this kernel
 inline constexpr double least_product = 0x1p-900;
 
-// The value of the barrier as the reference kernel has it (reference_kernel.cpp): distances over the diameters of their
+// The value of the barrier as in the reference kernel (reference_kernel.cpp): distances over the diameters of their
 // parts, without the two logarithms that any contact has.
 template <class L, int Dim>
 HWY_INLINE typename L::Real barrier_value(Batch<L, Dim>& m) {
@@ -174,7 +174,7 @@ HWY_INLINE void measure_by_barrier(Batch<L, Dim>& m) {
   L::find_largest(m.part[1], 0, closeness, most, m.face_b);
 }
 
-// everything from the start on; the results of pairs that are not good mean nothing
+// everything from the start on; the results of pairs that are not good are meaningless
 template <class L, int Dim>
 HWY_INLINE void resolve_on_central_path(Batch<L, Dim>& m, QueryLevel level, double tolerance, int limit,
                                         SectionList* lists) {

@@ -1,6 +1,6 @@
 // A new contact, of which nothing is known: the dual simplex decides whether it touches (Eq. 3.27), and from its point
-// a primal-dual method goes most of the way to the analytic centre: from the corner where the simplex ends, Newton
-// alone would double its distance to the faces at every step.
+// a primal-dual method covers most of the distance to the analytic centre: from the corner at which the simplex ends,
+// Newton alone would double its distance to the faces at every step.
 #if defined(VOUSSOIR_COLD_START_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef VOUSSOIR_COLD_START_INL
 #undef VOUSSOIR_COLD_START_INL
@@ -60,7 +60,7 @@ HWY_INLINE void intersect(const TightPlanes<Dim>& t, Components<double, Dim>& x,
   s = -y[Dim];
 }
 
-// the tight plane that leaves, known when compiled: nothing waits for its number but the branch to here
+// the tight plane that leaves, known at compile time: only the branch to here waits for its number
 template <int leave, int Dim>
 HWY_INLINE void replace(TightPlanes<Dim>& t, const OnePair::Wide& mu, int plane, double offset) {
   using L = OnePair;
@@ -120,7 +120,7 @@ HWY_INLINE Components<double, Dim> axis_of(const Batch<OnePair, Dim>& m, const T
   return axis;
 }
 
-// What the multipliers certify by weak duality whatever rounding did to them: s >= -(Σ λ d + |Σ λ a| |x|) / Σ λ.
+// The bound that the multipliers certify by weak duality, however rounded: s >= -(Σ λ d + |Σ λ a| |x|) / Σ λ.
 template <int Dim>
 HWY_INLINE double certified_lower_bound(const Batch<OnePair, Dim>& m, const TightPlanes<Dim>& t, double reach) {
   Components<double, Dim> residual{};
@@ -150,7 +150,7 @@ HWY_INLINE Decision decide(const Batch<OnePair, Dim>& m, TightPlanes<Dim>& t, do
     }
     most_violated(m, x, worst, plane);
     const double rounding = m.rounding + 2 * slack_rounding * size_of(x);
-    // well inside, or as far inside as there is
+    // well inside, or as far inside as possible
     if (worst < -(rounding + m.tolerance) && (worst <= well_inside * s || worst - s <= rounding))
       return Decision::touching;
     if (worst - s <= rounding) return Decision::unknown;
@@ -196,7 +196,7 @@ HWY_INLINE double rounding_after(const Batch<OnePair, Dim>& m, const Components<
   return m.rounding + 4 * slack_rounding * size_of(x);
 }
 
-// The planes as the frame's axes show them, seen from x: less exact than assembled ones by what `rounding` grows.
+// The planes in the frame's axes, seen from x: less exact than assembled ones by the growth of `rounding`.
 template <int Dim>
 HWY_INLINE void turn_planes(Batch<OnePair, Dim>& m, const Components<double, Dim>& x) {
   using L = OnePair;

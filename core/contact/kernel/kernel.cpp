@@ -32,7 +32,7 @@ HWY_INLINE int unpadded(int plane, int count_a, int quads_a) {
   return plane < count_a ? plane : plane + count_a - quads_a * planes_per_quad;
 }
 
-// what the records below hold side by side
+// the fields that the records below have side by side
 template <int Dim>
 constexpr bool records_are_dense() {
   using Vectors = Vector<Dim>;
@@ -103,12 +103,12 @@ HWY_INLINE void begin(Batch<L, Dim>& m, std::span<const KernelTask<Dim>> tasks, 
   m.numbers = work.room(Batch<L, Dim>::room(m.quads));
 }
 
-// what the records of a contact's proof and geometry hold of the answer, from `margin` and from `point` on
+// the numbers of the result in the records of a contact's proof and geometry, from `margin` and from `point` on
 inline constexpr int proof_numbers = 8;
 template <int Dim>
 inline constexpr int geometry_numbers = Dim == 3 ? 8 : 4;
 
-// the answers into the tasks' contacts
+// the results into the tasks' contacts
 template <bool OnPath, class L, int Dim>
 HWY_INLINE void deliver(const Batch<L, Dim>& m, QueryLevel level, std::span<KernelTask<Dim>> tasks,
                         const SectionList* lists, KernelCounters& counters) {
@@ -116,7 +116,7 @@ HWY_INLINE void deliver(const Batch<L, Dim>& m, QueryLevel level, std::span<Kern
   constexpr int width = L::width;
   double good[width];
   L::put(select(m.good, L::real(1), L::real(0)), good);
-  // lanes without an answer write where nobody reads
+  // lanes without a result write to unused memory
   double nowhere[8];
   const double* axes[width];
   double *proofs[width], *geometries[width];
@@ -199,14 +199,14 @@ HWY_INLINE void deliver_stiffness_factor(const Batch<L, Dim>& m, std::span<Kerne
     if (tasks[lane].answered) tasks[lane].contact->geometry.stiffness_factor = stiffness_factor[lane];
 }
 
-// what no distance between points of the part exceeds
+// the largest distance between points of the part
 template <class L, int Dim>
 HWY_INLINE void load_diameters(Batch<L, Dim>& m, std::span<const KernelTask<Dim>> tasks) {
   m.diameter[0] = L::collect([&](int lane) { return 2 * task_of(tasks, lane).pair->a->radius; });
   m.diameter[1] = L::collect([&](int lane) { return 2 * task_of(tasks, lane).pair->b->radius; });
 }
 
-// the list of the step before, by the padded planes' numbers; what lies behind its end in the proof is read and dropped
+// the list of the step before, by the padded planes' numbers; numbers behind its end in the proof are read and dropped
 HWY_INLINE void recall_section(const KernelTask<3>& task, int quads_a, SectionList& list) {
   using Kept = decltype(Proof<3>::section);
   using Plane = Kept::value_type;
@@ -334,7 +334,7 @@ HWY_NOINLINE void new_contact(KernelTask<Dim>& task, const KernelOptions& option
   build_frame(m);
   turn_planes(m, x);
   if (none(m.good) || !certified()) return;
-  // what fails from here on has the LP's point to fall back on
+  // pairs that fail from here on have the LP's point as a fallback
   proof.kind = ProofKind::interior_point;
   proof.margin = m.least - m.rounding;
   for (int k = 0; k < Dim; ++k)
@@ -343,7 +343,7 @@ HWY_NOINLINE void new_contact(KernelTask<Dim>& task, const KernelOptions& option
   if (approaches < 0) return;
   counters.newton_iterations += approaches;
 
-  // from here the axes fit to where the point is now
+  // from here the axes fit the present position of the point
   const Components<double, Dim> origin{};
   axis = nearest_face(m, origin);
   const Components<double, Dim> tangent = thinnest_across(m, axis, origin);

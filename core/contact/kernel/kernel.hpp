@@ -1,5 +1,5 @@
-// The SIMD kernel, chosen at run time for the machine's instruction set. It answers what it can prove; what it cannot
-// goes to the reference kernel (narrow_phase.cpp).
+// The SIMD kernel, chosen at run time for the machine's instruction set. It resolves the pairs that it can prove; the
+// others go to the reference kernel (narrow_phase.cpp).
 #pragma once
 
 #include <algorithm>
@@ -12,13 +12,13 @@
 
 namespace voussoir {
 
-// One pair on its way through the kernel. Plain, so that room for many costs nothing.
+// One pair in the kernel. Plain, so that room for many costs nothing.
 template <int Dim>
 struct KernelTask {
   const Pair<Dim>* pair;
   Contact<Dim>* contact;
   double potential_radius;  // m; the four numbers are loaded together
-  double tolerance;         // m: overlaps below it are none
+  double tolerance;         // m: smaller overlaps do not count
   double reach;             // m: the larger of the parts' radii
   double smoothing;         // m, on the central path
   const HalfSpace<Dim>*faces_a, *faces_b;
@@ -51,15 +51,15 @@ struct KernelOptions {
   bool on_central_path = false;  // contacts by multipliers (central_inl.hpp)
 };
 
-// pairs that one call of resolve_persistent handles at once, on this machine
+// pairs that one call of resolve_persistent handles together, on this machine
 int kernel_width();
 
-// Persistent contacts, which touched before: Newton from the old point (a warm start), then what Pair::level asks for.
-// Any number of tasks; the answer to each is bitwise independent of the others.
+// Persistent contacts, which touched before: Newton from the old point (a warm start), then the results that
+// Pair::level requires. Any number of tasks; the result of each is bitwise independent of the others.
 template <int Dim>
 void resolve_persistent(std::span<KernelTask<Dim>> tasks, const KernelOptions& options, KernelCounters& counters);
 
-// A new contact, of which nothing is known, not even by its proof: the LP (a cold start), then the same from its point.
+// A new contact without any known data, not even a proof: the LP (a cold start), then the same from its point.
 template <int Dim>
 void resolve_new(KernelTask<Dim>& task, const KernelOptions& options, KernelCounters& counters);
 

@@ -1,9 +1,9 @@
-// The contact kernel's two ways to fill a vector register: with the planes of one pair (OnePair) or one plane of
+// The contact kernel's two methods to fill a vector register: with the planes of one pair (OnePair) or one plane of
 // several pairs (ManyPairs).
 //
-// Both ways make the same roundings: only +, -, *, /, square root, minimum and maximum of IEEE doubles occur, never a
+// Both make the same roundings: only +, -, *, /, square root, minimum and maximum of IEEE doubles occur, never a
 // fused multiply-add, and a sum over planes is always four strided partial sums combined as (0+1)+(2+3). So a pair's
-// answer is bitwise independent of the batch and of the width.
+// result is bitwise independent of the batch and of the width.
 #if defined(VOUSSOIR_LANES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef VOUSSOIR_LANES_INL
 #undef VOUSSOIR_LANES_INL
@@ -34,7 +34,7 @@ struct OnePair {
   using Real = double;                // of pairs
   using Bool = bool;
   using Number = int;  // of a plane
-  // a slot is what one Wide holds
+  // a slot is the content of one Wide
   static constexpr int step = planes_per_quad;
   static HWY_INLINE int slot_of(unsigned plane) { return static_cast<int>(plane / planes_per_quad); }
   static HWY_INLINE int place_of(unsigned plane, int) { return plane % planes_per_quad; }  // within the slot
@@ -128,8 +128,8 @@ struct OnePair {
     }
     return places;
   }
-  // The largest of value(slot) and the number of its plane among theirs; of equal ones the first. Nothing above the
-  // floor: the number is -1. The value comes first, as others wait for it, then where it is.
+  // The largest of value(slot) and the number of its plane among theirs; of equal ones the first. If none is above the
+  // floor, the number is -1. The value comes first, as others wait for it, then its place.
   template <class F>
   static HWY_INLINE void find_largest(const Slots& slots, double floor, const F& value, double& largest, int& where) {
     constexpr int most_kept = 16;
@@ -173,7 +173,7 @@ struct OnePair {
   static HWY_INLINE Slots slots(int first_quad, int planes) {
     return {first_quad, first_quad + quads_of(planes)};
   }
-  // the slots of both parts: they lie behind one another
+  // the slots of both parts, one behind the other
   struct Runs {
     Slots all[1];
   };
@@ -271,7 +271,7 @@ struct ManyPairs {
   static HWY_INLINE double total(const Real& x) { return hn::GetLane(hn::SumOfLanes(Tag(), x.v[0])); }
   static HWY_INLINE Wide load(const double* from) { return {{hn::LoadU(Tag(), from)}}; }
   static HWY_INLINE void store(const Wide& x, double* to) { hn::StoreU(x.v[0], Tag(), to); }
-  // a harmless value for pairs that failed: they ride along
+  // a harmless value for pairs that failed, which stay in the batch
   static HWY_INLINE Wide where(const Bool& good, const Wide& x, double otherwise) {
     return select(good, x, wide(otherwise));
   }
@@ -309,7 +309,7 @@ struct ManyPairs {
     }
     if (slot < slots.last) set(one / get(slot), slot);
   }
-  // As many strides side by side as the registers hold: 4 of 3 sums, 2 of 5 or 4 where there are 32 registers, 1 of 9.
+  // As many strides side by side as the registers hold: 4 of 3 sums, 2 of 5 (4 with 32 registers), 1 of 9.
   template <int K, int N, class F>
   static HWY_INLINE void sum(const Slots (&parts)[N], Wide (&out)[K], const F& add) {
     constexpr bool many_registers = HWY_MAX_BYTES >= 64;

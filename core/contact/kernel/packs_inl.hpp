@@ -177,8 +177,8 @@ HWY_INLINE Components<R, 3> cross_product(const Components<R, 3>& a, const Compo
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-// Numbers that do not lie side by side: value(first), value(first + 1), … A register loaded behind single stores would
-// wait for them.
+// Numbers that are not side by side in memory: value(first), value(first + 1), … A register loaded behind single stores
+// would wait for them.
 template <class D, class F>
 HWY_INLINE hn::Vec<D> collected(D d, const F& value, int first) {
 #if HWY_TARGET == HWY_SCALAR

@@ -1,5 +1,5 @@
 // The section of the overlap region by the contact plane: the polygon {y : q·y <= 1}, given by scaled planes q. Its
-// corners lie on consecutive planes of a cyclic list, which is kept from step to step; where it no longer holds, the
+// corners lie on consecutive planes of a cyclic list, which is kept from step to step; if it is no longer valid, the
 // list is found again.
 #if defined(VOUSSOIR_SECTION_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef VOUSSOIR_SECTION_INL
@@ -32,7 +32,7 @@ struct SectionPlanes {
   HWY_INLINE double q1_of(int plane, int lane = 0) const { return place(plane, lane)[L::step]; }
 };
 
-// Areas from the lists of each pair; `known` where the list still holds: each corner lies between its planes and inside
+// Areas from the lists of each pair; `known` if the list is still valid: each corner is between its planes and inside
 // all the others.
 template <class L>
 HWY_INLINE void section_area_of(const SectionPlanes<L>& planes, const Slots (&parts)[2], const SectionList* lists,
@@ -95,8 +95,8 @@ HWY_INLINE void highest_plane(const SectionPlanes<OnePair>& planes, int quads, d
   L::find_largest({0, quads}, -std::numeric_limits<double>::max(), height, value, plane);
 }
 
-// Finds the cyclic list from nothing: four extreme planes, then at each corner the plane that cuts it off, until none
-// does. False when there are more than most_corners, or rounding hides which planes bound the section.
+// Finds the cyclic list without a start: four extreme planes, then at each corner the plane that cuts it off, until
+// none does. False when there are more than most_corners, or rounding hides which planes bound the section.
 HWY_INLINE bool find_section(const SectionPlanes<OnePair>& planes, int quads, int (&list)[most_corners], int& size,
                              double& area) {
   const double directions[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
@@ -135,7 +135,7 @@ HWY_INLINE bool find_section(const SectionPlanes<OnePair>& planes, int quads, in
     ++size;
   }
   if (size < 3) return false;
-  // the same list however it was found: it begins with its smallest number
+  // the same list from any search: it begins with its smallest number
   const int first = static_cast<int>(std::min_element(list, list + size) - list);
   std::rotate(list, list + first, list + size);
   std::rotate(c0, c0 + first, c0 + size);

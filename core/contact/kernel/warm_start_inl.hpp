@@ -1,9 +1,9 @@
 // A warm start: a contact from a point known to lie inside both parts, by Newton to the analytic centre, normal,
-// overlap, area. Written once for both ways to fill a register (lanes_inl.hpp).
+// overlap, area. Written once for both methods to fill a register (lanes_inl.hpp).
 //
-// All of it works in the contact frame: origin at the start, axes along the old normal and the next-thinnest direction.
-// There the Hessian is graded and factorising it top down loses nothing, however thin the region is (the thesis' 3.3.6
-// without its scaling factors).
+// All computations are in the contact frame: origin at the start, axes along the old normal and the next-thinnest
+// direction. There the Hessian is graded and factorising it top down loses nothing, at any thickness of the region (the
+// thesis' 3.3.6 without its scaling factors).
 #if defined(VOUSSOIR_WARM_START_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef VOUSSOIR_WARM_START_INL
 #undef VOUSSOIR_WARM_START_INL
@@ -20,8 +20,8 @@ HWY_BEFORE_NAMESPACE();
 namespace voussoir {
 namespace HWY_NAMESPACE {
 
-// The tangent is what it was when the contact began, the normal has turned since: they span the frame as they are, for
-// Newton's method asks for no unit axes, and a root and a quotient stand in nobody's way.
+// The tangent is that of the contact's begin, the normal has turned since: they span the frame as they are, since
+// Newton's method needs no unit axes, and no result waits for a root and a quotient.
 template <class L, int Dim>
 HWY_INLINE void build_frame(Batch<L, Dim>& m) {
   using Real = typename L::Real;
@@ -105,10 +105,10 @@ HWY_INLINE void assemble_in_first(Batch<L, Dim>& m) {
   });
 }
 
-// Newton's direction of -Σ log s in a graded frame, and its decrement²; `solved` where the system has full rank. The
+// Newton's direction of -Σ log s in a graded frame, and its decrement²; `solved` if the system has full rank. The
 // first unknown is eliminated without a quotient, the other two follow by Cramer's rule, so that no quotient waits for
 // another. The decrement is a sum of squares. (By the adjugate of all three and the product of step and gradient, the
-// decrement cancels where one plane is a millionth as near as the others, and Newton stops beside the centre: two of
+// decrement cancels if one plane is a millionth as near as the others, and Newton stops beside the centre: two of
 // 625,000 pairs.)
 template <class L, int Dim>
 HWY_INLINE void newton_direction(const typename L::Real (&sums)[Dim + Dim * (Dim + 1) / 2],
@@ -163,8 +163,8 @@ HWY_INLINE void accumulate(const Components<Wide, 3>& p, const Components<Wide, 
   acc[8] = acc[8] + wp[2] * p[2];
 }
 
-// Keeps the inverse of what `slack` gives for each plane. Two planes of a part share a quotient; one whose other is
-// padding gets the very bits of its own, so a pair's answer is bitwise independent of the batch.
+// Keeps the inverse of `slack` for each plane. Two planes of a part share a quotient; one whose other is
+// padding gets the very bits of its own, so a pair's result is bitwise independent of the batch.
 template <class L, int Dim, class F>
 HWY_INLINE void invert_slacks(Batch<L, Dim>& m, const F& slack) {
   using Wide = typename L::Wide;
@@ -179,7 +179,7 @@ HWY_INLINE void invert_slacks(Batch<L, Dim>& m) {
   invert_slacks(m, [&](int slot) HWY_ATTR { return m.get(m.slack_at, slot); });
 }
 
-// What a step takes of each slack, and the inverses of what is left. Pairs that are no longer inside are lost.
+// Subtracts a step's change from each slack, and inverts the rest. Pairs that are no longer inside are lost.
 template <class L, int Dim, class Taken>
 HWY_INLINE typename L::Bool take_from_slacks(Batch<L, Dim>& m, const typename L::Bool& moving, const Taken& taken) {
   using Wide = typename L::Wide;
@@ -199,7 +199,7 @@ HWY_INLINE typename L::Bool take_from_slacks(Batch<L, Dim>& m, const typename L:
   return inside;
 }
 
-// Damped Newton until the decrement before the last step was below the tolerance. Pairs that are done stand still.
+// Damped Newton until the decrement before the last step was below the tolerance. Pairs that are done do not move.
 template <class L, int Dim>
 HWY_INLINE void find_centre(Batch<L, Dim>& m, double tolerance, int limit) {
   using Real = typename L::Real;
@@ -266,8 +266,8 @@ HWY_INLINE Components<typename L::Real, Dim> nearest_normal(const Batch<L, Dim>&
 }
 
 // Unit gradients of the two inner potentials Σ <r - s>² at the point, their difference (Eqs 3.31-3.35); the overlap
-// along it and the faces that end it (Eq. 3.36). Where a gradient vanishes, deeper than r in the part, the normal of
-// its nearest face stands in.
+// along it and the faces that end it (Eq. 3.36). If a gradient vanishes, deeper than r in the part, the normal of its
+// nearest face replaces it.
 template <class L, int Dim>
 HWY_INLINE void measure_overlap(Batch<L, Dim>& m) {
   using Real = typename L::Real;
@@ -366,7 +366,7 @@ HWY_INLINE void measure_area(Batch<L, 3>& m, SectionList* lists) {
   rebuild_sections<L>(planes, m.part, m.quads, m.scratch(), lists, but_not(m.good, known), m.area, m.good);
 }
 
-// before anything is answered
+// before any result
 template <class L, int Dim>
 HWY_INLINE void clear(Batch<L, Dim>& m) {
   for (int k = 0; k < Dim; ++k)
@@ -376,7 +376,7 @@ HWY_INLINE void clear(Batch<L, Dim>& m) {
   m.fallback = but_not(m.good, m.good);
 }
 
-// everything from the start on; the results of pairs that are not good mean nothing
+// everything from the start on; the results of pairs that are not good are meaningless
 template <class L, int Dim>
 HWY_INLINE void resolve_from_point(Batch<L, Dim>& m, QueryLevel level, double tolerance, int limit,
                                    SectionList* lists) {

@@ -26,7 +26,7 @@ struct Slots {
 // below this decrement² a full Newton step cannot leave the region (it stays inside the Dikin ellipsoid)
 inline constexpr double full_step_decrement2 = 1.0 / 16;
 
-// a pivot that keeps less of its diagonal has lost the digits Newton needs: the frame does not fit
+// a pivot that keeps less of its diagonal has lost the digits that Newton needs: the frame does not fit
 inline constexpr double smallest_pivot = 1e-12;
 
 // sine² between axis and tangent below which they span no frame
@@ -38,20 +38,20 @@ inline constexpr double corner_tolerance = 1e-13;
 // an entering plane takes a multiplier only by more than rounding, as a fraction of the terms
 inline constexpr double exchange_rounding = 1024 * std::numeric_limits<double>::epsilon();
 
-// pivots are 2 to 9; more means rounding turns in circles
+// pivots are 2 to 9; more means that rounding makes them cycle
 inline constexpr int most_exchanges = 60;
 
-// the LP may stop when its point is inside by this fraction of the best it could still find
+// the LP may stop when its point is inside by this fraction of the best that it could still find
 inline constexpr double well_inside = 0.2;
 
 // primal-dual steps stop short of the boundary
 inline constexpr double near_boundary = 0.95;
 inline constexpr int most_approaches = 60;
 
-// corners the search for a section keeps; more go the general way
+// corners that the search for a section keeps; sections with more go to the general method
 inline constexpr int most_corners = 64;
 
-// a plane as the parts store it: normal, offset and, in 2-D, what alignment adds
+// a plane as the parts store it: normal, offset and, in 2-D, the padding of alignment
 template <int Dim>
 inline constexpr int row_length = sizeof(HalfSpace<Dim>) / sizeof(double);
 
@@ -59,8 +59,8 @@ inline constexpr int row_length = sizeof(HalfSpace<Dim>) / sizeof(double);
 // quotient by it are exact.
 inline constexpr double far_away = 0x1p100;
 
-// m: No slack counts as less when it is inverted, so that what failed overflows nowhere: the sixth power of the inverse
-// is a number. What holds is larger by far: rounding alone is, for blocks of a nanometre.
+// m: No slack counts as less when it is inverted, so that failed pairs overflow nowhere: the sixth power of the inverse
+// is a number. Valid slacks are far larger: rounding alone is, for blocks of a nanometre.
 inline constexpr double least_inverted = 0x1p-122;
 template <int Dim>
 inline constexpr double padding_row[4] = {0, 0, Dim == 2 ? far_away : 0, Dim == 3 ? far_away : 0};
@@ -72,7 +72,7 @@ struct Sources {
   int least_count;
 };
 
-// What is kept of each plane: where in its slot. The fields of a slot lie side by side, each as wide as the slot.
+// The fields of each plane: their places in its slot. They are side by side, each as wide as the slot.
 template <int Dim>
 struct Fields {
   static constexpr int slack_at = 0, inverse_at = 1,  // of the slack
@@ -85,12 +85,12 @@ struct Fields {
 struct SectionList {
   static constexpr int most = std::tuple_size_v<decltype(Proof<3>::section)>;
   int size = 0;
-  bool found_again = false;    // not the list that came in
+  bool found_again = false;    // not the given list
   std::array<int, 16> planes;  // `size` of them, then the first again and again
 };
 static_assert(SectionList::most < std::tuple_size_v<decltype(SectionList::planes)>);
 
-// grows, never shrinks: the step allocates nothing
+// grows, never shrinks: the step allocates no memory
 struct Workspace {
   std::vector<double> numbers;
 

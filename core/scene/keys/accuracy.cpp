@@ -9,16 +9,16 @@ KeyTable accuracy_keys() {
   return {"accuracy", {
     {.key = "level", .type = choice, .example = "\"balanced\"",
      .choices = {accuracy_levels.begin(), accuracy_levels.end()},
-     .meaning = "sets what the scene leaves out, tolerances, ramps, rest and "
-         "time step, as the cases' studies found it for an error of 5 %, 1 % or 0.1 %, of critical angles from 15 deg on"},
-    {.key = "budget", .type = boolean, .example = "true", .meaning = "after the answer, runs vary what was chosen, stiffness, ramp, "
-         "time step, rest, damping, points a face and the like, one at a time: every value then says what moves it, and "
-         "its error bar covers that, not the search's bracket alone", .breaks = "costs several times the answer"},
+     .meaning = "sets tolerances, ramps, equilibrium criterion and time step that the scene does not state, to the values that the cases' "
+         "studies found for an error of 5 %, 1 % or 0.1 % (critical angles above 15 deg)"},
+    {.key = "budget", .type = boolean, .example = "true", .meaning = "after the result, further runs vary the numerical choices "
+        "(stiffness, ramp, time step, equilibrium criterion, damping, points per face, …) one at a time: each value is reported with its "
+        "sensitivities, and its error bar covers them, not only the search's bracket", .breaks = "costs several times the run itself"},
     {.key = "error", .type = text, .example = "\"1 %\"",
-     .meaning = "how wide the error bar of what a search finds may be, of it (\"1 %\") or of an angle (\"0.1 deg\"): with a budget, "
-         "and what matters most in it made finer until the bar is as asked. Sets what the scene leaves out as level = \"balanced\" "
-         "does, from 5 % on as \"fast\". budget = false switches it off",
-     .breaks = "costs several answers; what cannot be refined is named, and ends the run as incomplete"},
+     .meaning = "largest error bar of the result of a search, relative (\"1 %\") or as an angle (\"0.1 deg\"): an error budget is made, "
+         "and its largest contribution is refined until the error bar is small enough. Settings that the scene does not state are those of "
+         "level = \"balanced\", from 5 % on those of \"fast\". budget = false switches it off",
+     .breaks = "costs several runs; a contribution that cannot be refined is named, and ends the run as incomplete"},
   }};
 }
 // clang-format on

@@ -1,4 +1,4 @@
-// [domain]: what the joints cut, and the boxes and planes that regions share with it.
+// [domain]: the region that the joints cut; boxes and planes, which regions share with it.
 #include "core/scene/keys/tables.hpp"
 #include "core/scene/scene_spec.hpp"
 
@@ -7,9 +7,9 @@ namespace voussoir::keys {
 // clang-format off
 KeyTable domain_keys() {
   return {"domain", {
-    {.key = "box", .type = table, .holds = {"box"}, .meaning = "a box along the axes"},
+    {.key = "box", .type = table, .holds = {"box"}, .meaning = "a box aligned with the axes"},
     {.key = "planes", .type = tables, .holds = {"label", "domain.planes"},
-     .meaning = "planes that bound the domain, with the box or without it"},
+     .meaning = "planes that bound the domain, with or without a box"},
   }};
 }
 

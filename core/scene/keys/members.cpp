@@ -6,7 +6,7 @@
 
 namespace voussoir::keys {
 
-// the shortest that reads back the same, written as by hand: 1e9 and 3e-4 for 1e+09 and 3e-04
+// the shortest text that reads back the same, as written by hand: 1e9 and 3e-4 for 1e+09 and 3e-04
 std::string toml_text(double value) {
   char buffer[32];
   std::string text(buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr);

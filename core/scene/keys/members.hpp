@@ -1,4 +1,4 @@
-// How a row of the key table names the member that holds its key's value. Reader, type, choices and default follow.
+// A row of the key table names the member that holds its key's value. Reader, type, choices and default follow.
 #pragma once
 
 #include <algorithm>
@@ -52,7 +52,7 @@ void take(const Node& node, std::optional<T>& target) {
   take(node, target.emplace());
 }
 
-// ---- a member's value as TOML; empty: it holds none -----------------------------------------------------------------
+// ---- a member's value as TOML; empty if it has none -----------------------------------------------------------------
 
 std::string toml_text(double value);
 
@@ -89,7 +89,8 @@ std::string toml_text(const std::optional<T>& value) {
   return value ? toml_text(*value) : "";
 }
 
-// ---- what a row states ----------------------------------------------------------------------------------------------
+// ---- the parts of a row
+// ----------------------------------------------------------------------------------------------
 
 template <class Owner, class T, class Take, class Text>
 KeyMember key_member(T Owner::*at, KeyType type, Take take, Text text) {
@@ -130,7 +131,7 @@ constexpr KeyType type_of(const std::optional<T>*) {
   return type_of(static_cast<const T*>(nullptr));
 }
 
-// the value as it stands; its type follows from the member's but where a text is a name, a vector a spin or numbers
+// the value as written; its type follows from the member's unless a text is a name, or a vector is a spin or numbers
 template <class Owner, class T>
 KeyMember in(T Owner::*at, KeyType type = type_of(static_cast<const T*>(nullptr))) {
   return key_member(
@@ -157,7 +158,7 @@ std::vector<std::string_view> choices_of(const Words<T>& words) {
   return choices;
 }
 
-// the table has refused every other word
+// every other word has been refused by the table
 template <class T>
 T meaning_of(const Words<T>& words, std::string_view text) {
   return std::find_if(words.begin(), words.end(), [&](const auto& word) { return word.first == text; })->second;
@@ -169,7 +170,7 @@ std::string word_for(const Words<T>& words, T value) {
   return at == words.end() ? "" : std::string(at->first);
 }
 
-// one of some words; of several for the same value the first is shown
+// one of several words; if several mean the same value, the first is shown
 template <class Owner, class T>
 KeyMember one_of(T Owner::*at, const std::type_identity_t<Words<T>>& words) {
   KeyMember made = key_member(
@@ -179,7 +180,7 @@ KeyMember one_of(T Owner::*at, const std::type_identity_t<Words<T>>& words) {
   return made;
 }
 
-// one of some words, each for an alternative of a variant, in its order
+// one of several words, each for an alternative of a variant, in its order
 template <class Owner, class... T>
 KeyMember alternative(std::variant<T...> Owner::*at, const std::array<std::string_view, sizeof...(T)>& words) {
   KeyMember made = key_member(
@@ -193,7 +194,7 @@ KeyMember alternative(std::variant<T...> Owner::*at, const std::array<std::strin
   return made;
 }
 
-// a list of some words
+// a list of given words
 template <class Owner, class T>
 KeyMember some_of(std::vector<T> Owner::*at, const std::type_identity_t<Words<T>>& words) {
   KeyMember made = key_member(

@@ -22,12 +22,17 @@ KeyTable monitor_keys() {
      .meaning = "unique among the monitors; begins its columns in history.csv"},
     {.key = "quantities", .members = {some_of(&MonitorSpec::quantities, words())},
      .example = "[\"displacement\", \"rotation\"]", .required = true,
-     .meaning = "contact_force: resultant over the contacts of a joint, which `joint` names; whole_bonds: how many of its bonds are whole; level: of the water that `water` names; bolt_force: the largest and the mean force of the springs of the bolts that `bolts` names, of one bolt, and how many have yielded and broken; lining_force: of the lining that `lining` names thrust (compression positive), shear force and moment (sagging positive) at the node next to each of angles_deg, or without it the largest of each and the largest use of its strength; convergence: how far the wall of the opening that `excavation` names has moved inwards; the others: of one block that a "
-         "selector chooses; …_load: what acts on it from one source, applied_load by stage.force, water_load by water; velocities are those of half a step before"},
+     .meaning = "contact_force: resultant over the contacts of the joint named by `joint`; whole_bonds: number of its intact bonds; level: "
+         "of the water named by `water`; bolt_force: largest and mean force of the springs of the bolts named by `bolts`, per bolt, and "
+         "the numbers of yielded and broken ones; lining_force: thrust (compression positive), shear force and moment (sagging positive) "
+         "of the lining named by `lining`, at the node nearest to each of angles_deg, or without it the largest of each and the largest "
+         "utilisation; convergence: inward displacement of the wall of the opening named by `excavation`; the others: of one block that a "
+         "selector chooses; …_load: force on it from one source, applied_load from stage.force, water_load from water; velocities are "
+         "those half a step earlier"},
     {.key = "over", .members = {one_of(&MonitorSpec::over, {{"one", Aggregate::one}, {"sum", Aggregate::sum}, {"mean", Aggregate::mean}})},
      .example = "\"mean\"",
-     .meaning = "of the blocks that the selector chooses; one: it chooses exactly one; sum, mean: over all that are not "
-         "excavated, those apart that an excavation parts from them"},
+     .meaning = "how the values of the chosen blocks are combined; one: the selector chooses exactly one block; sum, mean: over all that "
+         "are not excavated, without the parts that an excavation cuts off them"},
     {.key = "joint", .members = {in(&MonitorSpec::joint, name)}, .example = "\"A\"",
      .meaning = "joint of contact_force and whole_bonds"},
     {.key = "bolts", .members = {in(&MonitorSpec::bolts, name)}, .example = "\"roof\"",
@@ -35,19 +40,21 @@ KeyTable monitor_keys() {
     {.key = "lining", .members = {in(&MonitorSpec::lining, name)}, .example = "\"shell\"",
      .meaning = "lining of lining_force"},
     {.key = "water", .members = {in(&MonitorSpec::water, name)}, .example = "\"lake\"",
-     .meaning = "water of level: its elevation, that of each point of a table, at the scene's middle of a plane; or its pressure"},
+     .meaning = "water of level: its elevation (of a table that of each point, of a plane that at the middle of the scene), or its "
+         "pressure"},
     {.key = "excavation", .members = {in(&MonitorSpec::excavation, name)}, .example = "\"tunnel\"",
-     .meaning = "opening of convergence, by name: a cylinder, in the plane also a box"},
+     .meaning = "opening of convergence, by name: a cylinder, in 2-D also a box"},
     {.key = "angles_deg", .members = {in(&MonitorSpec::angles, numbers)}, .unit = "deg", .range = {-360, 360},
      .example = "[0, 180]",
-     .meaning = "of convergence: the points where rays from the opening's centre meet the rock, counter-clockwise from the "
-         "x axis; in space across the middle of the axis, as a fan's. A point moves with its block, which is told when the opening has been taken out; with over = \"sum\" two "
-         "opposite points give the closure, with \"one\" each point has a column"},
+     .meaning = "for convergence: directions of rays from the opening's centre to points of the rock wall, counter-clockwise from the x "
+         "axis; in 3-D perpendicular to the axis at its middle, as for a fan. A point moves with its block, which is determined at the "
+         "excavation of the opening; with over = \"sum\" two opposite points give the convergence of the diameter, with \"one\" each point "
+         "has a column"},
     {.key = "since", .members = {in(&MonitorSpec::since, name)}, .example = "\"stress\"",
-     .meaning = "displacement, rotation and convergence are counted from the end of this stage, and are 0 until then; "
-         "without it, and without since_start, from the start"},
+     .meaning = "displacement, rotation and convergence are measured from the end of this stage, and are 0 until then; without it, and "
+         "without since_start, from the start of the run"},
     {.key = "since_start", .members = {in(&MonitorSpec::since_start, name)}, .example = "\"dig\"",
-     .meaning = "likewise from the start of this stage, before it digs or changes anything; this or since"},
+     .meaning = "likewise from the start of this stage, before its excavations and other changes; either this or since"},
   }};
 }
 // clang-format on

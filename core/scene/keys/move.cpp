@@ -8,8 +8,7 @@ namespace voussoir::keys {
 KeyTable move_keys() {
   return {"move", {
     {.key = "translation", .members = {in(&MovePlan::translation)}, .example = "[\"x\"]",
-     .meaning = "directions along which the velocity is prescribed; true: all. Along the others the block is as free as "
-         "without it"},
+     .meaning = "directions along which the velocity is prescribed; true: all. Along the others the block moves as before"},
   }};
 }
 // clang-format on

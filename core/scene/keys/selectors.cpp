@@ -1,4 +1,4 @@
-// What tables that choose blocks have in common: name, choice, restraint, velocity.
+// Keys that tables which choose blocks have in common: name, choice, restraint, velocity.
 #include "core/scene/keys/tables.hpp"
 #include "core/scene/scene_spec.hpp"
 
@@ -8,7 +8,7 @@ namespace voussoir::keys {
 KeyTable label_keys() {
   return {"label", {
     {.key = "name", .type = name, .example = "\"base\"",
-     .meaning = "so that --set can address this table by name; otherwise by its number, from 1"},
+     .meaning = "name by which --set can address this table; without it by its number, from 1"},
   }};
 }
 
@@ -18,16 +18,17 @@ KeyTable selector_keys() {
     {.key = "bodies", .members = {in(&Selector::names)}, .example = "[\"slider\"]",
      .meaning = "blocks of these names"},
     {.key = "above", .members = {in(&Selector::above)}, .example = "[\"A\", \"B\"]",
-     .meaning = "blocks whose centroid lies above all these joints (on the side of the upward normal; to the side it "
-         "dips to where the joint is vertical)"},
+     .meaning = "blocks whose centroid is above all these joints (on the side of the upward normal; if the joint is vertical, on the side "
+         "to which it dips)"},
     {.key = "below", .members = {in(&Selector::below)}, .example = "[\"A\"]",
-     .meaning = "blocks whose centroid lies below all these joints"},
+     .meaning = "blocks whose centroid is below all these joints"},
     {.key = "inside", .members = {in(&Selector::inside)}, .unit = "m", .range = sane, .example = "[0.5, 0.5, -1]",
-     .meaning = "the block that holds this point"},
+     .meaning = "the block that contains this point"},
     {.key = "side", .members = {in(&Selector::sides)}, .example = "[\"bottom\"]",
-     .meaning = "blocks of which a face that no joint made lies in one of these sides of the model, where such faces are "
-         "outermost: left, right, bottom or top; in space west, east, south, north, bottom or top"},
-    {.key = "box", .type = table, .holds = {"box"}, .meaning = "blocks whose centroid lies in this box"},
+     .meaning = "blocks with a face that no joint made on one of these outermost sides of the model: left, right, bottom or top; in 3-D "
+         "west, east, "
+         "south, north, bottom or top"},
+    {.key = "box", .type = table, .holds = {"box"}, .meaning = "blocks whose centroid is in this box"},
   }};
 }
 

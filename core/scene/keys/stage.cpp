@@ -11,7 +11,7 @@ KeyTable stage_keys() {
      .meaning = "unique among the stages"},
     {.key = "kind", .members = {alternative(&StagePlan::plan, {"settle", "run", "reduce"})}, .example = "\"settle\"",
      .required = true,
-     .meaning = "settle: until at rest; run: true motion for a given time; reduce: lower friction until the model fails"},
+     .meaning = "settle: until equilibrium; run: true motion for a given time; reduce: strength is reduced until the model fails"},
   }};
 }
 // clang-format on

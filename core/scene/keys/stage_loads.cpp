@@ -1,4 +1,4 @@
-// [[stage]]: the loads that it brings.
+// [[stage]]: the loads that it applies.
 #include "core/base/settings.hpp"
 #include "core/scene/keys/tables.hpp"
 
@@ -8,34 +8,35 @@ namespace voussoir::keys {
 std::vector<KeyTable> stage_load_keys() {
   return {{"stage", {
     {.key = "boundary", .type = tables, .holds = {"label", "boundary", "selector"},
-     .meaning = "stress on the outer faces of blocks, those that no joint made, from this stage on; it replaces what the "
-         "blocks bore before"},
+     .meaning = "stress on the outer faces of blocks (those that no joint made) from this stage on; it replaces earlier boundary stress on "
+         "these blocks"},
     {.key = "force", .type = tables, .holds = {"force", "factor", "selector"},
-     .meaning = "a force on blocks from this stage on. Its factor of time, in stages of kind run only, runs while the stage "
-         "lasts; afterwards the force stays as it ended"},
+     .meaning = "a force on blocks from this stage on. A time factor, in stages of kind run only, acts during the stage; afterwards the "
+         "force keeps its last value"},
   }},
   {"boundary", {
     {.key = "stress", .members = {in(&BoundaryPlan::stress, numbers)}, .unit = "Pa", .range = sane,
      .example = "[50e3, 50e3, 0, 0, 0, 0]",
-     .meaning = "compression positive, world axes: xx, yy, zz, yz, zx, xy; in 2-D xx, yy, xy. The force on each face keeps "
-         "size and direction while the block moves",
+     .meaning = "compression positive, world axes: xx, yy, zz, yz, zx, xy; in 2-D xx, yy, xy. The force on each face keeps its magnitude "
+         "and direction while the block moves",
      .breaks = "needs blocks or fixed rock to push against"},
     {.key = "in_situ", .type = table, .holds = {"in_situ"},
-     .meaning = "stress of the rock's own weight, which grows with depth; `stress`, where it is stated too, is added"},
+     .meaning = "stress due to the rock's own weight, which grows with depth; `stress`, if stated too, is added"},
   }},
   {"in_situ", {
     {.key = "surface", .members = {in(&InSituPlan::surface)}, .unit = "m", .range = sane, .example = "25",
-     .required = true, .meaning = "elevation at which it begins, and above which there is none"},
+     .required = true, .meaning = "elevation of the ground surface, above which there is no stress"},
     {.key = "k0", .members = {in(&InSituPlan::k0)}, .unit = "1", .range = {0, 1e3},
      .plausible = {.low = 0.1, .high = 10, .or_zero = true}, .example = "0.5", .required = true,
-     .meaning = "horizontal over vertical stress. A joint that dips by a slips while it is put on unless "
-         "tan φ ≥ |1 - k0| sin a cos a / (cos² a + k0 sin² a): state a friction for this stage", .mistake = "was it given in percent?"},
+     .meaning = "horizontal over vertical stress. A joint of dip a slips while the stress is applied unless "
+         "tan φ ≥ |1 - k0| sin a cos a / (cos² a + k0 sin² a): state a friction angle for this stage", .mistake = "was it given in "
+         "percent?"},
     {.key = "k0_y", .members = {in(&InSituPlan::k0_y)}, .unit = "1", .range = {0, 1e3},
      .plausible = {.low = 0.1, .high = 10, .or_zero = true}, .example = "0.8", .no_default = true,
-     .meaning = "in space the same along y, where it is another than along x", .mistake = "was it given in percent?"},
+     .meaning = "in 3-D the ratio along y, if it differs from that along x", .mistake = "was it given in percent?"},
     {.key = "unit_weight", .members = {in(&InSituPlan::unit_weight)}, .unit = "N/m³", .range = positive,
      .plausible = {1e4, 5e4}, .example = "26e3", .no_default = true,
-     .meaning = "of the rock: the scene's density times its gravity, where it is not stated",
+     .meaning = "unit weight of the rock; without it the scene's density times gravity",
      .mistake = "was it given in kN/m³, or as a density?"},
   }},
   {"force", {
@@ -43,28 +44,28 @@ std::vector<KeyTable> stage_load_keys() {
      .meaning = "a later stage that states a force of this name replaces it"},
     {.key = "force", .members = {in(&ForcePlan::force)}, .unit = "N", .range = sane,
      .plausible = {.low = 1, .high = 1e8, .or_zero = true}, .example = "[0, 0, -5e3]", .required = true,
-     .meaning = "on each of the blocks, world axes; in 2-D N per metre of thickness. All zero: no force of this name acts "
-         "any more", .mistake = "was it given in kN or MN?"},
+     .meaning = "force on each of the blocks, world axes; in 2-D N per metre of thickness. All zero: the force of this name "
+         "ends", .mistake = "was it given in kN or MN?"},
     {.key = "point", .members = {in(&ForcePlan::point)}, .unit = "m", .range = sane, .example = "[1, 0, 2]",
-     .meaning = "where it acts, in or on its block, as the scene has it before anything moves; the point then moves with "
-         "the block. Without it the force acts at the centroid of each block"},
+     .meaning = "point at which it acts, in or on its block, in the initial position; it moves with the block. Without it the force acts "
+         "at the centroid of each block"},
     {.key = "turns_with_body", .members = {in(&ForcePlan::turns_with_body)}, .example = "true",
      .meaning = "true: the force turns with the block, like a jack on its face; false: it keeps its direction in space, "
          "like a weight"},
   }},
-  // of time, of prescribed motions too
+  // factors of time, of prescribed motions too
   {"factor", {
     {.key = "times_s", .members = {in(&TimeFactor::times, numbers)}, .unit = "s", .range = {0, 1e9}, .example = "[0, 0.1, 1]",
      .meaning = "times since the stage began, ascending, at which `factors` are given"},
     {.key = "factors", .members = {in(&TimeFactor::factors, numbers)}, .range = sane, .example = "[0, 1, 1]",
-     .meaning = "what the velocities, or the force, are multiplied by at `times_s`: linear in between, constant before and after"},
+     .meaning = "factors of the velocities, or of the force, at `times_s`: linear in between, constant before and after"},
     {.key = "frequency_hz", .members = {in(&TimeFactor::frequency)}, .unit = "Hz", .range = {0, 1e9, true}, .plausible = {0.01, 500},
      .example = "2", .no_default = true,
-     .meaning = "velocities, or the force, are multiplied by sin(2π frequency_hz t + phase_deg), t since the stage began; times the "
-         "factors where both are given",
-     .breaks = "needs some twenty steps a period", .mistake = "was the period given?"},
+     .meaning = "velocities, or the force, are multiplied by sin(2π frequency_hz t + phase_deg), t since the stage began; and by the "
+         "factors if both are given",
+     .breaks = "needs about twenty time steps per period", .mistake = "was the period given?"},
     {.key = "phase_deg", .members = {degrees(&TimeFactor::phase)}, .unit = "deg", .range = {-360, 360}, .plausible = plausible_direction,
-     .example = "90", .meaning = "of that sine: 90 begins at its full value", .mistake = angle_mistake},
+     .example = "90", .meaning = "phase of that sine; 90: it begins at its maximum", .mistake = angle_mistake},
   }}};
 }
 // clang-format on

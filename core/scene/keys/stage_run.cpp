@@ -9,25 +9,25 @@ KeyTable stage_run_keys() {
   return {"stage", {
     {.key = "gravity_ramp_s", .members = {in(&GravityPlan::ramp)}, .unit = "s", .range = {0, 1e9},
      .plausible = plausible_ramp, .example = "0.5", .when = {"kind", "settle|run"},
-     .meaning = "gravity grows from none to full within this time, at most duration_s",
-     .breaks = "0 loads the joints dynamically, to twice their weight without damping",
+     .meaning = "gravity grows from zero to its full value within this time, at most duration_s",
+     .breaks = "0 loads the joints dynamically, without damping to twice the weight",
      .mistake = "was it given in ms?"},
     {.key = "gravity_to", .members = {in(&GravityPlan::to)}, .unit = "1", .range = {0, 1e6},
      .plausible = plausible_factor, .example = "2", .when = {"kind", "settle|run"},
-     .meaning = "multiple of the scene's gravity that acts at the end of the ramp, which then begins at what acted in the "
-         "stage before, or at once where there is no ramp. Without it a ramp goes from none to 1, and a stage without "
-         "ramp leaves gravity as it is"},
+     .meaning = "multiple of the scene's gravity that acts at the end of the ramp, which then starts from the previous stage's value, or "
+         "from the start of the stage if there is no ramp. Without it a ramp is from 0 to 1, and a stage without ramp does not change "
+         "gravity"},
     {.key = "water", .type = tables, .when = {"kind", "settle|run"}, .holds = {"water_change", "water_surface"},
-     .meaning = "waters that rise, fall or change within the stage, and stay as they ended"},
-    {.key = "let_off", .type = table, .when = {"kind", "settle|run"}, .holds = {"let_off"},
-     .meaning = "excavated rock is not gone at once: the forces by which it held the rest, in this stage and in stages "
-         "before that let off a part, stay as loads and fall within the stage"},
+     .meaning = "waters that rise, fall or change within the stage, and then keep their last value"},
+    {.key = "excavation_forces", .type = table, .when = {"kind", "settle|run"}, .holds = {"excavation_forces"},
+     .meaning = "the forces by which excavated rock supported the rest, in this stage and in stages before that state "
+         "them, are not removed at once: they stay as loads and fall within the stage"},
     {.key = "time_limit_s", .members = {in(&SettlePlan::time_limit)}, .unit = "s", .range = {0, 1e9, true},
      .plausible = {0.1, 1e4}, .example = "60", .when = {"kind", "settle"},
-     .meaning = "gives up when not at rest by then", .mistake = "was it given in ms?"},
+     .meaning = "the stage gives up if equilibrium is not reached by then", .mistake = "was it given in ms?"},
     {.key = "step_limit", .members = {in(&SettlePlan::step_limit), in(&ReducePlan::step_limit)}, .unit = "steps",
      .range = count, .plausible = {1e4, 1e8}, .example = "2000000", .when = {"kind", "settle|reduce"},
-     .meaning = "gives up when not at rest after so many steps (reduce: in one trial)"},
+     .meaning = "the stage (reduce: a trial) gives up if equilibrium is not reached in this number of steps"},
     {.key = "duration_s", .members = {in(&RunPlan::duration)}, .unit = "s", .range = {0, 1e9, true},
      .plausible = {1e-3, 1000}, .example = "2", .required = true, .when = {"kind", "run"},
      .meaning = "simulated time", .mistake = "was it given in ms?"},

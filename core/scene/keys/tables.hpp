@@ -1,5 +1,5 @@
-// The tables of a scene, a file for each: its keys, what they mean and where their values go. `keys.cpp` lists them in
-// the order of the page.
+// The tables of a scene, one file each: keys, meanings and the members that receive the values. `keys.cpp` lists them
+// in the order of the page.
 #pragma once
 
 #include "core/scene/keys/members.hpp"
@@ -33,6 +33,7 @@ KeyTable motion_keys();
 KeyTable accuracy_keys();
 KeyTable contact_keys();
 KeyTable copies_keys();
+std::vector<KeyRow> statics_rows();  // of a scene
 KeyTable damping_keys();
 KeyTable time_keys();
 KeyTable equilibrium_keys();
@@ -41,7 +42,8 @@ KeyTable stage_keys();
 KeyTable stage_run_keys();
 KeyTable stage_reduce_keys();
 KeyTable stage_change_keys();
-KeyTable let_off_keys();
+KeyTable stage_statics_keys();
+KeyTable excavation_forces_keys();
 KeyTable stage_friction_keys();
 KeyTable move_keys();
 std::vector<KeyTable> stage_load_keys();

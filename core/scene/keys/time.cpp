@@ -9,12 +9,12 @@ KeyTable time_keys() {
   return {"time", {
     {.key = "fraction", .members = {in(&TimeSettings::fraction)}, .unit = "1", .range = {0, 1, true},
      .plausible = {1e-3, 1}, .example = "0.1",
-     .meaning = "time step as a fraction of the stability limit; in stages of kind run 0.1 where it is not stated",
+     .meaning = "time step as a fraction of the stability limit; in stages of kind run 0.1 if it is not stated",
      .breaks = "above 0.2 (0.1 without damping) contacts that open and close gain energy"},
     {.key = "step_s", .members = {in(&TimeSettings::step)}, .unit = "s", .range = {0, 1e9, true},
      .plausible = {5e-7, 0.02}, .example = "1e-4",
      .meaning = "a fixed time step instead of the estimate",
-     .breaks = "needed where no block ever touches; unstable above the limit",
+     .breaks = "required if no blocks ever touch; unstable above the stability limit",
      .mistake = "was it given in ms or µs?"},
   }};
 }
@@ -23,12 +23,12 @@ KeyTable equilibrium_keys() {
   return {"equilibrium", {
     {.key = "unbalanced", .members = {in(&EquilibriumSettings::unbalanced)}, .unit = "1", .range = {0, 1, true},
      .plausible = {1e-9, 5e-3}, .example = "1e-7",
-     .meaning = "at rest when for every free block unbalanced force and momentum stay below this fraction of the mean "
-         "force of contacts and supports, or of relief loads (let_off), applied forces or water where these are larger",
-     .breaks = "too loose: a slow slide passes as rest"},
+     .meaning = "equilibrium: for every free block the unbalanced force and moment stay below this fraction of the mean "
+         "force of contacts and supports, or of relief loads (excavation_forces), applied forces or water where these are larger",
+     .breaks = "too large: slow sliding is taken for equilibrium"},
     {.key = "window", .members = {in(&EquilibriumSettings::window)}, .unit = "steps", .range = {1, 1e6},
      .plausible = {2, 1000}, .example = "50",
-     .meaning = "number of steps in a row that must be at rest"},
+     .meaning = "number of consecutive steps that must be in equilibrium"},
   }};
 }
 // clang-format on

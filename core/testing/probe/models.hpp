@@ -1,5 +1,5 @@
-// Eight lively models for comparing builds: everything slides, turns, parts and meets again, so that one different
-// rounding anywhere soon shows in every digit.
+// Eight lively models for comparing builds: blocks slide, turn, part and meet again, so that one different rounding
+// anywhere soon shows in every digit.
 #pragma once
 
 #include "core/model/water_surfaces.hpp"
@@ -17,7 +17,7 @@ struct Scene {
 };
 
 // a random velocity for every free body; numbers come from the generator alone, since a compiler may evaluate a
-// constant sine in another way than the C library does
+// constant sine differently from the C library
 template <int Dim>
 void set_in_motion(Scene<Dim>& scene, double speed, shapes::Random& random) {
   scene.state = initial_state(scene.model);
@@ -105,7 +105,7 @@ inline Scene<3> smooth_tumble() {
   return scene;
 }
 
-// both with their contacts carried as a whole: from faces over edges to corners and back
+// both with integrated face contacts: from faces over edges to corners and back
 template <int Dim>
 Scene<Dim> integrated_in(Scene<Dim> scene, const char* name) {
   scene.name = name;

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Comparing the probe's hashes shows something only if a start that differs by one ulp leaves none of them as it was.
+# A comparison of the probe's hashes proves something only if a start that differs by one ulp changes all of them.
 #   one_ulp_shows.sh <probe>
 set -euo pipefail
 same=$(comm -12 <("$1" | grep fnv1a64 | sort) <("$1" --nudge | grep fnv1a64 | sort))

@@ -21,7 +21,7 @@ struct Options {
   int steps = 1000;
   int every = 100;  // steps between two hashes
   int threads = 1;
-  bool nudge = false;  // start every body one ulp faster: the lines must differ, or comparing them shows nothing
+  bool nudge = false;  // start every body one ulp faster: the lines must differ, or their comparison proves nothing
   bool flush = false;  // denormal numbers become zero, as operands and as results
 };
 
@@ -79,7 +79,7 @@ void run(probe::Scene<Dim> scene, const Options& options) {
       std::printf("%s %d %s\n", scene.name, i, state_hash(scene.model, scene.state).c_str());
   }
 
-  // that something happened, for the reader
+  // motion and slip of the model, for the reader
   double farthest = 0, slip = 0;
   for (const Motion<Dim>& m : scene.state.bodies.motions)
     farthest = std::max(farthest, m.displacement.norm());
@@ -88,7 +88,7 @@ void run(probe::Scene<Dim> scene, const Options& options) {
     touching += c.touching();
     slip = std::max(slip, c.history.plastic_slip);
   }
-  std::printf("%s: %zu bodies, %d contacts, %.3f s, moved %.3f m, slipped %.3f m, %lld unanswered\n", scene.name,
+  std::printf("%s: %zu bodies, %d contacts, %.3f s, moved %.3f m, slipped %.3f m, %lld without a result\n", scene.name,
               scene.model.bodies.size(), touching, scene.state.schedule.time, farthest, slip,
               scene.state.counters.unconverged);
 }

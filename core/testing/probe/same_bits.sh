@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Builds a program, core/voussoir_probe or benchmarks/kernel_answers, with a compiler and flags of its own and compares the
-# lines it prints with those of a reference; then looks for fused multiply-adds in it. Skipped by name (77) if the
-# compiler cannot do what is asked.
+# lines it prints with those of a reference; then searches it for fused multiply-adds. Skipped by name (77) if the
+# compiler does not support this.
 #   same_bits.sh <source> <folder> <reference program> <program> <compiler> <flags> <options of both> [<run> …]
-# A run is what else this build's program is given, such as "--threads 4"; without one it runs once.
+# A run is a list of further arguments of this build's program, such as "--threads 4"; without one it runs once.
 set -euo pipefail
 source=$1 folder=$2 reference=$3 program=$4 compiler=$5 flags=$6 options=$7
 shift 7
