@@ -186,6 +186,14 @@ Body<Dim> assemble_body(std::vector<Polytope<Dim>> parts, double density) {
 }
 
 template <int Dim>
+double inscribed_radius(const Body<Dim>& body) {
+  double radius = body.size;  // all that there is of a body without parts
+  for (const Polytope<Dim>& part : body.parts)
+    radius = std::max(radius, part.inscribed_radius);
+  return radius;
+}
+
+template <int Dim>
 double volume(const Body<Dim>& body) {
   double sum = 0;
   for (const Polytope<Dim>& p : body.parts)
@@ -218,6 +226,8 @@ template Body<3> make_body<3>(std::vector<Polytope<3>>, double);
 template Body<2> assemble_body<2>(std::vector<Polytope<2>>, double);
 template Body<3> assemble_body<3>(std::vector<Polytope<3>>, double);
 template double volume<2>(const Body<2>&);
+template double inscribed_radius<2>(const Body<2>&);
+template double inscribed_radius<3>(const Body<3>&);
 template double volume<3>(const Body<3>&);
 template void number_bodies<2>(Model<2>&);
 template void number_bodies<3>(Model<3>&);

@@ -139,6 +139,10 @@ Body<Dim> make_body(std::vector<Polytope<Dim>> parts, double density);
 template <int Dim>
 Body<Dim> assemble_body(std::vector<Polytope<Dim>> parts, double density);
 
+// m: inscribed radius of its largest part; splinters that an outline cuts off and the body holds are no measure
+template <int Dim>
+double inscribed_radius(const Body<Dim>& body);
+
 // of all its parts, m³ (2-D: m²)
 template <int Dim>
 double volume(const Body<Dim>& body);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/step/elastic_displacement.hpp"
+
 namespace voussoir {
 namespace {
 
@@ -196,12 +198,22 @@ void look(const Model<Dim>& model, const State<Dim>& state, const std::vector<Pl
 }
 
 template <int Dim>
-std::optional<RequiredStrength> extrapolated(const TrialWatch<Dim>& trial) {
-  const std::size_t n = trial.required.size();
-  if (n < 2 || !trial.straight || trial.broke) return {};
-  const RequiredStrength &first = trial.required[n - 2], &second = trial.required[n - 1];
-  if (!(second.displacement > apart * first.displacement)) return {};
-  return RequiredStrength{0, first.strength + slope(first, second) * first.displacement};
+double failure_displacement_of(const Model<Dim>& model, const ReducePlan& plan) {
+  if (plan.failure_displacement > 0) return plan.failure_displacement;
+  double smallest = 0;
+  for (const Body<Dim>& b : model.bodies)
+    if (!b.fixed) smallest = smallest == 0 ? b.size : std::min(smallest, b.size);
+  return failure_fraction_of_radius * smallest;
+}
+
+template <int Dim>
+std::vector<int> chosen_properties(const Model<Dim>& model, const ReducePlan& plan) {
+  std::vector<int> chosen;
+  for (std::size_t p = 0; p < model.properties.size(); ++p)
+    if (plan.properties.empty() ||
+        std::find(plan.properties.begin(), plan.properties.end(), model.properties[p].name) != plan.properties.end())
+      chosen.push_back(static_cast<int>(p));
+  return chosen;
 }
 
 template <int Dim>
@@ -217,14 +229,56 @@ std::string not_watched(const Model<Dim>& model, const ReducePlan& plan, const S
   return {};
 }
 
-#define VOUSSOIR_INSTANTIATE(Dim)                                                                   \
-  template std::vector<double> moved_since<Dim>(const Model<Dim>&, const std::vector<Vector<Dim>>&, \
-                                                const std::vector<Placement<Dim>>&);                \
-  template std::vector<Placement<Dim>> placements<Dim>(const BodiesState<Dim>&);                    \
-  template void begin_watch<Dim>(const State<Dim>&, double, FailureWatch<Dim>&);                    \
-  template void look<Dim>(const Model<Dim>&, const State<Dim>&, const std::vector<Placement<Dim>>&, \
-                          const std::vector<Vector<Dim>>&, FailureWatch<Dim>&);                     \
-  template std::optional<RequiredStrength> extrapolated<Dim>(const TrialWatch<Dim>&);               \
+template <int Dim>
+WatchPlan watch_plan(const Model<Dim>& model, const Settings& settings, const ReducePlan& plan, const Levels& levels,
+                     const State<Dim>& stable) {
+  if (plan.failure_displacement > 0 || plan.criterion == FailureCriterion::displacement ||
+      !not_watched(model, plan, stable.supports).empty())
+    return {};
+  WatchPlan watch{.searched = plan.searched,
+                  .properties = chosen_properties(model, plan),
+                  .elastic = elastic_displacements(model, settings, stable)};
+  for (const Body<Dim>& body : model.bodies)
+    watch.moved_away.push_back(failure_fraction_of_radius * inscribed_radius(body));
+  watch.tolerance =
+      std::abs(levels.strength(levels.from) - levels.strength(levels.from + levels.direction * levels.tolerance));
+  return watch;
+}
+
+template <int Dim>
+void note_stable_trial(const Model<Dim>& model, const State<Dim>& state, const std::vector<Vector<Dim>>& began,
+                       const WatchPlan& plan, double strength, SearchEstimates& known) {
+  const MovingBodies moving = moving_bodies(moved_since(model, began, placements(state.bodies)), plan.moved_away);
+  known.stable.push_back(
+      {.level = strength, .displacement = moving.farthest, .of_failure = moving.farthest / moving.most_of});
+}
+
+// The line through the last two looks, unless they are too near each other.
+template <int Dim>
+void note_failed_trial(const TrialWatch<Dim>& trial, double strength, SearchEstimates& known) {
+  known.turned = trial.turns;
+  const std::size_t n = trial.required.size();
+  if (n < 2 || !trial.straight || trial.broke) return;
+  const RequiredStrength &first = trial.required[n - 2], &second = trial.required[n - 1];
+  if (!(second.displacement > apart * first.displacement)) return;
+  const double critical = first.strength + slope(first, second) * first.displacement;
+  known.failed.push_back({.level = strength, .critical = critical, .taken_out = std::abs(critical - second.strength)});
+}
+
+#define VOUSSOIR_INSTANTIATE(Dim)                                                                             \
+  template std::vector<double> moved_since<Dim>(const Model<Dim>&, const std::vector<Vector<Dim>>&,           \
+                                                const std::vector<Placement<Dim>>&);                          \
+  template std::vector<Placement<Dim>> placements<Dim>(const BodiesState<Dim>&);                              \
+  template void begin_watch<Dim>(const State<Dim>&, double, FailureWatch<Dim>&);                              \
+  template void look<Dim>(const Model<Dim>&, const State<Dim>&, const std::vector<Placement<Dim>>&,           \
+                          const std::vector<Vector<Dim>>&, FailureWatch<Dim>&);                               \
+  template WatchPlan watch_plan<Dim>(const Model<Dim>&, const Settings&, const ReducePlan&, const Levels&,    \
+                                     const State<Dim>&);                                                      \
+  template void note_stable_trial<Dim>(const Model<Dim>&, const State<Dim>&, const std::vector<Vector<Dim>>&, \
+                                       const WatchPlan&, double, SearchEstimates&);                           \
+  template void note_failed_trial<Dim>(const TrialWatch<Dim>&, double, SearchEstimates&);                     \
+  template double failure_displacement_of<Dim>(const Model<Dim>&, const ReducePlan&);                         \
+  template std::vector<int> chosen_properties<Dim>(const Model<Dim>&, const ReducePlan&);                     \
   template std::string not_watched<Dim>(const Model<Dim>&, const ReducePlan&, const SupportsState<Dim>&);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)

@@ -11,13 +11,13 @@
 // strength (cases/incline/NOTES.md has measurements).
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/base/settings.hpp"
 #include "core/model/model.hpp"
 #include "core/model/state.hpp"
+#include "core/run/search_estimates.hpp"
 
 namespace voussoir {
 
@@ -85,13 +85,32 @@ std::vector<double> moved_since(const Model<Dim>& model, const std::vector<Vecto
 template <int Dim>
 std::vector<Placement<Dim>> placements(const BodiesState<Dim>& bodies);
 
-// The strength that the last two looks give at no displacement; nothing if they are too near each other or the line is
-// not straight.
+// without a stated displacement, bodies that moved by this fraction of their inscribed radius have failed
+inline constexpr double failure_fraction_of_radius = 0.1;
+
+// the joint properties whose strength a plan reduces: indices in Model::properties, ascending
 template <int Dim>
-std::optional<RequiredStrength> extrapolated(const TrialWatch<Dim>& trial);
+std::vector<int> chosen_properties(const Model<Dim>& model, const ReducePlan& plan);
+
+// m: the displacement at which a block has failed: as the plan states, or a tenth of the smallest inscribed radius
+template <int Dim>
+double failure_displacement_of(const Model<Dim>& model, const ReducePlan& plan);
 
 // Why a search of this kind is not judged by the strength that its motion requires, as a clause; empty: it is.
 template <int Dim>
 std::string not_watched(const Model<Dim>& model, const ReducePlan& plan, const SupportsState<Dim>& supports);
+
+// What a search watches from its first stable state on; nothing (WatchPlan::elastic is empty) if the plan asks for
+// displacement, or the search is of a kind that is not watched.
+template <int Dim>
+WatchPlan watch_plan(const Model<Dim>& model, const Settings& settings, const ReducePlan& plan, const Levels& levels,
+                     const State<Dim>& stable);
+
+// What a trial at a strength that has ended tells of the critical one. `began`: by body, where the search began, m.
+template <int Dim>
+void note_stable_trial(const Model<Dim>& model, const State<Dim>& state, const std::vector<Vector<Dim>>& began,
+                       const WatchPlan& plan, double strength, SearchEstimates& known);
+template <int Dim>
+void note_failed_trial(const TrialWatch<Dim>& trial, double strength, SearchEstimates& known);
 
 }  // namespace voussoir

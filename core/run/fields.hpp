@@ -104,12 +104,16 @@ void visit_fields(Just<StableTrial> auto& t, auto&& visit) {
   visit(Saved{}, level, displacement, of_failure);
 }
 
+void visit_fields(Just<SearchEstimates> auto& k, auto&& visit) {
+  auto& [failed, stable, turned] = k;
+  visit(Saved{}, failed, stable, turned);
+}
+
 void visit_fields(Either<ReductionProgress> auto& r, auto&& visit) {
   auto& [trial, target, level_from, level_rate, time_limit, stable, failed, failed_faster, unbalanced, true_motion,
-         trial_steps, avoids, undecided, run, begin, base, failed_from, watch, estimates, stable_trials, turned] = r;
+         trial_steps, avoids, undecided, run, begin, base, failed_from, watch, known] = r;
   visit(Saved{}, trial, target, level_from, level_rate, time_limit, stable, failed, failed_faster, unbalanced,
-        true_motion, trial_steps, avoids, undecided, run, begin, base, failed_from, watch, estimates, stable_trials,
-        turned);
+        true_motion, trial_steps, avoids, undecided, run, begin, base, failed_from, watch, known);
 }
 
 void visit_fields(Just<StageRecord> auto& r, auto&& visit) {

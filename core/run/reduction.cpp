@@ -7,15 +7,11 @@
 #include <optional>
 
 #include "core/run/search_levels.hpp"
-#include "core/step/elastic_displacement.hpp"
 #include "core/step/relaxation.hpp"
 #include "text/angle.hpp"
 
 namespace voussoir {
 namespace {
-
-// without a stated displacement, a body that moved by this fraction of its inscribed radius has failed
-constexpr double default_failure_fraction = 0.1;
 
 // the bias of a constant rate is proportional to this power of it (cases/incline/README.md)
 constexpr double bias_power = 2.0 / 3;
@@ -37,24 +33,8 @@ constexpr long long relaxation_round = 50, motion_round = 10;
 // so a quarter of the estimate bounds the error of the extrapolation
 constexpr double extrapolation_margin = 0.25;
 
-// An estimate counts if its trial was at a strength within this fraction of it: where the normal force depends on the
-// strength, one from a trial far below errs.
-constexpr double nearest_trial = 0.03;
-
-// Of what the extrapolation to no displacement changed: the bar of the criterion.
-constexpr double of_taken_out = 0.1;
-
 // Brackets between a failed level and the base that it was tried from, beyond which it is tried once more.
 constexpr double far_base = 4;
-
-// m: of a body's largest part; splinters that construction joints hold to it are no measure
-template <int Dim>
-double inscribed_radius(const Body<Dim>& body) {
-  double radius = body.size;
-  for (const Polytope<Dim>& part : body.parts)
-    radius = std::max(radius, part.inscribed_radius);
-  return radius;
-}
 
 // A trial: equilibrium is sought at a level, or the friction is reduced at constant rate from the last stable angle to
 // this one.
@@ -122,86 +102,17 @@ struct Search {
 
   bool watches() const { return !progress.watch.plan.elastic.empty(); }
 
-  // from the first stable state on, where the rule is proved for this kind of search and no displacement is stated
-  void begin_watching() {
-    if (plan.failure_displacement > 0 || plan.criterion == FailureCriterion::displacement ||
-        !not_watched(model, plan, state.supports).empty())
-      return;
-    WatchPlan& watch = progress.watch.plan;
-    watch.searched = plan.searched;
-    watch.properties = properties;
-    watch.elastic = elastic_displacements(model, settings, progress.base);
-    for (const Body<Dim>& body : model.bodies)
-      watch.moved_away.push_back(default_failure_fraction * inscribed_radius(body));
-    watch.tolerance =
-        std::abs(levels.strength(levels.from) - levels.strength(levels.from + levels.direction * levels.tolerance));
-  }
-
-  // what a trial that has ended adds to what is known of the critical strength
+  // a trial that has ended, as part of what is known of the critical strength
   void note_trial(double level, SearchTrial outcome) {
-    if (!watches()) return;
-    const TrialWatch<Dim>& trial = progress.watch.trial;
-    if (outcome == SearchTrial::stable) {
-      const MovingBodies moving =
-          moving_bodies(moved_since(model, progress.begin, placements(state.bodies)), progress.watch.plan.moved_away);
-      const StableTrial rested{.level = levels.strength(level),
-                               .displacement = moving.farthest,
-                               .of_failure = moving.farthest / moving.most_of};
-      progress.stable_trials.push_back(rested);
-    } else if (outcome == SearchTrial::failed) {
-      progress.turned = trial.turns;
-      if (const std::optional<RequiredStrength> critical = extrapolated(trial))
-        progress.estimates.push_back({.level = levels.strength(level),
-                                      .critical = critical->strength,
-                                      .taken_out = std::abs(critical->strength - trial.required.back().strength)});
-    }
-  }
-
-  // the last estimate as a level, if it comes from a trial near it and does not contradict the bracket
-  std::optional<double> estimate() const {
-    if (progress.estimates.empty()) return {};
-    const TrialEstimate& last = progress.estimates.back();
-    if (!(last.critical > 0) || std::abs(last.level - last.critical) > nearest_trial * last.critical) return {};
-    const double level = levels.level_of(last.critical);
-    if (levels.direction * (level - progress.stable) < -levels.tolerance ||
-        levels.direction * (progress.failed - level) < -levels.tolerance)
-      return {};
-    return level;
-  }
-
-  // whether the last two estimates are one within half the tolerance
-  bool estimates_agree() const {
-    const std::size_t n = progress.estimates.size();
-    if (n < 2 || !estimate()) return false;
-    const TrialEstimate &last = progress.estimates[n - 1], &before = progress.estimates[n - 2];
-    const double apart = std::abs(levels.level_of(last.critical) - levels.level_of(before.critical));
-    const double from_level = std::abs(levels.level_of(last.critical) - levels.level_of(last.level));
-    return apart <= 0.5 * levels.tolerance + 0.1 * from_level;
-  }
-
-  // a trial is stable within half the tolerance of the estimate
-  bool is_certified() const {
-    const double beyond = 0.5 * (1 + 1e-9) * levels.tolerance;
-    return estimates_agree() && levels.direction * (*estimate() - progress.stable) <= beyond;
-  }
-
-  // The level of the next trial by the last estimate: a hundredth on the failed side, where its line is better; once
-  // two estimates agree, half a tolerance on the stable side. Nothing if these are outside the bracket.
-  std::optional<double> level_by_estimate() const {
-    const std::optional<double> at = estimate();
-    const auto inside = [&](double level) {
-      return levels.direction * (level - progress.stable) > 0 && levels.direction * (progress.failed - level) > 0;
-    };
-    if (!at || !inside(*at)) return {};
-    const double near = std::max(2 * levels.tolerance, 0.01 * *at);
-    const double beyond = *at + levels.direction * near, before = *at - levels.direction * 0.5 * levels.tolerance;
-    if (!estimates_agree() && inside(beyond) && std::abs(beyond - progress.failed) > 0.2 * near) return beyond;
-    return inside(before) ? std::optional(before) : std::nullopt;
+    if (watches() && outcome == SearchTrial::stable)
+      note_stable_trial(model, state, progress.begin, progress.watch.plan, levels.strength(level), progress.known);
+    if (watches() && outcome == SearchTrial::failed)
+      note_failed_trial(progress.watch.trial, levels.strength(level), progress.known);
   }
 
   // Newton's method: the failed end was found from a base far from it, whose chord of slip may have failed it
   bool doubts_failed() const {
-    return watches() && settings.damping.statics == Statics::newton &&
+    return watches() && settings.statics.method == Statics::newton &&
            std::abs(progress.failed - progress.failed_from) > far_base * bracket();
   }
 
@@ -292,7 +203,7 @@ struct Search {
       return outcome;
     }
     // a failed level that is stable from a nearer base: the bracket opens beyond it, to a level to be tried like it
-    if (attempt.number > 1 && levels.direction * (level - progress.failed) >= 0)
+    if (watches() && attempt.number > 1 && levels.direction * (level - progress.failed) >= 0)
       progress.failed = levels.safer(level + 2 * levels.direction * std::max(bracket(), levels.tolerance), levels.to);
     progress.stable = level;
     progress.unbalanced = report.last.unbalanced;
@@ -317,12 +228,18 @@ struct Search {
     report.critical = critical;
     report.error_bar = error_bar;
   }
+  Bracket ends() const { return {progress.stable, progress.failed}; }
   double bracket() const { return levels.direction * (progress.failed - progress.stable); }
+  bool is_closed() const {
+    return is_certified(levels, ends(), progress.known) || (bracket() <= levels.tolerance && !doubts_failed());
+  }
   void close_bracket() {
     go_back_to_base();
     report.unbalanced = progress.unbalanced;
     report.bracket = 0.5 * bracket();
-    close(0.5 * (progress.stable + progress.failed), 0.5 * bracket());
+    const CriticalLevel critical = critical_level(levels, ends(), progress.known);
+    report.by = critical.by;
+    close(critical.level, critical.error_bar);
   }
 
   // The body that has moved farthest since the search began, as a clause, for an undecided trial. The trial ended in
@@ -395,37 +312,18 @@ struct Search {
 
   void bisect() {
     if (progress.trial == 0 && !rest_at(0, levels.from)) return;
-    if (progress.trial == 0) begin_watching();
+    if (progress.trial == 0) progress.watch.plan = watch_plan(model, settings, plan, levels, progress.base);
     if (progress.trial <= 1 && !rest_at(1, levels.to, true)) return;
     const int next = progress.run.under_way ? progress.trial : progress.trial + 1;
-    for (int n = std::max(next, 2); !is_certified() && (bracket() > levels.tolerance || doubts_failed()); ++n)
+    for (int n = std::max(next, 2); !is_closed(); ++n)
       if (!rest_at(n, bracket() > levels.tolerance ? next_level() : progress.failed, true)) return;
     close_bracket();
-    if (watches()) close_by_estimate();
-  }
-  // the strength required, taken to no displacement, or of bodies that turn the fit through the stable trials
-  void close_by_estimate() {
-    const double half_bracket = report.error_bar;
-    if (const std::optional<double> critical = estimate()) {
-      const std::size_t n = progress.estimates.size();
-      const TrialEstimate& last = progress.estimates.back();
-      const double taken_out = std::abs(*critical - levels.level_of(last.critical - last.taken_out));
-      const double other =
-          n < 2 ? half_bracket : std::abs(*critical - levels.level_of(progress.estimates[n - 2].critical));
-      report.by = CriticalBy::required_strength;
-      close(*critical, of_taken_out * taken_out + other);
-    } else if (const std::optional<StableFit> fit =
-                   progress.turned ? fit_stable(progress.stable_trials) : std::nullopt) {
-      const double critical = levels.level_of(fit->critical), from_bracket = std::abs(critical - report.critical);
-      const double change = std::abs(critical - levels.level_of(fit->critical + fit->change));
-      if (!fit->of_three && change >= from_bracket) return;
-      report.by = CriticalBy::stable_fit;
-      close(critical, fit->of_three ? from_bracket : std::min(2 * change, from_bracket));
-    }
   }
   // half way, or if no trial decides the level there, half way from it to the farther end
   double next_level() {
-    if (const std::optional<double> level = level_by_estimate(); level && !progress.avoids) return *level;
+    if (const std::optional<double> level = level_by_estimate(levels, ends(), progress.known);
+        level && !progress.avoids)
+      return *level;
     const double below = progress.undecided - progress.stable, above = progress.failed - progress.undecided;
     progress.avoids = progress.avoids && levels.direction * below > 0 && levels.direction * above > 0;
     if (!progress.avoids) return 0.5 * (progress.stable + progress.failed);
@@ -566,25 +464,6 @@ bool is_detour(ReductionMethod method, int trial, SearchTrial outcome) {
 }
 
 template <int Dim>
-double failure_displacement_of(const Model<Dim>& model, const ReducePlan& plan) {
-  if (plan.failure_displacement > 0) return plan.failure_displacement;
-  double smallest = 0;
-  for (const Body<Dim>& b : model.bodies)
-    if (!b.fixed) smallest = smallest == 0 ? b.size : std::min(smallest, b.size);
-  return default_failure_fraction * smallest;
-}
-
-template <int Dim>
-std::vector<int> chosen_properties(const Model<Dim>& model, const ReducePlan& plan) {
-  std::vector<int> chosen;
-  for (std::size_t p = 0; p < model.properties.size(); ++p)
-    if (plan.properties.empty() ||
-        std::find(plan.properties.begin(), plan.properties.end(), model.properties[p].name) != plan.properties.end())
-      chosen.push_back(static_cast<int>(p));
-  return chosen;
-}
-
-template <int Dim>
 ReductionReport reduce(const Model<Dim>& model, const Settings& settings, const ReducePlan& plan, State<Dim>& state,
                        ReductionProgress<Dim>& progress, const RunHooks<Dim>& hooks, const TrialHook<Dim>& on_trial) {
   Search<Dim> search{model, settings,        plan, hooks, on_trial, state, progress, chosen_properties(model, plan),
@@ -606,10 +485,6 @@ ReductionReport reduce(const Model<Dim>& model, const Settings& settings, const 
   return report;
 }
 
-template double failure_displacement_of<2>(const Model<2>&, const ReducePlan&);
-template double failure_displacement_of<3>(const Model<3>&, const ReducePlan&);
-template std::vector<int> chosen_properties<2>(const Model<2>&, const ReducePlan&);
-template std::vector<int> chosen_properties<3>(const Model<3>&, const ReducePlan&);
 template ReductionReport reduce<2>(const Model<2>&, const Settings&, const ReducePlan&, State<2>&,
                                    ReductionProgress<2>&, const RunHooks<2>&, const TrialHook<2>&);
 template ReductionReport reduce<3>(const Model<3>&, const Settings&, const ReducePlan&, State<3>&,

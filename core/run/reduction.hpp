@@ -11,9 +11,6 @@
 
 namespace voussoir {
 
-// how the critical level follows from the trials
-enum class CriticalBy { bracket, required_strength, stable_fit };
-
 struct ReductionReport {
   bool bracketed = false;         // both a stable and a failed level are known; `critical` lies between
   double stable = 0, failed = 0;  // rad or 1: the stable one nearest to failure, the failed one nearest to stability
@@ -46,9 +43,7 @@ struct ReductionProgress {
   State<Dim> base;                        // the last stable state
   double failed_from = 0;                 // the stable level that the failed one was tried from
   FailureWatch<Dim> watch;                // of the trial under way
-  std::vector<TrialEstimate> estimates;   // of failed trials
-  std::vector<StableTrial> stable_trials;
-  bool turned = false;  // bodies of the last failed trial turned
+  SearchEstimates known;                  // of its trials
 };
 
 // Whether a trial, counted from 0, is a detour: its effects are undone, or it only shows failure. The others are the
@@ -58,14 +53,6 @@ bool is_detour(ReductionMethod method, int trial, SearchTrial outcome);
 // the outcome at a level; called at the end of each trial, with its final state
 template <int Dim>
 using TrialHook = std::function<void(const State<Dim>&, double level, SearchTrial outcome)>;
-
-// the joint properties whose strength a plan reduces: indices in Model::properties, ascending
-template <int Dim>
-std::vector<int> chosen_properties(const Model<Dim>& model, const ReducePlan& plan);
-
-// m: the displacement at which a block has failed: as the plan states, or a tenth of the smallest inscribed radius
-template <int Dim>
-double failure_displacement_of(const Model<Dim>& model, const ReducePlan& plan);
 
 // Reduces the friction of the plan's joint properties from `from` towards `to`, or increases the factor that divides
 // their tan φ and cohesion; a bonded joint then supports cA/F + tan φ/F · Fn, its tensile strength is unchanged. A

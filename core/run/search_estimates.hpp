@@ -5,33 +5,68 @@
 #include <optional>
 #include <vector>
 
+#include "core/run/search_levels.hpp"
+
 namespace voussoir {
 
-// of a trial that lost its equilibrium on a straight line (core/run/failure_watch.hpp)
+// of a trial that failed with a motion whose required strength falls in a straight line (core/run/failure_watch.hpp)
 struct TrialEstimate {
   double level = 0;      // strength of the trial
-  double critical = 0;   // strength required, taken to no displacement
-  double taken_out = 0;  // what the extrapolation changed
+  double critical = 0;   // strength required at no displacement
+  double taken_out = 0;  // the change by the extrapolation to no displacement
 };
 
-// of a trial that came to equilibrium: how far its bodies had moved since the search began
+// of a trial that reached equilibrium: how far its bodies had moved since the search began
 struct StableTrial {
   double level = 0;         // strength
   double displacement = 0;  // m, of the body that moved most
-  double of_failure = 0;    // the same over the displacement at which that body has failed
+  double of_failure = 0;    // the same over the displacement at which these bodies have failed
 };
 
-// the strength at no displacement of bodies that turn
+struct SearchEstimates {
+  std::vector<TrialEstimate> failed;
+  std::vector<StableTrial> stable;
+  bool turned = false;  // bodies of the last failed trial turned
+};
+
+// levels, rad or 1
+struct Bracket {
+  double stable = 0, failed = 0;
+};
+
+// how the critical level follows from the trials
+enum class CriticalBy { bracket, required_strength, stable_fit };
+
+struct CriticalLevel {
+  double level = 0, error_bar = 0;  // rad or 1
+  CriticalBy by = CriticalBy::bracket;
+};
+
+// Whether the last two estimates are equal within half the tolerance and a trial is stable within half the tolerance of
+// them: the search needs no narrower bracket.
+bool is_certified(const Levels& levels, const Bracket& bracket, const SearchEstimates& known);
+
+// The level of the next trial by the last estimate: a hundredth beyond it, where its line is best seen; once two
+// estimates agree, half a tolerance on the stable side. Nothing without an estimate inside the bracket.
+std::optional<double> level_by_estimate(const Levels& levels, const Bracket& bracket, const SearchEstimates& known);
+
+// The critical level: the strength required at no displacement; of bodies that turn, the fit through the stable trials;
+// else the middle of the bracket. Error bar of the first: a tenth of what the extrapolation changed, and the difference
+// of the last two estimates (half the bracket if there is one only); of the fit: twice its change without the trial
+// that moved least, or of three trials its distance from the bracket; of the bracket: half of it.
+CriticalLevel critical_level(const Levels& levels, const Bracket& bracket, const SearchEstimates& known);
+
+// The strength at no displacement of bodies that turn.
 struct StableFit {
   double critical = 0;
-  double change = 0;  // by leaving out the trial that moved least; 0 of three trials, which have no such change
+  double change = 0;  // by leaving out the trial that moved least; of three trials there is none
   bool of_three = false;
 };
 
 // A block that turns on a face of normal stiffness kn is pressed on a strip whose width falls with the root of its
-// turn, so that what the corner lacks in lever does, too: stable trials of strength s have moved by u with s = s0 + b
-// u^(-1/2) - a u, b in proportion to kn^(-1/2). Least squares through those that have moved by more than three
-// thousandths of their failure displacement, the least of four or more left out. Nothing from fewer than three, or if b
+// turn, and with it the lever that the corner lacks: stable trials of strength s have moved by u with s = s0 + b
+// u^(-1/2) - a u, b in proportion to kn^(-1/2). Least squares through the trials that have moved by more than three
+// thousandths of their failure displacement, the least of four or more left out. Nothing of fewer than three, or if b
 // is not positive.
 std::optional<StableFit> fit_stable(const std::vector<StableTrial>& trials);
 

@@ -73,14 +73,6 @@ struct Settling {
     return moved.norm();
   }
 
-  // m: of its thickest part; parts that construction joints hold together may be slivers
-  double inscribed_radius(int body) const {
-    double radius = 0;
-    for (const Polytope<Dim>& part : model.bodies[body].parts)
-      radius = std::max(radius, part.inscribed_radius);
-    return radius;
-  }
-
   bool counts(int body) const { return model.bodies[body].present && !model.bodies[body].parts.empty(); }
 
   void find_near() {
@@ -105,7 +97,7 @@ struct Settling {
       stays[b] = true;
     for (std::size_t k = 0; k < found.size(); ++k)
       for (const int b : near[found[k]]) {
-        if (stays[b] || !counts(b) || against(b, found[k]) > inscribed_radius(b)) continue;
+        if (stays[b] || !counts(b) || against(b, found[k]) > inscribed_radius(model.bodies[b])) continue;
         stays[b] = true;
         found.push_back(b);
       }
@@ -128,7 +120,7 @@ struct Settling {
     MovedBody m;
     m.body = body;
     m.name = model.bodies[body].name;
-    m.inscribed_radius = inscribed_radius(body);
+    m.inscribed_radius = voussoir::inscribed_radius(model.bodies[body]);
     m.distance = std::numeric_limits<double>::infinity();
     for (const int other : near[body])
       if (stays[other] && against(body, other) < m.distance) {

@@ -17,6 +17,7 @@
 #include "core/step/step_length.hpp"
 #include "core/step/support_table.hpp"
 #include "core/step/tangent.hpp"
+#include "core/step/trial_slip.hpp"
 #include "core/step/water_stiffness.hpp"
 
 namespace voussoir {
@@ -71,15 +72,6 @@ constexpr double most_unsolved = 1e-3;
 // more iterations.
 constexpr double of_unbalanced = 1e-3;
 constexpr int most_polishing = 4;
-
-// In a trial of a search the increment so far is kept when a body has moved by this many elastic displacements since
-// the base: slip is mapped along a chord from the base, on which locked-in shear dies away as the inverse square, not
-// exponentially as on the path. Half of one errs by 0.002° in a wedge, one by 0.004°, two by 0.008°; a quarter costs 8
-// to 30 % more for 0.0013°. Not while bodies turn: that would cost a toppling slope a thousand times the evaluations.
-constexpr double most_slip_since_base = 0.5, turning_share = 0.1;
-
-// The longest step of such a trial: so many elastic displacements, or what the trial has moved so far.
-constexpr double longest_trial_step = 2, moving_share = 0.5;
 
 template <int Dim>
 struct Newton {
@@ -284,49 +276,6 @@ struct Newton {
     base.loads = state.loads.by_source;
   }
 
-  // m: the longest step of a trial of a search, by what the bodies that move can do elastically
-  double longest_of_trial() const {
-    const std::vector<double>& elastic = increment.elastic;
-    std::vector<double> moved(unknowns.count());
-    const Eigen::VectorXd q = numbers(progress.accepted);
-    for (std::size_t i = 0; i < moved.size(); ++i) {
-      const int b = unknowns.bodies[i];
-      moved[i] = (base.motions[b].displacement + q.segment<Dim>(F * i) - increment.began[b]).norm();
-    }
-    const double most = *std::ranges::max_element(moved);
-    double own = 0;
-    for (std::size_t i = 0; i < moved.size(); ++i)
-      if (moved[i] >= moving_share * most) own = std::max(own, elastic[unknowns.bodies[i]]);
-    return std::max(longest_trial_step * own, most);
-  }
-
-  void shorten_in_trial(Eigen::VectorXd& dq) {
-    if (increment.elastic.empty()) return;
-    double most = 0;
-    for (std::size_t i = 0; i < unknowns.count(); ++i)
-      most = std::max(most, dq.segment<Dim>(F * i).norm());
-    const double longest = longest_of_trial();
-    if (!(most > longest)) return;
-    dq *= longest / most;
-    progress.overshoot = std::max(progress.overshoot, most / longest);
-  }
-
-  // whether slip since the base is long, by the elastic displacement of a body
-  bool slipped_far() const {
-    if (increment.elastic.empty()) return false;
-    const Eigen::VectorXd q = numbers(progress.accepted);
-    double most = 0, turned = 0;
-    bool far = false;
-    for (std::size_t i = 0; i < unknowns.count(); ++i) {
-      const int b = unknowns.bodies[i];
-      const double moved = q.segment<Dim>(F * i).norm();
-      far = far || moved > most_slip_since_base * increment.elastic[b];
-      most = std::max(most, moved);
-      turned = std::max(turned, q.segment<S>(F * i + Dim).norm() * model.bodies[b].radius);
-    }
-    return far && turned < turning_share * most;
-  }
-
   void end_increment() {
     commit();
     if (increment.increments_left == 0) return leave();
@@ -373,7 +322,7 @@ struct Newton {
   void step_from_accepted(Trial trial) {
     Eigen::VectorXd dq = next_step(numbers(progress.residual));
     progress.overshoot = shorten(model, unknowns, state, dq);
-    shorten_in_trial(dq);
+    progress.overshoot = std::max(progress.overshoot, shorten_in_trial(unknowns, increment, dq));
     keep(dq, progress.change);
     set_trial_at(numbers(progress.accepted) + dq, trial);
   }
@@ -389,7 +338,7 @@ struct Newton {
     progress.tries = 0;
     if (rests()) return end_increment();
     if (progress.iteration >= iteration_limit) return give_up();
-    if (forced || ++progress.since_commit >= most_since_commit || slipped_far() ||
+    if (forced || ++progress.since_commit >= most_since_commit || has_slipped_far(model, unknowns, increment) ||
         fraction_in_new_contacts() > most_in_new_contacts)
       commit();
     const double reached = static_cast<double>(system.stiffness.size());

@@ -11,16 +11,6 @@ namespace {
 // geometry.
 constexpr double longest_step = 0.02;
 
-// m: the inscribed radius of a body's largest part. Pieces that an outline cuts off its corners and that stay joined to
-// it are not relevant: splinters of millimetres would shorten the steps of all bodies.
-template <int Dim>
-double size_of(const Body<Dim>& body) {
-  double largest = body.size;  // the only size of a body without parts
-  for (const Polytope<Dim>& part : body.parts)
-    largest = std::max(largest, part.inscribed_radius);
-  return largest;
-}
-
 // with more free bodies than this, a few loose ones do not shorten the steps of the others
 constexpr std::size_t many = 100;
 constexpr std::ptrdiff_t one_loose_of = 50;
@@ -40,9 +30,9 @@ std::vector<double> excess_by_body(const Model<Dim>& model, const Unknowns<Dim>&
   const auto add_pair = [&](int ba, int bb) {
     const int a = unknowns.place[ba], b = unknowns.place[bb];
     if (a < 0 && b < 0) return;
-    const double size = a < 0   ? size_of(model.bodies[bb])
-                        : b < 0 ? size_of(model.bodies[ba])
-                                : std::min(size_of(model.bodies[ba]), size_of(model.bodies[bb]));
+    const double size = a < 0   ? inscribed_radius(model.bodies[bb])
+                        : b < 0 ? inscribed_radius(model.bodies[ba])
+                                : std::min(inscribed_radius(model.bodies[ba]), inscribed_radius(model.bodies[bb]));
     const double over = (way_of<Dim>(dq, b) - way_of<Dim>(dq, a)).norm() / (longest_step * size);
     const int mover = way_of<Dim>(dq, a).norm() > way_of<Dim>(dq, b).norm() ? a : b;
     if (mover >= 0) excess[mover] = std::max(excess[mover], over);
@@ -57,7 +47,7 @@ std::vector<double> excess_by_body(const Model<Dim>& model, const Unknowns<Dim>&
     const Body<Dim>& body = model.bodies[unknowns.bodies[i]];
     const double turning = body.radius * dq.segment<spin_freedoms<Dim>>(freedoms<Dim> * i + Dim).norm();
     const double own = turning + (alone[i] ? way_of<Dim>(dq, static_cast<int>(i)).norm() : 0);
-    excess[i] = std::max(excess[i], own / (longest_step * size_of(body)));
+    excess[i] = std::max(excess[i], own / (longest_step * inscribed_radius(body)));
   }
   return excess;
 }
