@@ -4,6 +4,9 @@ PRESET ?= release
 BUILD  := $(if $(filter release,$(PRESET)),build,build-$(PRESET))
 JOBS   ?= $(shell nproc)
 
+# when make began: the last line of each target says how long it took
+export VOUSSOIR_STARTED := $(shell date +%s)
+
 .PHONY: help history build program test test-long coverage reports benchmark deb run format clean
 
 help:
@@ -41,7 +44,7 @@ history: test
 	@cmake --build $(BUILD) --target history
 
 test-long: build
-	@cd $(BUILD) && ctest -C Long -L long --output-on-failure --parallel $(JOBS)
+	@cmake/run_tests.sh $(BUILD) $(JOBS) long
 
 coverage:
 	@cmake/install_packages.sh program python tests benchmarks coverage

@@ -25,3 +25,5 @@ grep -E '^[EW]: ' "$build/lintian.log" || true
 for package in "$build"/*.deb; do
   echo "$(basename "$package"): $(dpkg-deb -f "$package" Version), $(stat -c %s "$package") bytes"
 done
+packages=("$build"/*.deb)
+echo "make deb: ${#packages[@]} packages: $build/*.deb, lintian's report: $build/lintian.log; $("$source/cmake/seconds.sh" $SECONDS)"
