@@ -185,11 +185,8 @@ TEST_F(Program, QuietSaysNothing) {
 TEST_F(Program, ExchangeablePartsAgreeOrSayThatTheyAreMissing) {
   ASSERT_EQ(run("run " + cubes_ + "--out own").code, 0);
   // what must be built in, and the choice
-  const std::pair<std::string, std::string> choices[] = {{"glpk", "contact.lp=glpk"},
-                                                         {"ipopt", "contact.centre=ipopt"},
-                                                         {"ipopt", "contact.centre=ipopt_scaled"},
-                                                         {"", "contact.point=centroid"},
-                                                         {"", "contact.overlap=bracketing"}};
+  const std::pair<std::string, std::string> choices[] = {
+      {"glpk", "contact.lp=glpk"}, {"", "contact.point=centroid"}, {"", "contact.overlap=bracketing"}};
   for (const auto& [needs, choice] : choices) {
     const bool built_in = is_built_in(needs);
     const std::string folder = choice.substr(choice.find('=') + 1);

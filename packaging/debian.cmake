@@ -1,10 +1,5 @@
 # Debian packages by CPack: voussoir (program), libvoussoir-dev, and python3-voussoir where the Python module is built.
 # Each holds what its install component does, its copyright, and Debian's changelog.
-if(VOUSSOIR_WITH_IPOPT)
-  message(FATAL_ERROR "VOUSSOIR_PACKAGES: a binary that holds both GLPK and Ipopt must not be distributed; "
-    "configure with -DVOUSSOIR_WITH_IPOPT=OFF")
-endif()
-
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME voussoir)
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})

@@ -11,12 +11,6 @@ KeyTable contact_keys() {
      .example = "\"glpk\"",
      .meaning = "solver of the linear program that tells whether two blocks overlap",
      .breaks = "glpk is slow, a reference only"},
-    {.key = "centre", .members = {one_of(&ContactSettings::centre,
-         {{"own", CentreSolver::own}, {"ipopt", CentreSolver::ipopt}, {"ipopt_scaled", CentreSolver::ipopt_scaled}})},
-     .example = "\"ipopt\"",
-     .meaning = "solver of the analytic centre; ipopt: scaled by the overlap's own shape; ipopt_scaled: turned into the "
-         "contact normal's frame and scaled along it",
-     .breaks = "Ipopt is slow, a reference only; where it is built in, it also answers when our own search fails"},
     {.key = "point", .members = {one_of(&ContactSettings::point,
          {{"analytic_centre", ContactPoint::analytic_centre}, {"centroid", ContactPoint::centroid},
           {"chebyshev", ContactPoint::chebyshev}, {"central_path", ContactPoint::central_path}})},
