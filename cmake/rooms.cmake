@@ -1,7 +1,8 @@
-# voussoir_compile_by_room(<target>): the sources of a folder are compiled as one, which reads headers and instantiates
-# templates once for all of them: core and program then take some three fifths of the time. So names at file scope differ
-# within a folder. Sources with options of their own, as the contact kernel, stay by themselves, and so do all in the
-# presets for development, where one changed file is to compile by itself and shows what it forgot to include.
+# voussoir_compile_by_room(<target> ["<folder> <folder>…" …]): the sources of a folder, or of several that one argument
+# names, are compiled as one, which reads headers and instantiates templates once for all of them: core and program then
+# take a fraction of the time. So names at file scope differ within such a group. Sources with options of their own, as
+# the contact kernel, stay by themselves, and so do all in the presets for development, where one changed file is to
+# compile by itself and shows what it forgot to include.
 if(CMAKE_BUILD_TYPE STREQUAL "Debug")
   set(by_room OFF)
 else()
@@ -17,11 +18,21 @@ function(voussoir_compile_by_room target)
   # said of a type in one of the sources as if it were in a header
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   get_target_property(sources ${target} SOURCES)
+  foreach(group ${ARGN})
+    string(REPLACE " " ";" folders ${group})
+    list(GET folders 0 first)
+    foreach(folder ${folders})
+      set(group_of_${folder} ${first})
+    endforeach()
+  endforeach()
   foreach(source ${sources})
-    cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} OUTPUT_VARIABLE room)
-    cmake_path(GET room PARENT_PATH room)
-    cmake_path(RELATIVE_PATH room BASE_DIRECTORY ${PROJECT_SOURCE_DIR})
-    string(REPLACE "/" "_" room ${room})
+    cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
+    cmake_path(GET source PARENT_PATH room)
+    cmake_path(RELATIVE_PATH room BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
+    if(DEFINED group_of_${room})
+      set(room ${group_of_${room}})
+    endif()
+    string(REPLACE "/" "_" room "${target}_${room}")
     set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${room})
   endforeach()
 endfunction()
