@@ -19,7 +19,7 @@ help:
 	@echo "make reports             figures, studies and the verification manual: $(BUILD)/reports/manual-VERSION.html"
 	@echo "make benchmark           time the kernels and their peers, and twenty thousand falling blocks, an hour on two cores"
 	@echo "                         (VOUSSOIR_FALL_BLOCKS=2000: minutes; VOUSSOIR_BENCHMARK=quick: the contact kernel, a minute)"
-	@echo "make deb                 Debian packages, without Ipopt: build-packages/*.deb"
+	@echo "make deb                 Debian packages: build-packages/*.deb"
 
 # $(call configure,options): keeps the options of an existing build
 configure = cmake --preset $(PRESET) $(1) > configure.log 2>&1 || { cat configure.log; rm -f configure.log; exit 1; }; \

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# make_packages.sh BUILD JOBS: Debian packages of the program, the library and the Python module in BUILD, without Ipopt,
+# make_packages.sh BUILD JOBS: Debian packages of the program, the library and the Python module in BUILD,
 # with lintian's report on them; fails if lintian finds an error.
 set -euo pipefail
 build=$1 jobs=$2
