@@ -4,6 +4,9 @@ PRESET ?= release
 BUILD  := $(if $(filter release,$(PRESET)),build,build-$(PRESET))
 JOBS   ?= $(shell nproc)
 
+# when make began: the last line of each target says how long it took
+export VOUSSOIR_STARTED := $(shell date +%s)
+
 .PHONY: help history build program test test-long coverage reports benchmark deb run format clean
 
 help:
@@ -16,7 +19,7 @@ help:
 	@echo "make reports             figures, studies and the verification manual: $(BUILD)/reports/manual-VERSION.html"
 	@echo "make benchmark           time the kernels and their peers, and twenty thousand falling blocks, an hour on two cores"
 	@echo "                         (VOUSSOIR_FALL_BLOCKS=2000: minutes; VOUSSOIR_BENCHMARK=quick: the contact kernel, a minute)"
-	@echo "make deb                 Debian packages, without Ipopt: build-packages/*.deb"
+	@echo "make deb                 Debian packages: build-packages/*.deb"
 
 # $(call configure,options): keeps the options of an existing build
 configure = cmake --preset $(PRESET) $(1) > configure.log 2>&1 || { cat configure.log; rm -f configure.log; exit 1; }; \
@@ -41,7 +44,7 @@ history: test
 	@cmake --build $(BUILD) --target history
 
 test-long: build
-	@cd $(BUILD) && ctest -C Long -L long --output-on-failure --parallel $(JOBS)
+	@cmake/run_tests.sh $(BUILD) $(JOBS) long
 
 coverage:
 	@cmake/install_packages.sh program python tests benchmarks coverage

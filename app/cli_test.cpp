@@ -186,11 +186,8 @@ TEST_F(Program, QuietPrintsNothing) {
 TEST_F(Program, ExchangeablePartsAgreeOrReportThatTheyAreMissing) {
   ASSERT_EQ(run("run " + cubes_ + "--out own").code, 0);
   // the feature that must be built in, and the choice
-  const std::pair<std::string, std::string> choices[] = {{"glpk", "contact.lp=glpk"},
-                                                         {"ipopt", "contact.centre=ipopt"},
-                                                         {"ipopt", "contact.centre=ipopt_scaled"},
-                                                         {"", "contact.point=centroid"},
-                                                         {"", "contact.overlap=bracketing"}};
+  const std::pair<std::string, std::string> choices[] = {
+      {"glpk", "contact.lp=glpk"}, {"", "contact.point=centroid"}, {"", "contact.overlap=bracketing"}};
   for (const auto& [needs, choice] : choices) {
     const bool built_in = is_built_in(needs);
     const std::string folder = choice.substr(choice.find('=') + 1);

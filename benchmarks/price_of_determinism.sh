@@ -11,7 +11,7 @@ build() { # <name> <flags> [<cmake's options> …]
   shift 2
   cmake -S "$source" -B "$folder/$name" -G Ninja -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_COMPILER="$compiler" \
     -DCMAKE_CXX_FLAGS="$flags" -DVOUSSOIR_NUMERICS_ONLY=ON -DVOUSSOIR_BUILD_TESTS=OFF -DVOUSSOIR_BUILD_BENCHMARKS=OFF \
-    -DVOUSSOIR_WITH_GLPK=OFF -DVOUSSOIR_WITH_IPOPT=OFF "$@" >/dev/null
+    -DVOUSSOIR_WITH_GLPK=OFF "$@" >/dev/null
   cmake --build "$folder/$name" --target voussoir_probe >/dev/null
 }
 # -U removes the macro that disables Eigen's own vector code

@@ -23,4 +23,10 @@ for room in "${rooms[@]}"; do
   echo "core/$room: ${share:-nothing measured} of the lines"
   [ "${share%\%}" -ge "$least" ] 2>/dev/null || { echo "core/$room is below $least %"; failed=1; }
 done
+took=$("$source/cmake/seconds.sh" $SECONDS)
+if [ $failed -eq 0 ]; then
+  echo "make coverage: $least % or more of the lines of ${rooms[*]} are covered; table: $build/coverage.txt; $took with the build"
+else
+  echo "make coverage: FAILED (see above); table: $build/coverage.txt; $took with the build"
+fi
 exit $failed

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# make_packages.sh BUILD JOBS: Debian packages of the program, the library and the Python module in BUILD, without Ipopt,
+# make_packages.sh BUILD JOBS: Debian packages of the program, the library and the Python module in BUILD,
 # with lintian's report on them; fails if lintian finds an error.
 set -euo pipefail
 build=$1 jobs=$2
@@ -25,3 +25,5 @@ grep -E '^[EW]: ' "$build/lintian.log" || true
 for package in "$build"/*.deb; do
   echo "$(basename "$package"): $(dpkg-deb -f "$package" Version), $(stat -c %s "$package") bytes"
 done
+packages=("$build"/*.deb)
+echo "make deb: ${#packages[@]} packages: $build/*.deb, lintian's report: $build/lintian.log; $("$source/cmake/seconds.sh" $SECONDS)"

@@ -128,8 +128,8 @@ for failure in "${failures[@]}"; do
 done
 verdicts=$(cat "$reports/verdicts.txt" 2>/dev/null || echo "no verdicts")
 if [ ${#failures[@]} -eq 0 ]; then
-  echo "make reports: $verdicts; manual: $manual"
+  echo "make reports: $verdicts; manual: $manual; $("$source/cmake/seconds.sh" $SECONDS) with the build"
 else
-  echo "make reports: FAILED (${#failures[@]} above); $verdicts; manual: ${manual:-none}"
+  echo "make reports: FAILED (${#failures[@]} above); $verdicts; manual: ${manual:-none}; $("$source/cmake/seconds.sh" $SECONDS) with the build"
   exit 1
 fi

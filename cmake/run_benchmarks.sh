@@ -33,4 +33,4 @@ fi
   { tail -n 20 "$out/bench_contact.log"; exit 1; }
 "$build/benchmarks/voussoir_contact_report" "$out/bench_contact.json" "$out"
 sha256sum <"$contact" >"$out/contact.key"
-echo "make benchmark: done; results in $out"
+echo "make benchmark: ${VOUSSOIR_BENCHMARK:-all} timed; results: $out; $("$(dirname "$0")/seconds.sh" $SECONDS) with the build"

@@ -13,7 +13,6 @@ for package in ./*.deb; do
   [ "$(dpkg-deb -f "$package" Version)" = "$version-1" ]
 done
 voussoir --version | grep -E '^glpk +yes'
-voussoir --version | grep -E '^ipopt +no'
 grep -q '/usr/share/common-licenses/GPL-3' /usr/share/doc/voussoir/copyright
 for page in examples examples/tutorial; do
   bash console_page.sh /usr/bin/voussoir "/usr/share/doc/voussoir/$page/README.md" "/tmp/$page"

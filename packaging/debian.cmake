@@ -1,10 +1,5 @@
 # Debian packages by CPack: voussoir (program), libvoussoir-dev, and python3-voussoir if the Python module is built.
 # Each contains its install component, its copyright, and Debian's changelog.
-if(VOUSSOIR_WITH_IPOPT)
-  message(FATAL_ERROR "VOUSSOIR_PACKAGES: a binary with both GLPK and Ipopt must not be distributed; "
-    "configure with -DVOUSSOIR_WITH_IPOPT=OFF")
-endif()
-
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME voussoir)
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})

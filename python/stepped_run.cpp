@@ -31,8 +31,6 @@ void refuse_what_needs_the_program(const Scene& scene) {
   if (const auto contact = child(top, "contact")) {
     if (scene.settings.contact.lp == LpSolver::glpk)
       refuse(*contact, "lp", "Python has no GLPK; write lp = \"own\", or run the scene with 'voussoir run'");
-    if (scene.settings.contact.centre != CentreSolver::own)
-      refuse(*contact, "centre", "Python has no Ipopt; write centre = \"own\", or run the scene with 'voussoir run'");
   }
   const auto accuracy = child(top, "accuracy");
   if (!accuracy) return;
@@ -42,7 +40,7 @@ void refuse_what_needs_the_program(const Scene& scene) {
 }
 
 std::vector<std::pair<std::string, bool>> features() {
-  return {{"glpk", false}, {"ipopt", false}, {"fast_arithmetic", fast_arithmetic()}};
+  return {{"glpk", false}, {"fast_arithmetic", fast_arithmetic()}};
 }
 
 // Makes the folder ready for files of this run.

@@ -1,17 +1,17 @@
 #include "app/base/orientation.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <limits>
+
+#include "core/geometry/eigen_pairs.hpp"
 
 namespace voussoir {
 
 template <int Dim>
 MeanOrientation mean_orientation(const std::vector<Vector<Dim>>& normals) {
-  using Matrix = Eigen::Matrix<double, Dim, Dim>;
-  Matrix moments = Matrix::Zero();
+  Matrix<Dim> moments = Matrix<Dim>::Zero();
   for (const Vector<Dim>& normal : normals)
     moments += normal * normal.transpose();
-  Vector<Dim> mean = Eigen::SelfAdjointEigenSolver<Matrix>(moments).eigenvectors().col(Dim - 1);
+  Vector<Dim> mean = eigen_pairs<Dim>(moments).vectors.col(Dim - 1);
   if (mean[Dim - 1] < 0) mean = -mean;
   Vector<Dim> sum = Vector<Dim>::Zero();
   for (const Vector<Dim>& normal : normals)

@@ -11,9 +11,6 @@
 #ifdef VOUSSOIR_HAS_GLPK
 #include "core/solvers/glpk.hpp"
 #endif
-#ifdef VOUSSOIR_HAS_IPOPT
-#include "core/solvers/ipopt.hpp"
-#endif
 
 namespace voussoir {
 namespace {
@@ -28,25 +25,10 @@ void use_glpk([[maybe_unused]] Solvers<Dim>& solvers) {
 #endif
 }
 
-// Ipopt as chosen, and if it is built in also for points that our own search does not find
-template <int Dim>
-void use_ipopt([[maybe_unused]] CentreSolver chosen, [[maybe_unused]] Solvers<Dim>& solvers) {
-#ifdef VOUSSOIR_HAS_IPOPT
-  if (chosen == CentreSolver::own) solvers.fallback = &solve_analytic_centre_ipopt<Dim>;
-  if (chosen == CentreSolver::ipopt) solvers.centre = &solve_analytic_centre_ipopt<Dim>;
-  if (chosen == CentreSolver::ipopt_scaled) solvers.centre = &solve_analytic_centre_ipopt_scaled<Dim>;
-#else
-  if (chosen != CentreSolver::own)
-    throw BadInput(
-        "contact.centre: Ipopt is not built in; configure with -DVOUSSOIR_WITH_IPOPT=ON, or write centre = \"own\"");
-#endif
-}
-
 template <int Dim>
 Prepared<Dim> prepare_to_run(const Scene& scene, int threads) {
   Prepared<Dim> prepared = prepare<Dim>(scene);
   if (prepared.settings.contact.lp == LpSolver::glpk) use_glpk(prepared.model.solvers);
-  use_ipopt(prepared.settings.contact.centre, prepared.model.solvers);
   prepared.settings.threads = threads;
   return prepared;
 }
@@ -116,12 +98,7 @@ std::vector<std::pair<std::string, bool>> features() {
 #else
   const bool glpk = false;
 #endif
-#ifdef VOUSSOIR_HAS_IPOPT
-  const bool ipopt = true;
-#else
-  const bool ipopt = false;
-#endif
-  return {{"glpk", glpk}, {"ipopt", ipopt}, {"fast_arithmetic", fast_arithmetic()}};
+  return {{"glpk", glpk}, {"fast_arithmetic", fast_arithmetic()}};
 }
 
 }  // namespace voussoir

@@ -14,9 +14,9 @@ namespace {
 
 constexpr const char* colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#404040"};
 
-constexpr double width = 760, height = 460;                         // as the manual's figures
-constexpr double left = 80, right = 730, top = 70, bottom = 400;    // the frame
-constexpr double middle_x = 260, middle_y = 245, net_radius = 185;  // of a stereonet
+constexpr double paper_width = 760, paper_height = 460;                                   // as the manual's figures
+constexpr double frame_left = 80, frame_right = 730, frame_top = 70, frame_bottom = 400;  // the frame
+constexpr double middle_x = 260, middle_y = 245, net_radius = 185;                        // of a stereonet
 
 const char* colour(std::size_t i) {
   return colours[i % std::size(colours)];
@@ -28,7 +28,7 @@ std::string head(const std::string& title) {
       "font-family=\"DejaVu Sans,Helvetica,Arial,sans-serif\" font-size=\"13\" fill=\"#202020\">\n"
       "<rect width=\"{0}\" height=\"{1}\" fill=\"white\"/>\n"
       "<text x=\"{2}\" y=\"24\" text-anchor=\"middle\" font-size=\"15\">{3}</text>\n",
-      width, height, width / 2, xml_escaped(title));
+      paper_width, paper_height, paper_width / 2, xml_escaped(title));
 }
 
 std::string label(double x, double y, const char* anchor, const std::string& text, const std::string& more = "") {
@@ -81,14 +81,15 @@ std::string number(double x) {
 std::string frame(const Diagram& diagram, const Axis& x, const Axis& y) {
   std::string text;
   for (const double tic : x.tics)
-    text += stroke(x.place(tic), bottom, x.place(tic), top, "#e2e2e2", 1) +
-            label(x.place(tic), bottom + 20, "middle", number(tic));
+    text += stroke(x.place(tic), frame_bottom, x.place(tic), frame_top, "#e2e2e2", 1) +
+            label(x.place(tic), frame_bottom + 20, "middle", number(tic));
   for (const double tic : y.tics)
-    text += stroke(left, y.place(tic), right, y.place(tic), "#e2e2e2", 1) +
-            label(left - 8, y.place(tic) + 4, "end", number(tic));
-  text += stroke(left, bottom, right, bottom, "#606060", 1) + stroke(left, bottom, left, top, "#606060", 1);
-  text += label((left + right) / 2, height - 18, "middle", diagram.x_label);
-  const double across = (top + bottom) / 2;
+    text += stroke(frame_left, y.place(tic), frame_right, y.place(tic), "#e2e2e2", 1) +
+            label(frame_left - 8, y.place(tic) + 4, "end", number(tic));
+  text += stroke(frame_left, frame_bottom, frame_right, frame_bottom, "#606060", 1) +
+          stroke(frame_left, frame_bottom, frame_left, frame_top, "#606060", 1);
+  text += label((frame_left + frame_right) / 2, paper_height - 18, "middle", diagram.x_label);
+  const double across = (frame_top + frame_bottom) / 2;
   return text + label(22, across, "middle", diagram.y_label, fmt::format(" transform=\"rotate(-90 22 {})\"", across));
 }
 
@@ -150,12 +151,15 @@ std::string map_legend(const MapFigure& figure, double low, double high) {
   constexpr double x = 620, wide = 20, steps = 50;
   std::string text;
   for (int k = 0; k < steps; ++k)
-    text += rectangle(x, bottom - (k + 1) * (bottom - top) / steps, wide, (bottom - top) / steps + 0.5,
-                      shade(k / (steps - 1)));
-  text += label(x + wide + 6, bottom, "start", number(low)) + label(x + wide + 6, top + 10, "start", number(high));
-  text += label(x + wide / 2, top - 12, "middle", figure.value_label);
-  if (!figure.mark_label.empty()) text += cross(left + 6, 44, 5) + label(left + 18, 48, "start", figure.mark_label);
-  if (!figure.ring_label.empty()) text += ring(left + 246, 44, 5) + label(left + 258, 48, "start", figure.ring_label);
+    text += rectangle(x, frame_bottom - (k + 1) * (frame_bottom - frame_top) / steps, wide,
+                      (frame_bottom - frame_top) / steps + 0.5, shade(k / (steps - 1)));
+  text += label(x + wide + 6, frame_bottom, "start", number(low)) +
+          label(x + wide + 6, frame_top + 10, "start", number(high));
+  text += label(x + wide / 2, frame_top - 12, "middle", figure.value_label);
+  if (!figure.mark_label.empty())
+    text += cross(frame_left + 6, 44, 5) + label(frame_left + 18, 48, "start", figure.mark_label);
+  if (!figure.ring_label.empty())
+    text += ring(frame_left + 246, 44, 5) + label(frame_left + 258, 48, "start", figure.ring_label);
   return text;
 }
 
@@ -172,14 +176,16 @@ std::string svg(const Diagram& diagram) {
       highest = std::max(highest, py);
     }
   if (!(low <= high)) low = high = 1;
-  const Axis x = diagram.logarithmic_x ? logarithmic_axis(low, high, left, right) : linear_axis(low, high, left, right);
-  const Axis y = linear_axis(0, highest, bottom, top);
+  const Axis x = diagram.logarithmic_x ? logarithmic_axis(low, high, frame_left, frame_right)
+                                       : linear_axis(low, high, frame_left, frame_right);
+  const Axis y = linear_axis(0, highest, frame_bottom, frame_top);
 
   std::string text = head(diagram.title) + frame(diagram, x, y);
-  const double fraction = (right - left) / static_cast<double>(std::max<std::size_t>(1, diagram.curves.size()));
+  const double fraction =
+      (frame_right - frame_left) / static_cast<double>(std::max<std::size_t>(1, diagram.curves.size()));
   for (std::size_t i = 0; i < diagram.curves.size(); ++i) {
     text += drawn(diagram.curves[i], x, y, colour(i));
-    const double at = left + fraction * static_cast<double>(i);
+    const double at = frame_left + fraction * static_cast<double>(i);
     text += stroke(at, 48, at + 24, 48, colour(i), 2) + label(at + 30, 52, "start", diagram.curves[i].title);
   }
   return text + "</svg>\n";
@@ -195,11 +201,11 @@ std::string svg_map(const MapFigure& figure) {
     }
   if (!(low <= high)) low = high = 0;
   const auto nx = static_cast<double>(figure.x.size()), ny = static_cast<double>(figure.y.size());
-  const double wide = (map_right - left) / nx, tall = (bottom - top) / ny;
+  const double wide = (map_right - frame_left) / nx, tall = (frame_bottom - frame_top) / ny;
   std::string text = head(figure.title);
   for (std::size_t k = 0; k < figure.values.size(); ++k) {
-    const double x = left + wide * static_cast<double>(k % figure.x.size());
-    const double y = bottom - tall * static_cast<double>(k / figure.x.size() + 1);
+    const double x = frame_left + wide * static_cast<double>(k % figure.x.size());
+    const double y = frame_bottom - tall * static_cast<double>(k / figure.x.size() + 1);
     const std::optional<double>& value = figure.values[k];
     text += rectangle(x, y, wide, tall, value ? shade(high > low ? (*value - low) / (high - low) : 0.5) : "#d0d0d0");
     text += drawn_mark(figure.marks[k], x + wide / 2, y + tall / 2, std::min({6.0, wide / 3, tall / 3}));
@@ -209,11 +215,11 @@ std::string svg_map(const MapFigure& figure) {
     return static_cast<std::size_t>(std::max(1.0, std::ceil(room / size)));
   };
   for (std::size_t k = 0; k < figure.x.size(); k += every(wide, 50))
-    text += label(left + wide * (static_cast<double>(k) + 0.5), bottom + 20, "middle", figure.x[k]);
+    text += label(frame_left + wide * (static_cast<double>(k) + 0.5), frame_bottom + 20, "middle", figure.x[k]);
   for (std::size_t k = 0; k < figure.y.size(); k += every(tall, 14))
-    text += label(left - 8, bottom - tall * (static_cast<double>(k) + 0.5) + 4, "end", figure.y[k]);
-  text += label((left + map_right) / 2, height - 18, "middle", figure.x_label);
-  const double across = (top + bottom) / 2;
+    text += label(frame_left - 8, frame_bottom - tall * (static_cast<double>(k) + 0.5) + 4, "end", figure.y[k]);
+  text += label((frame_left + map_right) / 2, paper_height - 18, "middle", figure.x_label);
+  const double across = (frame_top + frame_bottom) / 2;
   text += label(22, across, "middle", figure.y_label, fmt::format(" transform=\"rotate(-90 22 {})\"", across));
   return text + map_legend(figure, low, high) + "</svg>\n";
 }
@@ -246,7 +252,7 @@ std::string stereonet_svg(const std::string& title, const std::vector<PoleSet>& 
   }
   if (sets.size() > most_named)
     text += label(514, 84 + 22 * most_named, "start", fmt::format("and {} more", sets.size() - most_named));
-  return text + label(500, height - 20, "start", "lower hemisphere, equal area") + "</svg>\n";
+  return text + label(500, paper_height - 20, "start", "lower hemisphere, equal area") + "</svg>\n";
 }
 
 }  // namespace voussoir

@@ -51,8 +51,8 @@ double aspect_ratio(const Body<Dim>& body) {
 
 // the first of them; of two that are equal the one of lower number first
 template <int Dim>
-std::string listed(const Model<Dim>& model, std::vector<Judged> all, const std::function<bool(double, double)>& worse,
-                   const char* unit) {
+std::string worst_of(const Model<Dim>& model, std::vector<Judged> all, const std::function<bool(double, double)>& worse,
+                     const char* unit) {
   std::stable_sort(all.begin(), all.end(), [&](const Judged& a, const Judged& b) { return worse(a.value, b.value); });
   std::string text;
   for (std::size_t k = 0; k < std::min(all.size(), most_named); ++k) {
@@ -104,10 +104,10 @@ void print_worst_blocks(const Model<Dim>& model) {
   }
   if (volumes.empty()) return;
   print_line("worst", fmt::format("smallest {}: {}", Dim == 3 ? "volume" : "area",
-                                  listed(model, volumes, std::less<>(), Dim == 3 ? " m³" : " m²")));
-  print_line("", fmt::format("shortest edge: {}", listed(model, edges, std::less<>(), " m")));
+                                  worst_of(model, volumes, std::less<>(), Dim == 3 ? " m³" : " m²")));
+  print_line("", fmt::format("shortest edge: {}", worst_of(model, edges, std::less<>(), " m")));
   print_line("", fmt::format("largest aspect ratio of the box along the axes: {}",
-                             listed(model, ratios, std::greater<>(), "")));
+                             worst_of(model, ratios, std::greater<>(), "")));
 }
 
 template void print_missing_joints<2>(const Scene&, const Model<2>&);

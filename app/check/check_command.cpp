@@ -251,9 +251,7 @@ std::string solvers_text(const ContactSettings& contact) {
   const char* point = contact.point == ContactPoint::central_path ? "on the central path"
                       : contact.point == ContactPoint::chebyshev  ? "Chebyshev"
                       : contact.point == ContactPoint::centroid   ? "centroid"
-                      : contact.centre == CentreSolver::own       ? "analytic centre (own)"
-                      : contact.centre == CentreSolver::ipopt     ? "analytic centre (Ipopt)"
-                                                                  : "analytic centre (Ipopt, thesis' scaling)";
+                                                                  : "analytic centre";
   const char* normal = contact.normal == ContactNormal::multipliers    ? "normal and overlap by multipliers"
                        : contact.overlap == OverlapSearch::closed_form ? "overlap by closed form"
                                                                        : "overlap by bracketing";

@@ -25,7 +25,7 @@ std::string point_text(const Vector<3>& p) {
 }
 
 // a name between quotes of the data file; the part before '=' in a group's name is its slot
-std::string quoted(std::string name) {
+std::string slot_name(std::string name) {
   std::ranges::replace(name, '\'', '_');
   std::ranges::replace(name, '=', '_');
   return "'" + name + "'";
@@ -96,7 +96,7 @@ std::string blocks_text(const Model<3>& model, double within) {
     for (const Polytope<3>& part : body.parts) {
       text += polyhedron(part, place);
       const std::string range = range_of(place + part.mass.centroid, within);
-      text += "block group " + quoted(name_of(body, b)) + range;
+      text += "block group " + slot_name(name_of(body, b)) + range;
       text += fmt::format("block property density {:.12g}", density(body)) + range;
       if (body.fixed) text += "block fix" + range;
     }

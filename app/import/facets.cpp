@@ -38,7 +38,7 @@ std::vector<Word> cells_of(std::string_view line, int number) {
   return cells;
 }
 
-struct Facet {
+struct FittedFacet {
   JointSource origin;
   StatedPlane plane;  // local
   double along_strike = 0, down_dip = 0;
@@ -82,7 +82,7 @@ class FacetsReader {
       row();
     }
     const Vector<3> moved = global_shift() + shift;
-    for (Facet& facet : facets_) {
+    for (FittedFacet& facet : facets_) {
       facet.plane.centre += moved;
       for (Vector<3>& corner : facet.corners)
         corner += moved;
@@ -92,7 +92,7 @@ class FacetsReader {
         joints_.polygon(facet.origin, facet.corners, facet.plane);
     }
     const auto ellipses =
-        std::count_if(facets_.begin(), facets_.end(), [](const Facet& f) { return f.corners.empty(); });
+        std::count_if(facets_.begin(), facets_.end(), [](const FittedFacet& f) { return f.corners.empty(); });
     if (ellipses > 0)
       joints_.remark(
           fmt::format("{} facets have no polygon and were replaced by the ellipses of their extensions", ellipses));
@@ -142,7 +142,7 @@ class FacetsReader {
       throw FileFault(
           lines_.number(), 0,
           fmt::format("the row has {} cells, the header {}; is the line truncated?", cells_.size(), columns_));
-    Facet facet;
+    FittedFacet facet;
     facet.origin.line = lines_.number();
     const Word* index = find("Index");
     facet.origin.name = "facet-" + (index ? std::string(index->text) : std::to_string(facets_.size() + 1));
@@ -233,7 +233,7 @@ class FacetsReader {
   std::size_t columns_ = 0;
   bool has_global_ = true;
   std::vector<Word> cells_;
-  std::vector<Facet> facets_;
+  std::vector<FittedFacet> facets_;
   std::array<Between, 3> between_;
   double largest_rms_ = 0;
   JointCollector joints_{3};

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cctype>
 #include <cmath>
 
 #include "app/base/dip_angles.hpp"
+#include "core/geometry/eigen_pairs.hpp"
 #include "text/plain_text.hpp"
 
 namespace voussoir {
@@ -100,15 +100,15 @@ std::optional<StatedPlane> fitted_plane(const std::vector<Vector<3>>& points) {
   for (const Vector<3>& p : points)
     reach = std::max(reach, (p - centre).norm());
   if (!(reach > 0)) return std::nullopt;
-  Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
+  Matrix<3> moments = Matrix<3>::Zero();
   for (const Vector<3>& p : points) {
     const Vector<3> arm = (p - centre) / reach;
     moments += arm * arm.transpose();
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(moments);
-  const double width = solver.eigenvalues()[1], length = solver.eigenvalues()[2];
+  const EigenPairs<3> own = eigen_pairs<3>(moments);
+  const double width = own.values[1], length = own.values[2];
   if (!(width > line_width * line_width * length)) return std::nullopt;
-  const Vector<3> normal = solver.eigenvectors().col(0).normalized();
+  const Vector<3> normal = own.vectors.col(0).normalized();
   return StatedPlane{normal[2] < 0 ? Vector<3>(-normal) : normal, centre};
 }
 

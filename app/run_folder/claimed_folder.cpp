@@ -23,7 +23,6 @@ namespace voussoir {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
 
 constexpr const char* lock_file = ".lock";
 constexpr const char* made_file = ".voussoir-made";
@@ -85,14 +84,14 @@ bool is_safe(const std::string& name) {
 std::optional<Outputs> made_in(const fs::path& folder) {
   if (!entry_exists(folder / made_file)) return std::nullopt;
   try {
-    const json list = json::parse(read_file(folder / made_file, largest_list));
+    const nlohmann::json list = nlohmann::json::parse(read_file(folder / made_file, largest_list));
     if (list.at("schema") != "voussoir.made" || list.at("schema_version") != 1) return std::nullopt;
     Outputs made{list.at("command"), list.at("files"), list.at("frames"), list.at("folders")};
     if (made.files.empty() || !std::all_of(made.files.begin(), made.files.end(), is_safe) ||
         !std::all_of(made.folders.begin(), made.folders.end(), is_safe))
       return std::nullopt;
     return made;
-  } catch (const json::exception&) {
+  } catch (const nlohmann::json::exception&) {
     return std::nullopt;
   } catch (const ReadFault&) {
     return std::nullopt;

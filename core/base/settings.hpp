@@ -11,7 +11,6 @@
 namespace voussoir {
 
 enum class LpSolver { own, glpk };
-enum class CentreSolver { own, ipopt, ipopt_scaled };
 
 // the point of the overlap at which a contact acts. chebyshev: at the point of the program min s (Eq. 3.27);
 // central_path: at that of its logarithmic barrier (solvers/central_path.hpp), which does not jump
@@ -30,7 +29,6 @@ enum class ContactFace { point, integrated };
 
 struct ContactSettings {
   LpSolver lp = LpSolver::own;
-  CentreSolver centre = CentreSolver::own;
   ContactPoint point = ContactPoint::analytic_centre;
   ContactNormal normal = ContactNormal::potential;     // multipliers: with point = central_path
   OverlapSearch overlap = OverlapSearch::closed_form;  // of normal = potential

@@ -13,7 +13,6 @@ struct KernelCounters {
   long long lp_solves = 0;
   long long lp_pivots = 0;
   long long newton_iterations = 0;
-  long long centre_fallbacks = 0;  // Newton failed, Ipopt succeeded
   long long areas = 0;
   long long normal_fallbacks = 0;  // normals taken from a face or from the LP's multipliers
   long long deep_overlaps = 0;     // overlaps beyond the potential particle's radius

@@ -172,22 +172,19 @@ struct Resolver {
   }
 
   // other solvers have no weights
-  bool search_centre(CentreSolverFunction<Dim>& solver, Vector<Dim>& point) {
+  bool search_centre(Vector<Dim>& point) {
     const CentreRequest<Dim> request{start, settings.newton_tolerance, settings.newton_limit, contact.proof.axis};
     const CentreResult<Dim> centre =
-        weights.empty() ? solver(planes, request) : solve_weighted_centre<Dim>(planes, weights, request);
+        weights.empty() ? solvers.centre(planes, request) : solve_weighted_centre<Dim>(planes, weights, request);
     counters.newton_iterations += centre.iterations;
     point = centre.point;
     return centre.status == CentreStatus::converged;
   }
 
   bool find_centre(Vector<Dim>& point) {
-    if (search_centre(*solvers.centre, point)) return true;
+    if (search_centre(point)) return true;
     // a warm start can be unlucky; a cold one is the definition
-    if (proven == 0 && !lp_solved && (!establish_cold() || search_centre(*solvers.centre, point))) return lp_solved;
-    if (!solvers.fallback || !search_centre(*solvers.fallback, point)) return false;
-    ++counters.centre_fallbacks;
-    return true;
+    return proven == 0 && !lp_solved && (!establish_cold() || search_centre(point)) && lp_solved;
   }
 
   bool find_central_point(Vector<Dim>& point) {

@@ -13,7 +13,7 @@ namespace {
 // the grid is across the section when a face's direction is nearly normal to it: no cell is cut off there
 constexpr double least_slope = 1e-3;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 // one direction of the grid seen in the section: a point at y is at first + slope·y, in units of cells
 template <int Flat>
@@ -23,8 +23,8 @@ struct Ruler {
   int cells = 1;
 
   // cells with numbers out of range belong to the last ones: the overlap may reach a little beyond a face
-  double low(int cell) const { return cell == 0 ? -infinity : cell; }
-  double high(int cell) const { return cell == cells - 1 ? infinity : cell + 1; }
+  double low(int cell) const { return cell == 0 ? -unbounded : cell; }
+  double high(int cell) const { return cell == cells - 1 ? unbounded : cell + 1; }
 };
 
 // the integrals of a cell's section
@@ -57,7 +57,7 @@ void lay_rulers(const Polytope<Dim>& part, int face, const Vector<Dim>& origin, 
   const FixedMatrix<Dim, Dim - 1> e = directions(part, face);
   const Vector<Dim> seen = turn.transpose() * (point - origin);
   for (int k = 0; k < Dim - 1; ++k) {
-    double low = infinity, high = -infinity;
+    double low = unbounded, high = -unbounded;
     for (const int v : part.loops[face]) {
       low = std::min(low, e.col(k).dot(part.vertices[v]));
       high = std::max(high, e.col(k).dot(part.vertices[v]));

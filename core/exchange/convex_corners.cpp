@@ -97,14 +97,14 @@ double volume_times_six(const Mesh& mesh) {
 }
 
 // A facet's plane, outward for either orientation of the mesh, and how far outside it a corner may lie.
-struct Side {
+struct FacetSide {
   Vector<3> normal = Vector<3>::Zero();  // zero: a sliver, which is ignored; its neighbours bound the solid
   double tolerance = 0;                  // m
   double rounding = 0;                   // m, by the digits of the file alone
   double turned = 0;                     // rad, by rounding at most
 };
 
-Side side_of(const Mesh& mesh, const Facet& facet, double extent, bool inside_out) {
+FacetSide side_of(const Mesh& mesh, const Facet& facet, double extent, bool inside_out) {
   double longest = 0;
   for (std::size_t k = 0; k < facet.corners.size(); ++k)
     longest = std::max(longest, (mesh.points[facet.corners[k]] - mesh.points[facet.corners[0]]).norm());
@@ -119,11 +119,11 @@ Side side_of(const Mesh& mesh, const Facet& facet, double extent, bool inside_ou
           turned};
 }
 
-std::vector<Side> sides_of(const Mesh& mesh, double extent) {
+std::vector<FacetSide> sides_of(const Mesh& mesh, double extent) {
   const double six_volumes = volume_times_six(mesh);
   if (!(std::abs(six_volumes) > out_of_plane * extent * extent * extent * out_of_plane))
     throw FileFault(mesh.line, 0, "the surface bounds no volume; is it a sheet?");
-  std::vector<Side> sides;
+  std::vector<FacetSide> sides;
   for (const Facet& facet : mesh.facets)
     sides.push_back(side_of(mesh, facet, extent, six_volumes < 0));
   return sides;
@@ -135,7 +135,7 @@ std::string stated_to(const Mesh& mesh) {
 }
 
 // the largest distance of a corner outside a facet, or off the plane of its own, that passes as rounding, m
-double check_convex(const Mesh& mesh, const std::vector<Side>& sides, double extent) {
+double check_convex(const Mesh& mesh, const std::vector<FacetSide>& sides, double extent) {
   double farthest = 0;
   for (std::size_t f = 0; f < mesh.facets.size(); ++f)
     for (const Facet& other : mesh.facets)
@@ -157,16 +157,16 @@ double check_convex(const Mesh& mesh, const std::vector<Side>& sides, double ext
 }
 
 // the facets at a corner span space; on an edge they span a plane, within a face a line
-bool is_corner(const std::vector<const Side*>& around) {
+bool is_corner(const std::vector<const FacetSide*>& around) {
   double parallel = 1e-5;  // sine of the least angle between two distinct faces
-  for (const Side* side : around)
+  for (const FacetSide* side : around)
     parallel = std::max(parallel, 2 * side->turned);
-  for (const Side* a : around)
-    for (const Side* b : around) {
+  for (const FacetSide* a : around)
+    for (const FacetSide* b : around) {
       const Vector<3> edge = a->normal.cross(b->normal);
       if (edge.norm() <= parallel) continue;
       return std::any_of(around.begin(), around.end(),
-                         [&](const Side* c) { return std::abs(edge.normalized().dot(c->normal)) > parallel; });
+                         [&](const FacetSide* c) { return std::abs(edge.normalized().dot(c->normal)) > parallel; });
     }
   return false;
 }
@@ -205,11 +205,11 @@ std::vector<Vector<3>> convex_corners(const Mesh& mesh, std::vector<FileRemark>*
   double extent = 0;
   for (const Facet& facet : mesh.facets)
     extent = std::max(extent, (mesh.points[facet.corners[0]] - mesh.points[mesh.facets[0].corners[0]]).norm());
-  const std::vector<Side> sides = sides_of(mesh, extent);
+  const std::vector<FacetSide> sides = sides_of(mesh, extent);
   const double farthest = check_convex(mesh, sides, extent);
   if (remarks) remark_rounding(mesh, farthest, *remarks);
 
-  std::vector<std::vector<const Side*>> around(mesh.points.size());
+  std::vector<std::vector<const FacetSide*>> around(mesh.points.size());
   for (std::size_t f = 0; f < mesh.facets.size(); ++f)
     for (const int corner : mesh.facets[f].corners)
       if (!sides[f].normal.isZero()) around[corner].push_back(&sides[f]);

@@ -24,7 +24,7 @@ constexpr int widenings = 8;
 constexpr double larger = 8;
 
 // a solid that extends farther than this times the distance of its farthest plane counts as open
-constexpr double farthest = 1e9;
+constexpr double largest_extent = 1e9;
 
 // planes whose normals span less determine their common point no better than the cuts that made it
 constexpr double well_conditioned = 1e-4;
@@ -34,10 +34,10 @@ constexpr double well_conditioned = 1e-4;
 constexpr double one_corner = 4;
 
 // of a corner, by the sign of its distance to the plane that cuts, and not by Eq. B.1 over all planes
-enum class Side { unseen, in, on, out };
+enum class CornerSide { unseen, in, on, out };
 
 // a face: its corners are `size` entries of the solid's from `begin` on; negative planes are the box's
-struct Facet {
+struct CutFacet {
   int plane;
   std::size_t begin, size;
 };
@@ -46,7 +46,7 @@ struct Facet {
 template <int Dim>
 struct Solid {
   std::vector<Vector<Dim>> points;
-  std::vector<Facet> facets;
+  std::vector<CutFacet> facets;
   std::vector<int> corners;  // of one face after the other
   double band = 0;           // m: a point closer to a plane than this is on it
 
@@ -54,7 +54,7 @@ struct Solid {
     facets.push_back({plane, corners.size(), loop.size()});
     corners.insert(corners.end(), loop);
   }
-  std::span<const int> loop(const Facet& f) const { return {corners.data() + f.begin, f.size}; }
+  std::span<const int> loop(const CutFacet& f) const { return {corners.data() + f.begin, f.size}; }
 };
 
 // the point where a plane cuts the edge from corner i to corner j > i
@@ -67,10 +67,10 @@ using Edge = std::pair<int, int>;
 // memory of one cut after the other
 struct Scratch {
   std::vector<double> distance;  // of each point from the plane, m
-  std::vector<Side> side;
+  std::vector<CornerSide> side;
   std::vector<Crossing> crossings;
-  std::vector<char> in_plane;  // for each corner of the face in hand whether it lies in the cutting plane
-  std::vector<Facet> facets;   // that remain
+  std::vector<char> in_plane;    // for each corner of the face in hand whether it lies in the cutting plane
+  std::vector<CutFacet> facets;  // that remain
   std::vector<int> corners;
   std::vector<Edge> rim, links;  // of the new face
   std::vector<int> ends;         // in the plane: how often a point ends a face, less how often it begins one
@@ -112,8 +112,8 @@ int crossing_between(int from, int to, Solid<Dim>& solid, Scratch& scratch) {
 
 // the rest of a face, behind the faces that remain so far
 template <int Dim>
-void cut_face(const Facet& face, Solid<Dim>& solid, Scratch& scratch) {
-  const std::vector<Side>& side = scratch.side;
+void cut_face(const CutFacet& face, Solid<Dim>& solid, Scratch& scratch) {
+  const std::vector<CornerSide>& side = scratch.side;
   const std::size_t begin = scratch.corners.size();
   scratch.in_plane.clear();
   const auto keep = [&](int vertex, bool in_plane) {
@@ -123,10 +123,11 @@ void cut_face(const Facet& face, Solid<Dim>& solid, Scratch& scratch) {
   const std::size_t steps = Dim == 2 ? 1 : face.size;  // in the plane a face is one edge, not a ring
   for (std::size_t k = 0; k < steps; ++k) {
     const int here = solid.corners[face.begin + k], next = solid.corners[face.begin + (k + 1) % face.size];
-    if (side[here] != Side::out) keep(here, side[here] == Side::on);
-    if ((side[here] == Side::in && side[next] == Side::out) || (side[here] == Side::out && side[next] == Side::in))
+    if (side[here] != CornerSide::out) keep(here, side[here] == CornerSide::on);
+    if ((side[here] == CornerSide::in && side[next] == CornerSide::out) ||
+        (side[here] == CornerSide::out && side[next] == CornerSide::in))
       keep(crossing_between(here, next, solid, scratch), true);
-    if (Dim == 2 && side[next] != Side::out) keep(next, side[next] == Side::on);
+    if (Dim == 2 && side[next] != CornerSide::out) keep(next, side[next] == CornerSide::on);
   }
   scratch.facets.push_back({face.plane, begin, scratch.corners.size() - begin});
 }
@@ -159,7 +160,7 @@ std::size_t add_ring(Scratch& scratch) {
 // in the plane the new face runs from where the ring of faces now ends to where it begins
 std::size_t add_gap(std::size_t points, Scratch& scratch) {
   scratch.ends.assign(points, 0);
-  for (const Facet& f : scratch.facets) {
+  for (const CutFacet& f : scratch.facets) {
     --scratch.ends[scratch.corners[f.begin]];
     ++scratch.ends[scratch.corners[f.begin + 1]];
   }
@@ -175,12 +176,14 @@ std::size_t add_gap(std::size_t points, Scratch& scratch) {
 template <int Dim>
 bool cut(Solid<Dim>& solid, const HalfSpace<Dim>& plane, int number, double negligible, Scratch& scratch) {
   scratch.distance.assign(solid.points.size(), 0);
-  scratch.side.assign(solid.points.size(), Side::unseen);
+  scratch.side.assign(solid.points.size(), CornerSide::unseen);
   double deepest = 0;
   for (const int v : solid.corners) {
-    if (scratch.side[v] != Side::unseen) continue;
+    if (scratch.side[v] != CornerSide::unseen) continue;
     const double distance = scratch.distance[v] = signed_distance(plane, solid.points[v]);
-    scratch.side[v] = std::abs(distance) <= solid.band ? Side::on : distance > 0 ? Side::out : Side::in;
+    scratch.side[v] = std::abs(distance) <= solid.band ? CornerSide::on
+                      : distance > 0                   ? CornerSide::out
+                                                       : CornerSide::in;
     deepest = std::max(deepest, distance);
   }
   if (deepest <= std::max(negligible, solid.band)) return true;
@@ -189,12 +192,12 @@ bool cut(Solid<Dim>& solid, const HalfSpace<Dim>& plane, int number, double negl
   scratch.facets.clear();
   scratch.corners.clear();
   scratch.rim.clear();
-  for (const Facet& f : solid.facets) {
-    const auto inside = [&](int v) { return scratch.side[v] == Side::in; };
+  for (const CutFacet& f : solid.facets) {
+    const auto inside = [&](int v) { return scratch.side[v] == CornerSide::in; };
     const std::span<const int> whole = solid.loop(f);
     if (std::none_of(whole.begin(), whole.end(), inside)) continue;
     cut_face<Dim>(f, solid, scratch);
-    const Facet& left = scratch.facets.back();
+    const CutFacet& left = scratch.facets.back();
     for (std::size_t k = 0; Dim == 3 && k < left.size; ++k) {
       const std::size_t next = (k + 1) % left.size;
       if (scratch.in_plane[k] && scratch.in_plane[next])
@@ -292,7 +295,7 @@ Surface<Dim> surface_of(const Solid<Dim>& solid, const HalfSpaces<Dim>& faces) {
   std::vector<int> name(solid.points.size(), -1);
   std::vector<Edge> through;  // vertex and plane
   through.reserve(solid.corners.size());
-  for (const Facet& f : solid.facets) {
+  for (const CutFacet& f : solid.facets) {
     if (f.plane < 0) {
       surface.status = SurfaceStatus::open;
       return surface;
@@ -348,7 +351,7 @@ Surface<Dim> find_surface(const HalfSpaces<Dim>& faces, double negligible) {
   // a box that encloses everything, then one that fits
   double half = 2 * nearest;
   Surface<Dim> surface = cut_from_box<Dim>(faces, half, negligible);
-  while (surface.status == SurfaceStatus::open && half < farthest * nearest) {
+  while (surface.status == SurfaceStatus::open && half < largest_extent * nearest) {
     half *= larger;
     surface = cut_from_box<Dim>(faces, half, negligible);
   }

@@ -32,7 +32,6 @@ struct Counters {
   long long lp_solves = 0;
   long long lp_pivots = 0;
   long long newton_iterations = 0;
-  long long centre_fallbacks = 0;  // Newton failed, Ipopt succeeded
   long long areas = 0;
   long long undecided = 0;         // pairs nearer to touching than rounding resolves
   long long unconverged = 0;       // contacts without a result: the run fails
@@ -61,7 +60,6 @@ inline constexpr CounterRow counter_table[] = {
     {"lp_solves", &Counters::lp_solves},
     {"lp_pivots", &Counters::lp_pivots},
     {"newton_iterations", &Counters::newton_iterations},
-    {"centre_fallbacks", &Counters::centre_fallbacks},
     {"areas", &Counters::areas},
     {"undecided", &Counters::undecided},
     {"unconverged", &Counters::unconverged},

@@ -1,10 +1,11 @@
 #include "core/model/model.hpp"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
 
+#include "core/geometry/eigen_pairs.hpp"
 #include "core/load/water.hpp"
 #include "core/potential/particle.hpp"
 
@@ -23,9 +24,9 @@ void find_principal_axes(Body<3>& body, const MassProperties<3>& mass, double de
     body.inertia = tensor.diagonal();
     return;
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(tensor);
-  body.inertia = eigen.eigenvalues();
-  body.principal_axes = eigen.eigenvectors();
+  const EigenPairs<3> own = eigen_pairs<3>(tensor);
+  body.inertia = own.values;
+  body.principal_axes = own.vectors;
   if (body.principal_axes.determinant() < 0) body.principal_axes.col(0) *= -1;
 }
 
@@ -56,18 +57,18 @@ void each_outer_face(const Body<Dim>& body, int axis, double sign, const Visit& 
 }
 
 // a side of the model: the position of the outermost of all such faces
-struct Side {
+struct NamedSide {
   int axis = 0;
   double sign = 1, place = 0, size = 0;  // m
 };
 
 template <int Dim>
-Side side_named(const Model<Dim>& model, const std::string& name) {
+NamedSide side_named(const Model<Dim>& model, const std::string& name) {
   const std::vector<std::string> names = side_names<Dim>();
   const auto found = std::ranges::find(names, name);
   if (found == names.end()) throw std::out_of_range(name);
   const auto number = found - names.begin();
-  Side side{.axis = static_cast<int>(number / 2), .sign = number % 2 == 0 ? -1.0 : 1.0};
+  NamedSide side{.axis = static_cast<int>(number / 2), .sign = number % 2 == 0 ? -1.0 : 1.0};
   side.place = -side.sign * std::numeric_limits<double>::infinity();
   for (const Body<Dim>& body : model.bodies) {
     each_outer_face(body, side.axis, side.sign, [&](double place) {
@@ -79,7 +80,7 @@ Side side_named(const Model<Dim>& model, const std::string& name) {
 }
 
 template <int Dim>
-bool touches(const Body<Dim>& body, const Side& side) {
+bool touches(const Body<Dim>& body, const NamedSide& side) {
   constexpr double rounding = 1e-9;
   bool found = false;
   each_outer_face(body, side.axis, side.sign,
@@ -88,9 +89,9 @@ bool touches(const Body<Dim>& body, const Side& side) {
 }
 
 template <int Dim>
-bool chosen(const Model<Dim>& model, const Body<Dim>& body, const Selector& s, const std::vector<Side>& sides) {
+bool chosen(const Model<Dim>& model, const Body<Dim>& body, const Selector& s, const std::vector<NamedSide>& sides) {
   if (!body.present) return false;
-  if (!sides.empty() && std::ranges::none_of(sides, [&](const Side& side) { return touches(body, side); }))
+  if (!sides.empty() && std::ranges::none_of(sides, [&](const NamedSide& side) { return touches(body, side); }))
     return false;
   for (std::size_t k = 0; k < s.low.size(); ++k) {
     const double place = model.origin[static_cast<int>(k)] + body.reference[static_cast<int>(k)];
@@ -121,7 +122,7 @@ std::vector<int> select(const Model<Dim>& model, const Selector& selector) {
     if (std::none_of(model.bodies.begin(), model.bodies.end(), [&](const Body<Dim>& b) { return b.name == name; }))
       throw std::out_of_range(name);
   std::vector<int> bodies;
-  std::vector<Side> sides;
+  std::vector<NamedSide> sides;
   for (const std::string& name : selector.sides)
     sides.push_back(side_named(model, name));
   const bool any = selector.all || !selector.names.empty() || !selector.above.empty() || !selector.below.empty() ||

@@ -40,7 +40,7 @@ TEST(ResultsJson, ContainsTheResultsOfTheRun) {
   RunRecord record;
   record.title = "a \"wedge\"";
   record.input_hash = fingerprint("scene");
-  record.features = {{"glpk", true}, {"ipopt", false}};
+  record.features = {{"glpk", true}, {"fast_arithmetic", false}};
   const auto json = nlohmann::json::parse(results_json(results, record));
   EXPECT_EQ(json["schema_version"], results_schema_version);
   EXPECT_EQ(json["title"], "a \"wedge\"");

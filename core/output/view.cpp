@@ -24,7 +24,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little,
               "records are little-endian, and written as they are in memory");
 
-constexpr std::string_view magic = "VOUSVIEW";
+constexpr std::string_view view_magic = "VOUSVIEW";
 constexpr std::uint32_t head_tag = 1, shape_tag = 2, frame_tag = 3, again_tag = 4;
 
 // to single precision; values that it cannot represent are 0
@@ -342,7 +342,7 @@ ViewSeries begun(const std::filesystem::path& file, const Prepared<Dim>& scene) 
   Record head(head_tag);
   head.text(head_of(scene));
   put_joints(head, scene);
-  write_file(file, std::string(magic) + head.finished());
+  write_file(file, std::string(view_magic) + head.finished());
   return {file};
 }
 
@@ -392,8 +392,8 @@ void add_view_frame(ViewSeries& series, const Model<Dim>& model, const State<Dim
 }
 
 ViewExtent view_extent(std::string_view bytes, int frames) {
-  if (!bytes.starts_with(magic)) return {};
-  ViewExtent extent{magic.size(), 0};
+  if (!bytes.starts_with(view_magic)) return {};
+  ViewExtent extent{view_magic.size(), 0};
   while (extent.frames < frames && bytes.size() - extent.bytes >= 8) {
     std::array<std::uint32_t, 2> head{};
     std::memcpy(head.data(), bytes.data() + extent.bytes, sizeof head);

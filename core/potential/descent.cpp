@@ -1,10 +1,10 @@
 #include "core/potential/descent.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "core/geometry/eigen_pairs.hpp"
 #include "core/geometry/half_space_inl.hpp"
 #include "core/potential/rounding.hpp"
 
@@ -128,11 +128,11 @@ template <int Dim, int Columns>
 FixedMatrix<Dim, Columns> solve(const Matrix<Dim>& hessian, double spheres, const FixedMatrix<Dim, Columns>& right) {
   const double rounding = floor_of_curvature * hessian.trace();
   if (spheres > 0 && spheres < drowned_curvature * rounding) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, Dim, Dim>> own(hessian);
-    FixedMatrix<Dim, Columns> along = own.eigenvectors().transpose() * right;
+    const EigenPairs<Dim> own = eigen_pairs<Dim>(hessian);
+    FixedMatrix<Dim, Columns> along = own.vectors.transpose() * right;
     for (int k = 0; k < Dim; ++k)
-      along.row(k) /= own.eigenvalues()[k] > drowned_curvature * rounding ? own.eigenvalues()[k] : spheres;
-    return -(own.eigenvectors() * along);
+      along.row(k) /= own.values[k] > drowned_curvature * rounding ? own.values[k] : spheres;
+    return -(own.vectors * along);
   }
   Matrix<Dim> h = hessian;
   FixedMatrix<Dim, Columns> solution = -right;

@@ -29,7 +29,7 @@ struct MeasuredShape {
 
 // a piece of the face at which coordinate `axis` is `side`: middle and half width in the others
 template <int Dim>
-struct Cell {
+struct SurfaceCell {
   int axis, side;
   FixedMatrix<Dim - 1, 1> middle;
   double half;
@@ -52,7 +52,7 @@ void add_ray(const MeasuredShape<Dim>& body, const Vector<Dim>& through, double 
 }
 
 template <int Dim>
-Integrals<Dim> by_gauss(const MeasuredShape<Dim>& body, const Cell<Dim>& cell) {
+Integrals<Dim> by_gauss(const MeasuredShape<Dim>& body, const SurfaceCell<Dim>& cell) {
   Integrals<Dim> sums = Integrals<Dim>::Zero();
   Vector<Dim> through;
   through[cell.axis] = cell.side;
@@ -73,10 +73,10 @@ Integrals<Dim> by_gauss(const MeasuredShape<Dim>& body, const Cell<Dim>& cell) {
 }
 
 template <int Dim>
-std::vector<Cell<Dim>> parts_of(const Cell<Dim>& cell) {
-  std::vector<Cell<Dim>> parts;
+std::vector<SurfaceCell<Dim>> parts_of(const SurfaceCell<Dim>& cell) {
+  std::vector<SurfaceCell<Dim>> parts;
   for (int signs = 0; signs < 1 << (Dim - 1); ++signs) {
-    Cell<Dim> part{cell.axis, cell.side, cell.middle, cell.half / 2};
+    SurfaceCell<Dim> part{cell.axis, cell.side, cell.middle, cell.half / 2};
     for (int k = 0; k < Dim - 1; ++k)
       part.middle[k] += signs >> k & 1 ? part.half : -part.half;
     parts.push_back(part);
@@ -103,7 +103,7 @@ double pyramid(const std::array<double, 1 << (Dim - 1)>& reach, double half) {
 }
 
 template <int Dim>
-Enclosure<Dim> enclose(const MeasuredShape<Dim>& body, const Cell<Dim>& cell) {
+Enclosure<Dim> enclose(const MeasuredShape<Dim>& body, const SurfaceCell<Dim>& cell) {
   constexpr int corners = 1 << (Dim - 1);
   const PlacedPotential<Dim>& potential = body.potential;
   const auto ray = [&](const FixedMatrix<Dim - 1, 1>& across) {
@@ -143,9 +143,9 @@ Enclosure<Dim> enclose(const MeasuredShape<Dim>& body, const Cell<Dim>& cell) {
 }
 
 template <int Dim>
-void measure(const MeasuredShape<Dim>& body, Cell<Dim>& cell) {
+void measure(const MeasuredShape<Dim>& body, SurfaceCell<Dim>& cell) {
   cell.kept.setZero();
-  for (const Cell<Dim>& part : parts_of<Dim>(cell))
+  for (const SurfaceCell<Dim>& part : parts_of<Dim>(cell))
     cell.kept += by_gauss<Dim>(body, part);
   const Enclosure<Dim> enclosure = enclose<Dim>(body, cell);
   if (!enclosure.tight)
@@ -156,14 +156,14 @@ void measure(const MeasuredShape<Dim>& body, Cell<Dim>& cell) {
 }
 
 template <int Dim>
-std::vector<Cell<Dim>> whole_surface() {
-  std::vector<Cell<Dim>> cells;
+std::vector<SurfaceCell<Dim>> whole_surface() {
+  std::vector<SurfaceCell<Dim>> cells;
   const double half = 1.0 / first_cells;
   for (int axis = 0; axis < Dim; ++axis)
     for (const int side : {-1, 1})
       for (int i = 0; i < first_cells; ++i)
         for (int j = 0; j < (Dim == 3 ? first_cells : 1); ++j) {
-          Cell<Dim> cell{axis, side, {}, half};
+          SurfaceCell<Dim> cell{axis, side, {}, half};
           cell.middle[0] = -1 + (2 * i + 1) * half;
           if constexpr (Dim == 3) cell.middle[1] = -1 + (2 * j + 1) * half;
           cells.push_back(cell);
@@ -197,23 +197,23 @@ PotentialMass<Dim> integrate(const PotentialShape<Dim>& shape, double tolerance,
   const PotentialBox<Dim> box = bounding_box<Dim>(body.potential, scratch);
   body.half = (body.potential.centre - box.low).cwiseMax(box.high - body.potential.centre);
 
-  std::vector<Cell<Dim>> cells = whole_surface<Dim>();
+  std::vector<SurfaceCell<Dim>> cells = whole_surface<Dim>();
   double error = 0, volume = 0;
-  for (Cell<Dim>& cell : cells) {
+  for (SurfaceCell<Dim>& cell : cells) {
     measure<Dim>(body, cell);
     error += cell.error;
     volume += cell.kept[0];
   }
 
   // the worst cell first; of equal ones, the first in the heap, which is the same in every run
-  const auto better = [](const Cell<Dim>& a, const Cell<Dim>& b) { return a.error < b.error; };
+  const auto better = [](const SurfaceCell<Dim>& a, const SurfaceCell<Dim>& b) { return a.error < b.error; };
   std::make_heap(cells.begin(), cells.end(), better);
   while (error > tolerance * volume && static_cast<long long>(cells.size()) < cell_limit) {
     std::pop_heap(cells.begin(), cells.end(), better);
-    const Cell<Dim> worst = cells.back();
+    const SurfaceCell<Dim> worst = cells.back();
     cells.pop_back();
     error -= worst.error;
-    for (Cell<Dim>& part : parts_of<Dim>(worst)) {
+    for (SurfaceCell<Dim>& part : parts_of<Dim>(worst)) {
       measure<Dim>(body, part);
       error += part.error;
       cells.push_back(part);
@@ -225,7 +225,7 @@ PotentialMass<Dim> integrate(const PotentialShape<Dim>& shape, double tolerance,
   std::sort_heap(cells.begin(), cells.end(), better);
   Integrals<Dim> sums = Integrals<Dim>::Zero();
   PotentialMass<Dim> result;
-  for (const Cell<Dim>& cell : cells) {
+  for (const SurfaceCell<Dim>& cell : cells) {
     sums += cell.kept;
     result.error += cell.error;
   }

@@ -15,7 +15,7 @@
 namespace voussoir {
 namespace {
 
-constexpr std::string_view magic = "VOUSSOIR checkpoint\n";
+constexpr std::string_view checkpoint_magic = "VOUSSOIR checkpoint\n";
 constexpr std::uint32_t order_mark = 0x01020304;
 constexpr std::size_t seal_size = 24;  // the text of a checksum: "fnv1a64:" and 16 digits
 
@@ -51,16 +51,16 @@ void require_format(std::uint32_t format) {
 
 // the bytes between magic and seal, after the seal has been verified
 std::string_view unseal(std::string_view bytes) {
-  if (!bytes.starts_with(magic)) throw CheckpointError("is not a checkpoint of this program");
-  constexpr std::size_t least = magic.size() + sizeof order_mark + seal_size;
+  if (!bytes.starts_with(checkpoint_magic)) throw CheckpointError("is not a checkpoint of this program");
+  constexpr std::size_t least = checkpoint_magic.size() + sizeof order_mark + seal_size;
   if (bytes.size() < least) throw CheckpointError("is cut short");
   std::uint32_t mark = 0;
-  std::memcpy(&mark, bytes.data() + magic.size(), sizeof mark);
+  std::memcpy(&mark, bytes.data() + checkpoint_magic.size(), sizeof mark);
   if (mark == 0x04030201) throw CheckpointError("was written on a machine with the other byte order");
   const std::string_view content = bytes.substr(0, bytes.size() - seal_size);
   if (fingerprint(content) != bytes.substr(content.size())) throw CheckpointError("is damaged or cut short");
   if (mark != order_mark) throw CheckpointError("was written on a machine of unknown byte order");
-  return content.substr(magic.size() + sizeof mark);
+  return content.substr(checkpoint_magic.size() + sizeof mark);
 }
 
 // the header, and the bytes after it
@@ -86,7 +86,7 @@ std::string build_name() {
 template <int Dim>
 std::string checkpoint_bytes(const Progress<Dim>& progress, const std::string& scene_hash) {
   const std::string payload = bytes_of(progress);
-  std::string bytes(magic);
+  std::string bytes(checkpoint_magic);
   bytes.append(reinterpret_cast<const char*>(&order_mark), sizeof order_mark);
   bytes +=
       bytes_of(Header{checkpoint_format, Dim, progress.state.counters.steps, scene_hash, build_name(), payload.size()});
@@ -111,8 +111,8 @@ std::uintmax_t checkpoint_size(std::string_view head) {
     rest.remove_prefix(sizeof number);
     return number;
   };
-  if (!head.starts_with(magic)) throw CheckpointError("is not a checkpoint of this program");
-  rest.remove_prefix(magic.size());
+  if (!head.starts_with(checkpoint_magic)) throw CheckpointError("is not a checkpoint of this program");
+  rest.remove_prefix(checkpoint_magic.size());
   if (take(std::uint32_t{}) != order_mark) return head.size();  // the reader reports the reason
   require_format(take(std::uint32_t{}));
   take(std::uint32_t{});  // dimension

@@ -298,6 +298,7 @@ TEST(BadOverrides, AreReportedWithTheirText) {
                              {"fix.2.all=true", "fix.2", "there are: 1"},
                              {"joints.A.dip", "joints.A.dip", "has no '='"},
                              {"=3", "", "no such key"},
+                             {"contact.centre=ipopt", "contact.centre", "has left the program together with Ipopt"},
                              {"joints.A.dip=", "joints.A.dip", "not valid TOML"},
                              {"joints.A.dip=65deg", "joints.A.dip=65deg", "not valid TOML"},
                              {"joints.A.dip=nan", "joints.A.dip = nan", "must be a finite number"},

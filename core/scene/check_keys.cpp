@@ -97,8 +97,15 @@ bool holds(const Node& table, const Groups& groups, const Condition& condition) 
   }
 }
 
+// keys that scenes of earlier versions may hold
+constexpr std::pair<std::string_view, std::string_view> former_keys[] = {
+    {"contact.centre",
+     "has left the program together with Ipopt: Newton's method finds every centre; remove the line"}};
+
 [[noreturn]] void refuse_unknown(const Node& node, const Groups& groups, const std::string& path,
                                  std::string_view key) {
+  for (const auto& [former, why] : former_keys)
+    if (path == former) refuse(node, path, std::string(why));
   std::string rule = "no such key; ";
   const std::vector<std::string> known = keys_of(groups);
   if (const std::string near = nearest(key, known); !near.empty()) {

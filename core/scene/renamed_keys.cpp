@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <ranges>
+#include <iterator>
 #include <span>
 #include <utility>
 
@@ -16,8 +16,11 @@ using Keys = std::span<const std::string>;
 
 std::vector<std::string> keys_of_path(std::string_view path) {
   std::vector<std::string> keys;
-  for (const auto key : std::views::split(path, '.'))
-    keys.emplace_back(key.begin(), key.end());
+  for (std::size_t dot = path.find('.'); dot != path.npos; dot = path.find('.')) {
+    keys.emplace_back(path.substr(0, dot));
+    path.remove_prefix(dot + 1);
+  }
+  keys.emplace_back(path);
   return keys;
 }
 
@@ -130,8 +133,8 @@ std::vector<std::string> with_present_names(std::vector<std::string> segments) {
 }
 
 Node with_earliest_names(Node scene) {
-  for (const RenamedKey& row : std::views::reverse(renamed_keys)) {
-    const std::vector<std::string> from = keys_of_path(row.present), to = keys_of_path(row.earlier);
+  for (auto row = std::rbegin(renamed_keys); row != std::rend(renamed_keys); ++row) {
+    const std::vector<std::string> from = keys_of_path(row->present), to = keys_of_path(row->earlier);
     move_value(scene, from, to, "", nullptr);
   }
   return scene;

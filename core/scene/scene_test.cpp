@@ -267,7 +267,6 @@ TEST(Set, ReachesTablesByNameNumberAndValuesNotInTheFile) {
   EXPECT_EQ(set("contact.point=central_path").settings.contact.point, ContactPoint::central_path);
   EXPECT_EQ(set("contact.smoothing=1e-3").settings.contact.smoothing, 1e-3);
   EXPECT_EQ(set("contact.point=centroid").settings.contact.point, ContactPoint::centroid);
-  EXPECT_EQ(set("contact.centre=ipopt_scaled").settings.contact.centre, CentreSolver::ipopt_scaled);
   EXPECT_EQ(set("contact.overlap=bracketing").settings.contact.overlap, OverlapSearch::bracketing);
   EXPECT_EQ(set("contact.normal=multipliers").settings.contact.normal, ContactNormal::multipliers);
   EXPECT_EQ(set("title=two words").title, "two words");

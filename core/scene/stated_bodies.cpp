@@ -2,12 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 
+#include "core/geometry/eigen_pairs.hpp"
 #include "core/potential/particle.hpp"
 #include "core/scene/bodies.hpp"
 #include "core/scene/particles.hpp"
@@ -49,12 +50,11 @@ bool is_empty(const Box<Dim>& box) {
 template <int Dim>
 Matrix<Dim> round_axes_of(const Polytope<Dim>& part) {
   const Vector<Dim>& c = part.mass.centroid;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, Dim, Dim>> own(part.mass.second_moment / part.mass.volume -
-                                                                           c * c.transpose());
+  const EigenPairs<Dim> own = eigen_pairs<Dim>(part.mass.second_moment / part.mass.volume - c * c.transpose());
   // no convex part spreads less than its inscribed ball: a bound if rounding leaves nothing
   const double least = 0.1 * part.inscribed_radius;
-  const Vector<Dim> widths = own.eigenvalues().cwiseMax(least * least).cwiseSqrt();
-  return own.eigenvectors() * widths.asDiagonal();
+  const Vector<Dim> widths = own.values.cwiseMax(least * least).cwiseSqrt();
+  return own.vectors * widths.asDiagonal();
 }
 
 template <int Dim>

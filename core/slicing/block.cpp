@@ -25,8 +25,8 @@ constexpr double ball_rounding = 64 * std::numeric_limits<double>::epsilon();
 
 // Coordinates have an error of 2e-16 of the extent and of the distance from the origin. If that is close to the
 // inscribed radius few digits of volume and overlap remain: such a block is refused.
-constexpr double thinnest = 1e-8;                                           // inscribed radius / extent
-constexpr double farthest = 1e-6 / std::numeric_limits<double>::epsilon();  // distance / inscribed radius
+constexpr double thinnest = 1e-8;                                                // inscribed radius / extent
+constexpr double farthest_ball = 1e-6 / std::numeric_limits<double>::epsilon();  // distance / inscribed radius
 
 template <int Dim>
 bool valid(const HalfSpace<Dim>& plane) {
@@ -116,7 +116,7 @@ BlockStatus judge(const HalfSpaces<Dim>& planes, const FeasibilityResult<Dim>& b
   // faces may be too nearly parallel for the program
   if (ball.status == FeasibilityStatus::iteration_limit) return BlockStatus::flat;
   if (!holds_ball(planes, ball)) return BlockStatus::empty;
-  return ball.point.norm() > farthest * std::abs(ball.value) ? BlockStatus::far : BlockStatus::ok;
+  return ball.point.norm() > farthest_ball * std::abs(ball.value) ? BlockStatus::far : BlockStatus::ok;
 }
 
 // If fewer faces touch the inscribed ball than the LP has tight planes, as two opposite ones do, the rest of the basis

@@ -115,17 +115,17 @@ std::vector<int> handed_on(const std::vector<int>& joints, std::size_t first, co
 }
 
 template <int Dim>
-using Pair = std::pair<Piece<Dim>, Piece<Dim>>;
+using PiecePair = std::pair<Piece<Dim>, Piece<Dim>>;
 
 // cuts the piece by the first of its joints that meets it; nothing when none does
 template <int Dim>
-std::optional<Pair<Dim>> split(const Piece<Dim>& piece, const Cuts<Dim>& cuts, const SlicingLimits& limits,
-                               SlicingCounters& counters) {
+std::optional<PiecePair<Dim>> split(const Piece<Dim>& piece, const Cuts<Dim>& cuts, const SlicingLimits& limits,
+                                    SlicingCounters& counters) {
   for (std::size_t k = 0; k < piece.joints.size(); ++k) {
     const Cut<Dim>& cut = cuts[piece.joints[k]];
     if (!meets(cut, piece.block, counters)) continue;
     // cut right through: both sides get the joint as a new face
-    Pair<Dim> children;
+    PiecePair<Dim> children;
     auto& [below, above] = children;
     const HalfSpace<Dim> reversed{-cut.plane.normal, -cut.plane.offset};
     // a piece cut by a construction joint stays one body with its surroundings, or is removed: an outline is exact

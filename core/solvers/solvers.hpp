@@ -10,9 +10,6 @@ template <int Dim>
 struct Solvers {
   FeasibilitySolver<Dim>* feasibility = &solve_feasibility<Dim>;
   CentreSolverFunction<Dim>* centre = &solve_analytic_centre<Dim>;
-
-  // called when `centre` has failed from a cold start; null: the contact then has no result
-  CentreSolverFunction<Dim>* fallback = nullptr;
 };
 
 }  // namespace voussoir

@@ -180,7 +180,6 @@ void add(Counters& total, const Tally& tally) {
   total.lp_solves += k.lp_solves;
   total.lp_pivots += k.lp_pivots;
   total.newton_iterations += k.newton_iterations;
-  total.centre_fallbacks += k.centre_fallbacks;
   total.undecided += k.undecided;
   total.areas += k.areas;
   total.normal_fallbacks += k.normal_fallbacks;

@@ -50,7 +50,6 @@ void add(Counters& total, const KernelCounters& k) {
   total.lp_solves += k.lp_solves;
   total.lp_pivots += k.lp_pivots;
   total.newton_iterations += k.newton_iterations;
-  total.centre_fallbacks += k.centre_fallbacks;
   total.areas += k.areas;
   total.axis_hits += k.axis_hits;
 }

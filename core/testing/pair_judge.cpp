@@ -267,7 +267,6 @@ Contact<Dim> resolve(Pair<Dim> pair, QueryLevel level, const Contact<Dim>& befor
                      const ContactSettings& settings = {}) {
   pair.level = level;
   const contacts::Outcome<Dim> outcome = contacts::resolve<Dim>(pair, settings, before);
-  tally.counts["centres by another solver"] += outcome.counters.centre_fallbacks;
   return outcome.contact;
 }
 

@@ -11,12 +11,6 @@ KeyTable contact_keys() {
      .example = "\"glpk\"",
      .meaning = "solver of the linear program that decides whether two blocks overlap",
      .breaks = "glpk is slow, a reference only"},
-    {.key = "centre", .members = {one_of(&ContactSettings::centre,
-         {{"own", CentreSolver::own}, {"ipopt", CentreSolver::ipopt}, {"ipopt_scaled", CentreSolver::ipopt_scaled}})},
-     .example = "\"ipopt\"",
-     .meaning = "solver of the analytic centre; ipopt: scaled by the shape of the overlap; ipopt_scaled: rotated into the contact normal's "
-         "frame and scaled along it",
-     .breaks = "Ipopt is slow, a reference only; if it is built in, it is also the fallback when the own search fails"},
     {.key = "point", .members = {one_of(&ContactSettings::point,
          {{"analytic_centre", ContactPoint::analytic_centre}, {"centroid", ContactPoint::centroid},
           {"chebyshev", ContactPoint::chebyshev}, {"central_path", ContactPoint::central_path}})},
