@@ -42,7 +42,7 @@ std::vector<std::string> near(const LoadedScene& scene, const Results& results) 
     if (plan.method != ReductionMethod::bisection) return {};
     const Value* found = results.find(search.value);
     if (!found || !found->error_bar) return {};
-    const double unit = search.angle() ? degree : 1, half = *found->error_bar;
+    const double unit = search.angle() ? degree : 1, half = found->bracket.value_or(*found->error_bar);
     const double from = (search.angle() ? plan.from : plan.factor.from) / unit,
                  to = (search.angle() ? plan.to : plan.factor.to) / unit;
     const double below = found->value - (2 * brackets_below + 1) * half,
@@ -76,7 +76,7 @@ std::vector<Variation> without_first(const std::vector<Variation>& variations) {
 
 // the bar of one value, from the lines of its budget; `other`: the largest half bracket among the variations
 void combine(double other, Value& value) {
-  value.bracket = value.error_bar;
+  if (!value.bracket) value.bracket = value.error_bar;
   const double own = value.error_bar.value_or(0);
   double squares = own * own + other * other;
   for (const BudgetLine& line : value.budget)

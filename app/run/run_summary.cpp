@@ -19,9 +19,12 @@ std::string value_text(const Value& value) {
   if (!std::isfinite(value.value)) return "not a finite number" + unit;
   if (!value.error_bar || *value.error_bar <= 0) return fmt::format("{:.6g}{}", value.value, unit);
   const int places = std::clamp(1 - static_cast<int>(std::floor(std::log10(*value.error_bar))), 0, 15);
-  return fmt::format("{:.{}f} ± {:.{}f}{} ({})", value.value, places, *value.error_bar, places, unit,
-                     value.covers == "bracket" ? "search bracket only; --budget adds the model's errors"
-                                               : "search bracket and budget");
+  std::string covers = "search bracket and budget";
+  if (value.covers == "bracket") covers = "search bracket only; --budget adds the model's errors";
+  if (value.covers == "criterion")
+    covers = fmt::format("failure criterion only, search bracket ± {:.2g}; --budget adds the model's errors",
+                         value.bracket.value_or(0));
+  return fmt::format("{:.{}f} ± {:.{}f}{} ({})", value.value, places, *value.error_bar, places, unit, covers);
 }
 
 void print_budget(const Value& value) {

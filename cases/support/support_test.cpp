@@ -205,5 +205,25 @@ TEST(Support, ABoltHoldsABlockOnASlope) {
                 value(grouted, "critical_friction"), cost(grouted));
 }
 
+// The bolt bends as the block slides: by the strength that its motion requires no displacement has to be stated.
+TEST(Support, ABoltedBlockNeedsNoFailureDisplacementByRequiredStrength) {
+  CaseReport report("support", {"critical friction of the bolted block by required strength"});
+  const double expected = reference::bolted_block_friction(100e3, 40 * degree, 20e3, 30 * degree) / degree;
+  for (const auto& [name, statics] : {std::pair("relaxation", "adaptive"), std::pair("Newton's method", "newton")}) {
+    const SceneRun found = cases::run("slope.toml", {"stage.critical.failure_displacement=0",
+                                                     "stage.critical.failure_criterion=\"required_strength\"",
+                                                     fmt::format("statics=\"{}\"", statics)});
+    report.record({fmt::format("critical friction of the bolted block by required strength, {}", name),
+                   "deg",
+                   Kind::exact,
+                   "equilibrium: tan = (W sin 40 - Fy cos 30)/(W cos 40 + Fy sin 30)",
+                   expected,
+                   {0.005, 0},
+                   "until it yields the bolt lets the block slip by a tenth of a millimetre, which rotates it by "
+                   "0.001 deg; the joint's own displacement is less"},
+                  value(found, "critical_friction"), cost(found));
+  }
+}
+
 }  // namespace
 }  // namespace voussoir::cases

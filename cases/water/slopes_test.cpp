@@ -84,6 +84,23 @@ TEST(PlaneFailure, SlidesUnderTheWaterInItsCrack) {
   write_csv("water", "plane.csv", {"fill", "dem_deg", "limit_deg"}, {fills, found, limit});
 }
 
+// The block slides out of its water: by the strength that its motion requires no displacement has to be stated.
+TEST(PlaneFailure, NeedsNoFailureDisplacementByRequiredStrength) {
+  CaseReport report("water", {"critical friction by required strength"});
+  const PlaneFailure slope = plane_failure(1);
+  for (const auto& [name, statics] : {std::pair("relaxation", "adaptive"), std::pair("Newton's method", "newton")}) {
+    const SceneRun scene = run("scene.toml", {table_of(slope), "stage.critical.failure_displacement=0",
+                                              "stage.critical.failure_criterion=\"required_strength\"",
+                                              fmt::format("statics=\"{}\"", statics)});
+    report.record(
+        angle_check(fmt::format("critical friction by required strength, {}", name), plane_source,
+                    critical_friction(slope), 0.002,
+                    "first order in 1/kn: the load changes by 0.01 of its angle with each millimetre, and the "
+                    "joint gives way by less than 0.2 mm"),
+        value(scene, "critical_friction"), cost(scene));
+  }
+}
+
 // --- gravity block
 
 TEST(GravityBlock, SlidesOnItsFoundation) {

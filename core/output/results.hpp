@@ -24,11 +24,12 @@ struct BudgetLine {
 
 struct Value {
   double value = 0;
-  std::string unit;                     // "deg", "m", "1" …
-  std::optional<double> error_bar;      // same unit: half width of the error from the sources that it `covers`
-  std::string rule;                     // how it was determined; may be empty
-  std::string covers = "bracket";       // or "budget": only the search's bracket, or everything that the budget varied
-  std::optional<double> bracket = {};   // with a budget: the error of the search only
+  std::string unit;                    // "deg", "m", "1" …
+  std::optional<double> error_bar;     // same unit: half width of the error from the sources that it `covers`
+  std::string rule;                    // how it was determined; may be empty
+  std::string covers = "bracket";      // only the search's; "criterion": the extrapolation of the required strength, or
+                                       // the fit; "budget": everything that the budget varied
+  std::optional<double> bracket = {};  // of a criterion or a budget: half of the search's
   std::vector<BudgetLine> budget = {};  // by size
   std::string divides = {};  // of a factor of safety: the strengths that it divides, and those that it does not
 };

@@ -102,6 +102,10 @@ TEST(Checkpoint, ASearchForTheCriticalFrictionContinues) {
     plan.method = method;
     expect_search_survives<2>(plan);
   }
+  plan.method = ReductionMethod::bisection;
+  plan.failure_displacement = 0;
+  plan.criterion = FailureCriterion::required_strength;
+  expect_search_survives<2>(plan);
   plan.searched = Searched::factor;
   plan.factor = {.from = 0.8, .to = 2, .tolerance = 0.02, .step = 0.1};
   plan.failure_fraction = 0.5;

@@ -109,6 +109,10 @@ StageOutcome judge_search(const ReducePlan& reduction, const ReductionReport& re
     const bool unique = !results.find(sought.name);
     const std::string name = unique ? sought.name : stage.plan().name + "_" + sought.name;
     Value value{sought.number(report.critical), sought.unit, sought.number(report.error_bar), report.rule};
+    if (report.by != CriticalBy::bracket) {
+      value.covers = "criterion";
+      value.bracket = sought.number(report.bracket);
+    }
     if (reduction.searched == Searched::factor) value.divides = divided_by_factor(reduction.properties);
     results.values.emplace_back(name, std::move(value));
   }

@@ -8,7 +8,7 @@
 // 1/F_req = (1 + P/D)/F with D = Σ N tan φ |Δs|. In equilibrium P = 0. As a trial that fails moves on, the elastic
 // displacement of its joints and bolts is spent, φ_req falls ever more slowly and at last in a straight line, by which
 // loads change with the motion. The trial has failed then, and the line taken to no displacement is the critical
-// strength (cases/incline/NOTES.md has measurements).
+// strength (core/NOTES.md has measurements).
 #pragma once
 
 #include <string>

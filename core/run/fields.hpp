@@ -124,8 +124,8 @@ void visit_fields(Just<StageRecord> auto& r, auto&& visit) {
 void visit_fields(Just<Value> auto& v, auto&& visit) {
   // a budget is made after the last checkpoint
   auto& [value, unit, error_bar, rule, covers, bracket, budget, divides] = v;
-  visit(Saved{}, value, unit, error_bar, rule, divides);
-  visit(Found{}, covers, bracket, budget);
+  visit(Saved{}, value, unit, error_bar, rule, covers, bracket, divides);
+  visit(Found{}, budget);
 }
 
 void visit_fields(Just<StageResult> auto& s, auto&& visit) {

@@ -1,0 +1,105 @@
+// Estimates of the critical strength from the trials of a search.
+#include "core/run/search_estimates.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "text/angle.hpp"
+
+namespace voussoir {
+namespace {
+
+Levels friction_levels() {
+  ReducePlan plan;
+  plan.from = 60 * degree;
+  plan.to = 5 * degree;
+  plan.tolerance = 0.02 * degree;
+  return levels_of(plan);
+}
+
+Levels factor_levels() {
+  ReducePlan plan;
+  plan.searched = Searched::factor;
+  plan.factor = {.from = 0.5, .to = 3, .tolerance = 0.002};
+  return levels_of(plan);
+}
+
+TrialEstimate estimate(const Levels& levels, double level, double critical) {
+  return {levels.strength(level), levels.strength(critical), 1e-4};
+}
+
+// s = s0 + b u^(-1/2) - a u
+std::vector<StableTrial> turning(double s0, double b, double a, const std::vector<double>& displacements) {
+  std::vector<StableTrial> trials;
+  for (const double u : displacements)
+    trials.push_back({s0 + b / std::sqrt(u) - a * u, u, u / 0.1});
+  return trials;
+}
+
+TEST(SearchEstimates, TheFitFindsTheStrengthAtNoDisplacement) {
+  for (const std::vector<double>& u :
+       {std::vector<double>{0.001, 0.004, 0.03}, std::vector<double>{0.001, 0.002, 0.008, 0.02, 0.06}}) {
+    const std::optional<StableFit> fit = fit_stable(turning(0.13, 0.002, 0.05, u));
+    ASSERT_TRUE(fit);
+    EXPECT_NEAR(fit->critical, 0.13, 1e-9);
+    EXPECT_EQ(fit->of_three, u.size() == 3);
+    EXPECT_NEAR(fit->change, 0, 1e-9);
+  }
+}
+
+TEST(SearchEstimates, TheFitRefusesTrialsThatTellNothing) {
+  EXPECT_FALSE(fit_stable(turning(0.13, 0.002, 0.05, {0.001, 0.02}))) << "two trials";
+  EXPECT_FALSE(fit_stable(turning(0.13, 0.002, 0.05, {1e-5, 2e-5, 1e-4, 0.02}))) << "bodies have not turned yet";
+  EXPECT_FALSE(fit_stable(turning(0.13, 0.002, 0.05, {0.01, 0.01, 0.01, 0.02}))) << "the same displacement";
+  EXPECT_FALSE(fit_stable(turning(0.13, -0.002, 0.05, {0.001, 0.004, 0.02, 0.05}))) << "of another law";
+}
+
+TEST(SearchEstimates, TheNextTrialIsBesideTheEstimate) {
+  const Levels levels = friction_levels();
+  const Bracket bracket{60 * degree, 29 * degree};
+  SearchEstimates known;
+  EXPECT_FALSE(level_by_estimate(levels, bracket, known));
+  known.failed.push_back(estimate(levels, 29 * degree, 30 * degree));
+  EXPECT_FALSE(level_by_estimate(levels, bracket, known)) << "a trial 4 % below says too little";
+
+  known.failed.back() = estimate(levels, 29.5 * degree, 30 * degree);
+  const Bracket near{60 * degree, 29.5 * degree};
+  EXPECT_NEAR(*level_by_estimate(levels, near, known) / degree, 29.7, 1e-9) << "a hundredth beyond it";
+
+  known.failed.push_back(estimate(levels, 29.7 * degree, 30.001 * degree));
+  const Bracket nearer{60 * degree, 29.7 * degree};
+  EXPECT_NEAR(*level_by_estimate(levels, nearer, known) / degree, 30.011, 1e-9) << "half a tolerance before it";
+  EXPECT_FALSE(is_certified(levels, nearer, known));
+  EXPECT_TRUE(is_certified(levels, {30.011 * degree, 29.7 * degree}, known));
+}
+
+TEST(SearchEstimates, AnEstimateThatTheBracketContradictsDoesNotCount) {
+  const Levels levels = factor_levels();
+  SearchEstimates known;
+  known.failed = {estimate(levels, 1.41, 1.40), estimate(levels, 1.405, 1.4001)};
+  const CriticalLevel inside = critical_level(levels, {1.399, 1.405}, known);
+  EXPECT_EQ(inside.by, CriticalBy::required_strength);
+  EXPECT_NEAR(inside.level, 1.4001, 1e-12);
+  EXPECT_NEAR(inside.error_bar, 1e-4 + 0.1 * 1e-4 * 1.4 * 1.4, 1e-6);
+
+  const CriticalLevel outside = critical_level(levels, {1.42, 1.43}, known);
+  EXPECT_EQ(outside.by, CriticalBy::bracket);
+  EXPECT_NEAR(outside.level, 1.425, 1e-12);
+  EXPECT_NEAR(outside.error_bar, 0.005, 1e-12);
+}
+
+TEST(SearchEstimates, BodiesThatTurnAreJudgedByTheFit) {
+  const Levels levels = friction_levels();
+  SearchEstimates known;
+  known.stable = turning(std::tan(9.47 * degree), 0.001, 0.02, {0.001, 0.004, 0.02, 0.05});
+  const Bracket bracket{10.2 * degree, 10.1 * degree};
+  EXPECT_EQ(critical_level(levels, bracket, known).by, CriticalBy::bracket) << "they did not turn";
+  known.turned = true;
+  const CriticalLevel critical = critical_level(levels, bracket, known);
+  EXPECT_EQ(critical.by, CriticalBy::stable_fit);
+  EXPECT_NEAR(critical.level / degree, 9.47, 1e-6);
+}
+
+}  // namespace
+}  // namespace voussoir
