@@ -38,12 +38,12 @@ double longest_of(const Unknowns<Dim>& unknowns, const StaticIncrement<Dim>& inc
 
 template <int Dim>
 double shorten_in_trial(const Unknowns<Dim>& unknowns, const StaticIncrement<Dim>& increment, Eigen::VectorXd& dq) {
-  if (increment.elastic.empty()) return 1;
+  if (increment.elastic.empty()) return 0;
   double most = 0;
   for (std::size_t i = 0; i < unknowns.count(); ++i)
     most = std::max(most, dq.template segment<Dim>(freedoms<Dim> * i).norm());
   const double longest = longest_of(unknowns, increment);
-  if (!(most > longest)) return 1;
+  if (!(most > longest)) return 0;
   dq *= longest / most;
   return most / longest;
 }
