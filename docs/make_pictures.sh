@@ -82,7 +82,7 @@ poster bolted_roof run examples/bolted_roof.toml 'frame=9999&forces=arrows' 620x
 poster shaken_block run examples/shaken_block.toml 'frame=9999&colour=displacement' 620x360
 poster tutorial_blocks slice examples/tutorial/slope.toml 'frame=0' 620x380
 poster tutorial run examples/tutorial/slope.toml 'frame=9999&magnified=10&colour=displacement&forces=arrows' 620x380
-poster tutorial_weaker run examples/tutorial/slope.toml 'frame=9999&magnified=10&colour=displacement&forces=arrows' 620x380 \
+poster tutorial_weaker run examples/tutorial/slope.toml 'frame=9999&magnified=100&colour=friction' 620x380 \
   stage.safety.friction.clay.friction_deg=25
 
 for name in "${names[@]}"; do
