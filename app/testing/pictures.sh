@@ -10,7 +10,7 @@ table=docs/pictures.csv maker=docs/make_pictures.sh
 faults=0
 fault() { echo "$1" >&2; faults=$((faults + 1)); }
 
-now=$("$maker" "$program" --table) || fault "$maker: no table of the scenes as they are now"
+now=$("$maker" "$program" --table) || { echo "$maker: no table of the scenes as they are now" >&2; exit 1; }
 [ "$(head -n 1 $table)" = "$(head -n 1 <<<"$now")" ] || fault "$table: the first line must be '$(head -n 1 <<<"$now")'"
 shown=$(grep -ohE 'pictures/[a-z0-9_]+\.(svg|png)' README.md docs/*.md examples/*.md examples/*/*.md | sed 's|.*/||' | sort -u)
 
