@@ -58,6 +58,7 @@ TEST_F(Program, TheEffectiveSceneRunsAgain) {
   ASSERT_EQ(run("run first/scene.toml --out second").code, 0);
   EXPECT_EQ(results("first")["input_hash"], results("second")["input_hash"]);
   EXPECT_EQ(settlement("first"), settlement("second"));
+  EXPECT_EQ(run("check first/scene.toml --hash").out, results("first")["input_hash"].get<std::string>() + "\n");
 }
 
 TEST_F(Program, ScenesInThePlaneRunToo) {

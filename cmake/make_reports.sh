@@ -69,6 +69,12 @@ fi
 "$source/reports/make_views.py" --source "$source" --build "$build" --jobs "$jobs"
 settle $? "views of the cases"
 
+# the pictures of the pages; those that are committed stay as they are
+if [ -x "$program" ]; then
+  "$source/docs/make_pictures.sh" "$program" --into "$reports/pictures"
+  settle $? "pictures of the pages"
+fi
+
 # all checks at a glance
 rm -rf "$reports/checks"
 if [ -s "$reports/verdicts.json" ]; then

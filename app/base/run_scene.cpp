@@ -1,8 +1,8 @@
 #include "app/base/run_scene.hpp"
 
 #include "app/base/bad_input.hpp"
+#include "app/base/input_hash.hpp"
 #include "app/base/message.hpp"
-#include "core/base/fingerprint.hpp"
 #include "core/base/version.hpp"
 #include "core/scene/effective_scene.hpp"
 #include "core/scene/judge_values.hpp"
@@ -55,7 +55,7 @@ LoadedScene load(Scene scene, int threads) {
   loaded.text = toml_text(*scene.tree);
   loaded.files = scene.files;
   loaded.from_level = scene.from_level;
-  loaded.hash = fingerprint(canonical_text(scene));
+  loaded.hash = input_hash(scene);
   if (scene.dimension == 2)
     load_prepared<2>(scene, threads, loaded);
   else

@@ -7,7 +7,9 @@
 #include <limits>
 
 #include "app/base/arguments.hpp"
+#include "app/base/input_hash.hpp"
 #include "app/base/run_scene.hpp"
+#include "app/base/shown_unit.hpp"
 #include "app/check/assess.hpp"
 #include "app/check/check_blocks.hpp"
 #include "app/check/check_line.hpp"
@@ -105,7 +107,7 @@ void print_water(const Prepared<Dim>& prepared) {
                                ? "on all faces"
                                : fmt::format("on the faces of {} joints{}", joints, outside ? " and outside" : "");
     if (water.uniform) {
-      print_line(label, fmt::format("{}: {:g} Pa {}", water.name, water.values.front(), on));
+      print_line(label, fmt::format("{}: {} {}", water.name, quantity_text(water.values.front(), "Pa"), on));
     } else {
       std::vector<WaterStretch<Dim>> surface;
       list_stretches<Dim>(water.values, surface);
@@ -115,8 +117,8 @@ void print_water(const Prepared<Dim>& prepared) {
         below += submerged<Dim>(body.parts, body.radius, {.centroid = body.reference}, surface).volume;
         whole += volume(body);
       }
-      print_line(label, fmt::format("{}: {:g} N/m³ {}; {:.6g} {} of the free blocks are below it, {:.4g} %", water.name,
-                                    water.unit_weight, on, below, Dim == 3 ? "m³" : "m²",
+      print_line(label, fmt::format("{}: {} {}; {:.6g} {} of the free blocks are below it, {:.4g} %", water.name,
+                                    quantity_text(water.unit_weight, "N/m³"), on, below, Dim == 3 ? "m³" : "m²",
                                     whole > 0 ? 100 * below / whole : 0));
     }
     label = "";
@@ -130,9 +132,8 @@ void print_water(const Prepared<Dim>& prepared) {
   }
   if (std::abs(lift) < 16 * std::numeric_limits<double>::epsilon() * weight) lift = 0;
   if (weight > 0)
-    print_line(
-        "", fmt::format("before the first stage its uplift on the free blocks is {:.6g} N{}, {:.4g} % of their weight",
-                        lift, Dim == 2 ? "/m" : "", 100 * lift / weight));
+    print_line("", fmt::format("before the first stage its uplift on the free blocks is {}, {:.4g} % of their weight",
+                               quantity_text(lift, Dim == 2 ? "N/m" : "N"), 100 * lift / weight));
   print_line("", "hydrostatic (no flow, drag or added mass); contact forces are effective");
 }
 
@@ -155,8 +156,8 @@ std::vector<std::string> laws_text(const JointProperties& p) {
       p.hardening_exponent);
   add(p.laws.friction == FrictionLaw::softening,
       fmt::runtime("friction coefficient softens by {:g} within {:g} m of slip"), p.softening_drop, p.softening_slip);
-  add(p.tension > 0, fmt::runtime("tension {:g} Pa if bonded"), p.tension);
-  add(p.cohesion > 0, fmt::runtime("cohesion {:g} Pa if bonded"), p.cohesion);
+  add(p.tension > 0, fmt::runtime("tension {} if bonded"), quantity_text(p.tension, "Pa"));
+  add(p.cohesion > 0, fmt::runtime("cohesion {} if bonded"), quantity_text(p.cohesion, "Pa"));
   return laws;
 }
 
@@ -320,14 +321,25 @@ void print_derived(const Forecast& forecast) {
   }
 }
 
-ExitCode check_command(const SceneArguments& arguments) {
-  const LoadedScene scene = load_scene(arguments.scene, arguments.overrides);
-  fmt::print("{} ({}-D)\n", scene.title.empty() ? arguments.scene.filename().string() : scene.title, scene.dimension);
+struct CheckArguments {
+  SceneArguments scene;
+  bool hash = false;  // only the input hash, which needs no blocks
+};
+
+ExitCode check_command(const CheckArguments& arguments) {
+  const auto& [path, overrides] = arguments.scene;
+  if (arguments.hash) {
+    fmt::print("{}\n", input_hash(read_scene(path, overrides)));
+    return ExitCode::done;
+  }
+  const LoadedScene scene = load_scene(path, overrides);
+  fmt::print("{} ({}-D)\n", scene.title.empty() ? path.filename().string() : scene.title, scene.dimension);
   std::visit([&](const auto& prepared) { print_active(*scene.stated, prepared); }, scene.prepared);
   for (std::size_t k = 0; k < scene.from_level.size(); ++k)
     print_line(k == 0 ? "by level" : "", scene.from_level[k]);
   for (std::size_t k = 0; k < scene.stated->renamed.size(); ++k)
     print_line(k == 0 ? "renamed" : "", scene.stated->renamed[k]);
+  print_line("input hash", scene.hash);
   const Assessment assessment = assess(scene);
   print_derived(assessment.forecast);
   for (const std::string& warning : assessment.warnings)
@@ -342,7 +354,8 @@ void add_check(CLI::App& program, Action& action) {
   const auto [command, arguments] =
       add_command(program, action, "check",
                   "report the features a scene uses, a forecast of the run, and likely mistakes", check_command);
-  add_scene(command, arguments);
+  add_scene(command, arguments.scene);
+  command->add_flag("--hash", arguments.hash, "print only the input hash of the scene, which its results.json has too");
 }
 
 }  // namespace voussoir

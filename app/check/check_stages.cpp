@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "app/base/shown_unit.hpp"
 #include "app/check/check_line.hpp"
 #include "core/scene/stage_excavations.hpp"
 #include "text/angle.hpp"
@@ -53,11 +54,13 @@ struct PlanText {
   }
 };
 
-std::string numbers_text(const std::vector<double>& numbers) {
+// in the unit in which values of the SI unit `si` are printed
+std::string numbers_text(const std::vector<double>& numbers, const std::string& si = "1") {
+  const ShownUnit shown = shown_unit(si);
   std::vector<std::string> texts;
   for (const double number : numbers)
-    texts.push_back(fmt::format("{:g}", number + 0.0));
-  return fmt::format("({})", fmt::join(texts, ", "));
+    texts.push_back(fmt::format("{:g}", number / shown.size + 0.0));
+  return fmt::format("({}){}", fmt::join(texts, ", "), after_value(shown));
 }
 
 std::string factor_text(const TimeFactor& factor) {
@@ -88,17 +91,17 @@ std::string change_text(const Change& change) {
   for (const MovePlan& move : change.move)
     text += "; moves blocks " + move_text(move);
   for (const BoundaryPlan& plan : change.boundary) {
-    text +=
-        fmt::format("; stress {} = {} Pa on outer faces of blocks",
-                    plan.stress.size() == 3 ? "(xx, yy, xy)" : "(xx, yy, zz, yz, zx, xy)", numbers_text(plan.stress));
-    if (plan.in_situ)
-      text += fmt::format(" plus the stress of {:g} N/m³ below {:g} m, horizontally {:g}{} times as much",
-                          plan.in_situ->unit_weight.value(), plan.in_situ->surface, plan.in_situ->k0,
-                          plan.in_situ->k0_y ? fmt::format(", along y {:g}", *plan.in_situ->k0_y) : "");
+    text += fmt::format("; stress {} = {} on outer faces of blocks",
+                        plan.stress.size() == 3 ? "(xx, yy, xy)" : "(xx, yy, zz, yz, zx, xy)",
+                        numbers_text(plan.stress, "Pa"));
+    if (const auto& in_situ = plan.in_situ)
+      text += fmt::format(" plus the stress of {} below {:g} m, horizontally {:g}{} times as much",
+                          quantity_text(in_situ->unit_weight.value(), "N/m³"), in_situ->surface, in_situ->k0,
+                          in_situ->k0_y ? fmt::format(", along y {:g}", *in_situ->k0_y) : "");
   }
   for (const ForcePlan& plan : change.force) {
-    text += fmt::format("; force '{}' = {} {} on blocks", plan.name, numbers_text(plan.force),
-                        plan.force.size() == 2 ? "N/m" : "N");
+    text += fmt::format("; force '{}' = {} on blocks", plan.name,
+                        numbers_text(plan.force, plan.force.size() == 2 ? "N/m" : "N"));
     if (!plan.point.empty()) text += fmt::format(" at {} m", numbers_text(plan.point));
     if (plan.turns_with_body) text += ", turning with them";
     text += factor_text(plan.factor);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "app/base/shown_unit.hpp"
 #include "app/check/check_line.hpp"
 #include "core/potential/particle.hpp"
 #include "core/stage/install_bolts.hpp"
@@ -63,11 +64,9 @@ void print_linings(const Prepared<Dim>& prepared) {
     for (const LiningNode& node : lining.nodes)
       longest = std::max(longest, 2 * std::max(node.half_length[0], node.half_length[1]));
     const LiningProperties& p = lining.properties;
-    print_line(
-        label,
-        fmt::format("{}: {} nodes on {} of {} sides, beams up to {:.3g} m long; EA {:.4g} N, EI {:.4g} N m² per m",
-                    p.name, lining.nodes.size(), lining.closed ? "a ring" : "an arc", lining.sides.size(), longest,
-                    p.axial(), p.bending()));
+    print_line(label, fmt::format("{}: {} nodes on {} of {} sides, beams up to {:.3g} m long; EA {}, EI {} per m",
+                                  p.name, lining.nodes.size(), lining.closed ? "a ring" : "an arc", lining.sides.size(),
+                                  longest, quantity_text(p.axial(), "N"), quantity_text(p.bending(), "N m²")));
     label = "";
   }
 }

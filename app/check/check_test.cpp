@@ -35,8 +35,8 @@ TEST_F(Check, PrintsMotionsAndLoadsThatAStagePrescribes) {
                             "[[stage.force]]\nname = \"jack\"\nbodies = [\"stone\"]\nforce = [5e3, 0]\n"
                             "point = [0, 0.5]\nturns_with_body = true\n";
   says(scene, "moves blocks at (0.1, 0) m/s along x, times a sine of 2 Hz from 0 deg on");
-  says(scene, "stress (xx, yy, xy) = (50000, 0, 0) Pa on outer faces");
-  says(scene, "force 'jack' = (5000, 0) N/m on blocks at (0, 0.5) m, turning with them");
+  says(scene, "stress (xx, yy, xy) = (50, 0, 0) kPa on outer faces");
+  says(scene, "force 'jack' = (5, 0) kN/m on blocks at (0, 0.5) m, turning with them");
   says(scene, "turning with them; bonds closed joints that have tension or cohesion; damping");
   says(ground + box("stone", 0, 0) + rock_properties + settle_stage, "bonds, prescribed motion, boundary stress");
 }
@@ -47,9 +47,8 @@ TEST_F(Check, PrintsLawsStrengthsAndSubContacts) {
                             "shear_exponent = 0.7\nfriction_law = \"softening\"\nsoftening_drop = 0.06\n"
                             "softening_slip_m = 0.35\ntension = 7e4\ncohesion = 8e5\n" +
                             settle_stage;
-  for (const char* part :
-       {"3 contact points per face", "normal stiffness + 70000/m", "(normal stress / 1 Pa)^0.7",
-        "softens by 0.06 within 0.35 m", "tension 70000 Pa if bonded", "cohesion 800000 Pa if bonded"})
+  for (const char* part : {"3 contact points per face", "normal stiffness + 70000/m", "(normal stress / 1 Pa)^0.7",
+                           "softens by 0.06 within 0.35 m", "tension 70 kPa if bonded", "cohesion 800 kPa if bonded"})
     says(scene, part);
   says(ground + box("stone", 0, 0) + rock_properties + settle_stage, "one contact point per face");
 }
@@ -75,8 +74,8 @@ TEST_F(Check, PrintsTheContactModelOfEachJoint) {
 TEST_F(Check, PrintsTheVolumeBelowWater) {
   const std::string lake = "[[water]]\nname = \"lake\"\n";
   const std::string scene = ground + box("stone", 0, 0) + rock_properties + lake + "level = 0.25\n" + settle_stage;
-  says(scene, "lake: 9810 N/m³ on all faces; 0.25 m² of the free blocks are below it, 25 %");
-  says(scene, "its uplift on the free blocks is 2452.5 N/m, 12.26 % of their weight");
+  says(scene, "lake: 9.81 kN/m³ on all faces; 0.25 m² of the free blocks are below it, 25 %");
+  says(scene, "its uplift on the free blocks is 2.4525 kN/m, 12.26 % of their weight");
   says(scene + "water = [{ name = \"lake\", level = 0.5, rate = 0.1 }]\n", "water 'lake' changes within 2.5 s");
   silent(scene, "wets none");
   says(ground + box("stone", 0, 0) + rock_properties + lake + "level = -2\n" + settle_stage,
@@ -86,7 +85,7 @@ TEST_F(Check, PrintsTheVolumeBelowWater) {
   says(ground + box("stone", 0, 0) + "density = 900\n" + rock_properties + lake + "level = 3\n" + settle_stage,
        "it floats");
   says(ground + box("stone", 0, 0) + rock_properties + lake + "pressure = 5000\nfaces = \"outer\"\n" + settle_stage,
-       "lake: 5000 Pa on the faces of 0 joints and outside");
+       "lake: 5 kPa on the faces of 0 joints and outside");
   says(ground + box("stone", 0, 0) + rock_properties + settle_stage, "applied forces, water");
 }
 

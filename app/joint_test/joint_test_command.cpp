@@ -8,6 +8,7 @@
 #include "app/base/arguments.hpp"
 #include "app/base/bad_input.hpp"
 #include "app/base/message.hpp"
+#include "app/base/shown_unit.hpp"
 #include "app/run_folder/claimed_folder.hpp"
 #include "core/joint_laws/joint_path.hpp"
 #include "core/output/atomic_file.hpp"
@@ -162,8 +163,9 @@ ExitCode joint_test_command(const JointTestArguments& arguments) {
   write_file(folder / "joint_test.gp", figure(tests, arguments.path == "normal"));
   draw(folder);
 
-  fmt::print("{:<16} {:>12} {:>14} {:>14} {:>14} {:>14}\n", "joint", "test MPa", "closure µm", "normal MPa",
-             "peak shear MPa", "last shear MPa");
+  const ShownUnit stress = shown_unit("Pa");
+  fmt::print("{:<16} {:>12} {:>14} {:>14} {:>14} {:>14}\n", "joint", "test " + stress.name, "closure µm",
+             "normal " + stress.name, "peak shear " + stress.name, "last shear " + stress.name);
   long long snapped = 0;
   for (const JointTest& test : tests) {
     double peak = 0;
@@ -172,8 +174,9 @@ ExitCode joint_test_command(const JointTestArguments& arguments) {
       snapped += p.snap_back ? 1 : 0;
     }
     const JointPathPoint& last = test.points.back();
-    fmt::print("{:<16} {:>12.4g} {:>14.4g} {:>14.4g} {:>14.4g} {:>14.4g}\n", test.name, test.stress * 1e-6,
-               last.overlap * 1e6, last.normal_stress * 1e-6, peak * 1e-6, last.shear_stress * 1e-6);
+    fmt::print("{:<16} {:>12.6g} {:>14.4g} {:>14.6g} {:>14.6g} {:>14.6g}\n", test.name, test.stress / stress.size,
+               last.overlap * 1e6, last.normal_stress / stress.size, peak / stress.size,
+               last.shear_stress / stress.size);
   }
   if (snapped > 0)
     tell(

@@ -140,7 +140,7 @@ std::optional<ExitCode> carry_out_prepared(const LoadedScene& stated, const Load
   remove_checkpoints(job.folder);
   if (!job.quiet) {
     tell_warnings(results.warnings);
-    print_summary(scene.title, results, job.options.rounds, job.folder);
+    print_summary(scene.title, results, job.options.rounds, forces_per_metre<Dim>(prepared.monitors), job.folder);
   } else if (results.outcome != Outcome::done) {
     tell("voussoir: {}: {}\n", outcome_name(results.outcome), results.message);
   }

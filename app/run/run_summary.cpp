@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "app/base/progress_line.hpp"
+#include "app/base/shown_unit.hpp"
 #include "core/run/stable_state.hpp"
 #include "core/scene/stage_excavations.hpp"
 
@@ -14,28 +15,29 @@ namespace voussoir {
 namespace {
 
 // an error bar needs two digits, and its value as many places
-std::string value_text(const Value& value) {
-  const std::string unit = value.unit == "1" ? "" : " " + value.unit;
+std::string value_text(const Value& value, const ShownUnit& shown) {
+  const std::string unit = after_value(shown);
   if (!std::isfinite(value.value)) return "not a finite number" + unit;
-  if (!value.error_bar || *value.error_bar <= 0) return fmt::format("{:.6g}{}", value.value, unit);
-  const int places = std::clamp(1 - static_cast<int>(std::floor(std::log10(*value.error_bar))), 0, 15);
+  if (!value.error_bar || *value.error_bar <= 0) return fmt::format("{:.6g}{}", value.value / shown.size, unit);
+  const double error_bar = *value.error_bar / shown.size;
+  const int places = std::clamp(1 - static_cast<int>(std::floor(std::log10(error_bar))), 0, 15);
   std::string covers = "search bracket and budget";
   if (value.covers == "bracket") covers = "search bracket only; --budget adds the model's errors";
   if (value.covers == "criterion")
     covers = fmt::format("failure criterion only, search bracket ± {:.2g}; --budget adds the model's errors",
                          value.bracket.value_or(0));
-  return fmt::format("{:.{}f} ± {:.{}f}{} ({})", value.value, places, *value.error_bar, places, unit, covers);
+  return fmt::format("{:.{}f} ± {:.{}f}{} ({})", value.value / shown.size, places, error_bar, places, unit, covers);
 }
 
-void print_budget(const Value& value) {
+void print_budget(const Value& value, const ShownUnit& shown) {
   constexpr double least_printed = 0.01;  // of the bar; results.json has all
   for (const BudgetLine& line : value.budget) {
     if (!line.sensitivity && !(std::abs(line.left) >= least_printed * value.error_bar.value_or(0) && line.left != 0))
       continue;
-    fmt::print(
-        "      {:+.2g}{} with {}, {}: {}\n", line.shift, value.unit == "1" ? "" : " " + value.unit, line.varied,
-        line.change,
-        line.sensitivity ? "measured: a sensitivity, no error" : fmt::format("remaining error {:+.2g}", line.left));
+    fmt::print("      {:+.2g}{} with {}, {}: {}\n", line.shift / shown.size, after_value(shown), line.varied,
+               line.change,
+               line.sensitivity ? "measured: a sensitivity, no error"
+                                : fmt::format("remaining error {:+.2g}", line.left / shown.size));
   }
 }
 
@@ -52,13 +54,16 @@ void print_moved(const std::vector<MovedBody>& moved) {
     fmt::print("  and {} more (results.json, moved)\n", moved.size() - most_moved_shown);
 }
 
-void print_values(const std::vector<std::pair<std::string, Value>>& values) {
+void print_values(const std::vector<std::pair<std::string, Value>>& values, const std::set<std::string>& per_metre) {
   std::size_t width = 0;
   for (const auto& [name, value] : values)
     width = std::max(width, name.size());
   for (const auto& [name, value] : values) {
-    fmt::print("  {:<{}}  {}{}\n", name, width, value_text(value), value.rule.empty() ? "" : "  (" + value.rule + ")");
-    print_budget(value);
+    ShownUnit shown = shown_unit(value.unit);
+    if (per_metre.contains(name)) shown.name += "/m";
+    fmt::print("  {:<{}}  {}{}\n", name, width, value_text(value, shown),
+               value.rule.empty() ? "" : "  (" + value.rule + ")");
+    print_budget(value, shown);
     if (!value.divides.empty()) fmt::print("      it {}\n", value.divides);
   }
 }
@@ -84,11 +89,25 @@ void print_cost(const Results& results, const std::vector<AccuracyRound>& rounds
 
 }  // namespace
 
+template <int Dim>
+std::set<std::string> forces_per_metre(const std::vector<Monitor>& monitors) {
+  std::set<std::string> names;
+  if (Dim == 3) return names;
+  for (const Monitor& monitor : monitors) {
+    if (monitor.followed.quantity == Quantity::bolt_force) continue;
+    for (const Column& column : monitor_columns<Dim>({monitor}))
+      if (column.unit == "N" || column.unit == "Nm") names.insert(column.name);
+  }
+  return names;
+}
+template std::set<std::string> forces_per_metre<2>(const std::vector<Monitor>& monitors);
+template std::set<std::string> forces_per_metre<3>(const std::vector<Monitor>& monitors);
+
 void print_summary(const std::string& title, const Results& results, const std::vector<AccuracyRound>& rounds,
-                   const std::filesystem::path& folder) {
+                   const std::set<std::string>& per_metre, const std::filesystem::path& folder) {
   const std::string message = results.message.empty() ? "" : ": " + results.message;
   fmt::print("{}{}{}\n", title.empty() ? "" : title + " - ", outcome_name(results.outcome), message);
-  print_values(results.values);
+  print_values(results.values, per_metre);
   print_stages(results.stages, results.at_last_stable_state);
   if (const auto& bonds = results.bonds)
     fmt::print(

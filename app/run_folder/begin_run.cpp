@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include "app/base/bad_input.hpp"
+#include "app/base/input_hash.hpp"
 #include "app/run_folder/claimed_folder.hpp"
 #include "app/run_folder/run_folder.hpp"
-#include "core/base/fingerprint.hpp"
 #include "core/run/begin.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/shared_stages.hpp"
@@ -61,7 +61,7 @@ AnyProgress progress_at_end(const fs::path& folder, const LoadedScene& scene, st
   const ReadingLock lock(folder);
   require_end_state(folder);
   const Scene base = read_scene(folder / "scene.toml");
-  const std::string base_hash = fingerprint(canonical_text(base));
+  const std::string base_hash = input_hash(base);
   if (base_hash != read_options(folder).scene_hash)
     throw BadInput(fmt::format("'{}' is not the scene that was run there: put it back, or run it once more",
                                (folder / "scene.toml").string()));

@@ -6,7 +6,8 @@ namespace voussoir {
 
 template <int Dim>
 EigenPairs<Dim> eigen_pairs(const Matrix<Dim>& symmetric) {
-  const Eigen::SelfAdjointEigenSolver<Matrix<Dim>> solver(symmetric);
+  // of Eigen's own alignment: the solver of 2 x 2 takes no other
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, Dim, Dim>> solver(symmetric);
   return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
