@@ -11,6 +11,7 @@
 #include "core/run/simulate.hpp"
 #include "core/scene/scene.hpp"
 #include "core/testing/limit_models.hpp"
+#include "text/angle.hpp"
 
 namespace voussoir {
 namespace {
