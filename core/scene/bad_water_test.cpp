@@ -50,9 +50,9 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"no_such_word", "", level + "faces = \"outside\" #!", "water.lake.faces = \"outside\"",
                  "no joint or joint set is named"},
         BadInput{"two_waters", "", level + "faces = [\"A\"]\n" + seep + "level = 2\nfaces = [\"B\", \"A\"] #!",
-                 "water.seep.faces = [\"B\", \"A\"]", "joint 'A' have the water 'lake' already"},
+                 "water.seep.faces = [\"B\", \"A\"]", "joint 'A' already have the water 'lake'"},
         BadInput{"two_waters_outside", "", level + seep + "level = 2\nfaces = \"outer\" #!",
-                 "water.seep.faces = \"outer\"", "the outer faces have the water 'lake' already"},
+                 "water.seep.faces = \"outer\"", "the outer faces already have the water 'lake'"},
         BadInput{"a_number", "", level + "faces = 5 #!", "water.lake.faces = 5", "must be a name or a list of names"},
         BadInput{"a_name_twice", "", level + "faces = [\"A\", \"A\"] #!", "water.lake.faces", "appears twice"}),
     by_name);

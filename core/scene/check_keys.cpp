@@ -104,8 +104,7 @@ constexpr std::pair<std::string_view, std::string_view> former_keys[] = {
 
 [[noreturn]] void refuse_unknown(const Node& node, const Groups& groups, const std::string& path,
                                  std::string_view key) {
-  for (const auto& [former, why] : former_keys)
-    if (path == former) refuse(node, path, std::string(why));
+  if (const std::string_view why = former_key(path); !why.empty()) refuse(node, path, std::string(why));
   std::string rule = "no such key; ";
   const std::vector<std::string> known = keys_of(groups);
   if (const std::string near = nearest(key, known); !near.empty()) {
@@ -370,6 +369,12 @@ int scene_dimension(const Node& scene) {
   if (!stated) refuse({&scene, ""}, row.key, std::string(row.meaning) + "; " + std::string(row.repair));
   Checker{3}.value(row, *stated, std::string(row.key));
   return static_cast<int>(stated->number);
+}
+
+std::string_view former_key(std::string_view path) {
+  for (const auto& [former, why] : former_keys)
+    if (path == former) return why;
+  return {};
 }
 
 void check_keys(const Node& scene) {

@@ -29,6 +29,9 @@ std::string plausible_text(const KeyRow& row);
 // Checks every value of a tree against the table; throws SceneError at the first that does not fit.
 void check_keys(const Node& scene);
 
+// why the key of an earlier version at this path is gone; empty: there was none
+std::string_view former_key(std::string_view path);
+
 // 2 or 3, checked
 int scene_dimension(const Node& scene);
 

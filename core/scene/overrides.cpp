@@ -66,6 +66,7 @@ Target find_target(Node& scene, const std::vector<std::string>& segments, const 
     const KeyRow* row = find_row(groups, segments[i]);
     const std::string holder = path;
     path = key_path(path, segments[i]);
+    if (const std::string_view why = former_key(path); !row && !why.empty()) fail(place, path, std::string(why));
     if (!row) fail(place, path, "no such key; " + suggestion(segments[i], keys_of(groups)));
     if (row->table.empty() && (row->key == "base" || row->key == "joints_file" || row->key == "blocks_file"))
       fail(place, path,
