@@ -92,7 +92,7 @@ TEST_F(Check, PrintsTheVolumeBelowWater) {
 TEST_F(Check, NamesThePresentNameOfEveryKeyThatHadAnother) {
   const std::string stone = ground + box("stone", 0, 0) + rock_properties + settle_stage;
   says(stone + "damping = { statics = \"newton\" }\n",
-       fmt::format("renamed     scene.toml:{}: stage.settle.damping.statics is now stage.settle.statics",
+       fmt::format("renamed     scene.toml:{}: stage.rest.damping.statics is now stage.rest.statics",
                    std::ranges::count(stone, '\n') + 1));
   EXPECT_NE(check(stone, "--set damping.increments=2").find("damping.increments is now static_increments"),
             std::string::npos);

@@ -271,8 +271,8 @@ TEST_F(Import, DamagedFilesAreRefusedInOneLine) {
   };
   traces("[[0, 0], [1]]", "file.geojson:2: coordinates.2: a point is a list of two numbers");
   traces("[[0, 0], [1e13, 0]]", "file.geojson:2: the coordinate exceeds 1e12 m");
-  traces("[[0, 0], [1e400, 0]]", "file.geojson:3: holds a number too large");
-  traces("[[0, 0], [0, 0]]", "file.geojson:2: holds no joint that can be taken");
+  traces("[[0, 0], [1e400, 0]]", "file.geojson:3: has a number too large");
+  traces("[[0, 0], [0, 0]]", "file.geojson:2: has no usable joint");
   EXPECT_TRUE(folder_is_empty());
   // a file of a different kind
   for (const char* format : {"facets", "fab", "dxf", "traces"})
