@@ -111,8 +111,8 @@ double slope(const RequiredStrength& from, const RequiredStrength& to) {
 
 // Judges the line through the last three looks.
 template <int Dim>
-void judge(const Model<Dim>& model, const Moved<Dim>& since_begin, const Work& work, double moved, double loading,
-           double tolerance, TrialWatch<Dim>& trial) {
+void judge_line(const Model<Dim>& model, const Moved<Dim>& since_begin, const Work& work, double moved, double loading,
+                double tolerance, TrialWatch<Dim>& trial) {
   double turned = 0;
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
     turned = std::max(turned, since_begin.turned[b].norm() * model.bodies[b].radius);
@@ -188,8 +188,8 @@ void look(const Model<Dim>& model, const State<Dim>& state, const std::vector<Pl
   if (work.resistance > 0 && work.most > 0 && goes_on) {
     trial.required.push_back({displacement, required_by<Dim>(watch.plan, state.schedule, work)});
     trial.broke = trial.broke || whole_bonds(state.contacts) < trial.bonds;
-    judge(model, moved_between(model, trial.first, placed), work, moved, (bolts - trial.bolts) * work.most,
-          watch.plan.tolerance, trial);
+    judge_line(model, moved_between(model, trial.first, placed), work, moved, (bolts - trial.bolts) * work.most,
+               watch.plan.tolerance, trial);
   }
   trial.last = placed;
   trial.bolts = bolts;

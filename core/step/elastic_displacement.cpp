@@ -16,10 +16,10 @@ namespace {
 constexpr double friction_without_slip = 1.5707;
 
 // Of the stiffest joint: what a body that nothing ties is held by.
-constexpr double least_stiffness = 1e-9;
+constexpr double tie_of_loose_bodies = 1e-9;
 
-constexpr double linear_tolerance = 1e-6;
-constexpr int linear_limit = 1000;
+constexpr double elastic_tolerance = 1e-6;
+constexpr int elastic_iterations = 1000;
 
 // what acts on the free bodies but for joints and supports
 template <int Dim>
@@ -54,7 +54,7 @@ BlockMatrix<freedoms<Dim>> elastic_tangent(const Model<Dim>& model, const Settin
     all.push_back(&pair);
   BlockMatrix<freedoms<Dim>> k = tangent_of<Dim>(settings.threads, all, {}, unknowns.place, unknowns.free);
   const Eigen::VectorXd held = Eigen::VectorXd::Ones(unknowns.free.size()) - unknowns.free;
-  k.add_diagonal(least_stiffness * unknowns.scale.cwiseProduct(unknowns.free) + unknowns.scale.cwiseProduct(held));
+  k.add_diagonal(tie_of_loose_bodies * unknowns.scale.cwiseProduct(unknowns.free) + unknowns.scale.cwiseProduct(held));
   return k;
 }
 
@@ -72,8 +72,8 @@ std::vector<double> elastic_displacements(const Model<Dim>& model, const Setting
   set_trial(model, unknowns, base, Eigen::VectorXd(Eigen::VectorXd::Zero(unknowns.free.size())), state.bodies,
             state.contacts, state.supports, state.ledger, state.time_step);
   const BlockMatrix<freedoms<Dim>> k = elastic_tangent(model, settings, unknowns, base, state);
-  const LinearAnswer solved =
-      solve_blocks(k, loads_without_joints(state.loads, unknowns), linear_tolerance, linear_limit, settings.threads);
+  const LinearAnswer solved = solve_blocks(k, loads_without_joints(state.loads, unknowns), elastic_tolerance,
+                                           elastic_iterations, settings.threads);
   for (std::size_t i = 0; i < unknowns.count(); ++i)
     displacements[unknowns.bodies[i]] = solved.x.template segment<Dim>(freedoms<Dim> * i).norm();
   return displacements;

@@ -6,13 +6,13 @@
 namespace voussoir {
 namespace {
 
-constexpr double longest_step = 2, most_since_base = 0.5;  // elastic displacements
+constexpr double longest_in_trial = 2, most_since_base = 0.5;  // elastic displacements
 
 // of the farthest: bodies that come so far are those that move
-constexpr double moving_share = 0.5;
+constexpr double moving_fraction = 0.5;
 
 // of the displacement: what a turn moves points by, from which bodies turn
-constexpr double turning_share = 0.1;
+constexpr double turning_fraction = 0.1;
 
 template <int Dim>
 Vector<Dim> accepted_of(const StaticIncrement<Dim>& increment, std::size_t place) {
@@ -30,8 +30,8 @@ double longest_of(const Unknowns<Dim>& unknowns, const StaticIncrement<Dim>& inc
   const double most = *std::ranges::max_element(moved);
   double elastic = 0;
   for (std::size_t i = 0; i < moved.size(); ++i)
-    if (moved[i] >= moving_share * most) elastic = std::max(elastic, increment.elastic[unknowns.bodies[i]]);
-  return std::max(longest_step * elastic, most);
+    if (moved[i] >= moving_fraction * most) elastic = std::max(elastic, increment.elastic[unknowns.bodies[i]]);
+  return std::max(longest_in_trial * elastic, most);
 }
 
 }  // namespace
@@ -61,7 +61,7 @@ bool has_slipped_far(const Model<Dim>& model, const Unknowns<Dim>& unknowns, con
     most = std::max(most, moved);
     turned = std::max(turned, turn.norm() * model.bodies[b].radius);
   }
-  return far && turned < turning_share * most;
+  return far && turned < turning_fraction * most;
 }
 
 #define VOUSSOIR_INSTANTIATE(Dim)                                                                             \
