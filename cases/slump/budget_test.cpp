@@ -87,35 +87,6 @@ TEST(SlumpBudget, EnclosesBlocksThatDoNotDilate) {
   try_budgets(52618, 3, 1, {"stage.critical.tolerance_deg=0.2", whole_faces});
 }
 
-// Blocks that turn, judged by the strength that their motion requires: the fit through the stable trials finds the
-// angle at no displacement, which no failure displacement does (0.1 m as above errs by some tenths of a degree).
-void judge_fits(unsigned seed, std::size_t count, int most_layers) {
-  CaseReport report("slump");
-  for (const BudgetScene& scene : draw(seed, count, most_layers, {})) {
-    const SceneRun found = run(scene.scene, {whole_faces, "statics=\"newton\"", "stage.critical.failure_displacement=0",
-                                             "stage.critical.failure_criterion=\"required_strength\""});
-    const Value& critical = *found.results.find("critical_friction");
-    EXPECT_EQ(critical.covers, "criterion") << scene.label;
-    report.record({"critical friction by the fit through stable trials, " + scene.label,
-                   "deg",
-                   verification::Kind::limit,
-                   source,
-                   scene.truth,
-                   {*critical.error_bar + reference_bracket, 0},
-                   "the bar of the result: twice the change without the trial that moved least, or the distance from "
-                   "the bracket; and the reference's bracket"},
-                  critical.value, cost(found));
-  }
-}
-
-TEST(SlumpFit, FindsTheAngleAtNoDisplacement) {
-  judge_fits(52621, 3, 1);
-}
-
-TEST(SlumpFitLong, FindsTheAngleAtNoDisplacement) {
-  judge_fits(52622, 20, 3);
-}
-
 TEST(SlumpBudgetLong, EnclosesBlocksThatDoNotDilate) {
   try_budgets(52619, 40, 4, {});
 }

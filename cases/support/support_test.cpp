@@ -207,7 +207,8 @@ TEST(Support, ABoltHoldsABlockOnASlope) {
 
 // The bolt bends as the block slides: by the strength that its motion requires no displacement has to be stated.
 TEST(Support, ABoltedBlockNeedsNoFailureDisplacementByRequiredStrength) {
-  CaseReport report("support", {"critical friction of the bolted block by required strength"});
+  CaseReport report("support", {"critical friction of the bolted block by required strength, relaxation",
+                                "critical friction of the bolted block by required strength, Newton's method"});
   const double expected = reference::bolted_block_friction(100e3, 40 * degree, 20e3, 30 * degree) / degree;
   for (const auto& [name, statics] : {std::pair("relaxation", "adaptive"), std::pair("Newton's method", "newton")}) {
     const SceneRun found = cases::run("slope.toml", {"stage.critical.failure_displacement=0",

@@ -86,7 +86,8 @@ TEST(PlaneFailure, SlidesUnderTheWaterInItsCrack) {
 
 // The block slides out of its water: by the strength that its motion requires no displacement has to be stated.
 TEST(PlaneFailure, NeedsNoFailureDisplacementByRequiredStrength) {
-  CaseReport report("water", {"critical friction by required strength"});
+  CaseReport report("water", {"critical friction by required strength, relaxation",
+                              "critical friction by required strength, Newton's method"});
   const PlaneFailure slope = plane_failure(1);
   for (const auto& [name, statics] : {std::pair("relaxation", "adaptive"), std::pair("Newton's method", "newton")}) {
     const SceneRun scene = run("scene.toml", {table_of(slope), "stage.critical.failure_displacement=0",
