@@ -4,7 +4,6 @@
 #include <optional>
 #include <utility>
 
-#include "core/base/fingerprint.hpp"
 #include "core/base/version.hpp"
 #include "core/model/state_hash.hpp"
 #include "core/output/atomic_file.hpp"
@@ -196,7 +195,7 @@ std::shared_ptr<const OpenedScene> open_scene(Scene stated) {
   const auto scene = std::make_shared<OpenedScene>();
   scene->stated = std::move(stated);
   scene->text = toml_text(*scene->stated.tree);
-  scene->hash = fingerprint(canonical_text(scene->stated));
+  scene->hash = input_hash(scene->stated);
   scene->stated.dimension == 2 ? cut<2>(*scene) : cut<3>(*scene);
   return scene;
 }

@@ -1,7 +1,6 @@
 #include "app/base/run_scene.hpp"
 
 #include "app/base/bad_input.hpp"
-#include "app/base/input_hash.hpp"
 #include "app/base/message.hpp"
 #include "core/base/version.hpp"
 #include "core/scene/effective_scene.hpp"

@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "app/base/arguments.hpp"
-#include "app/base/input_hash.hpp"
 #include "app/base/run_scene.hpp"
 #include "app/base/shown_unit.hpp"
 #include "app/check/assess.hpp"
@@ -18,6 +17,7 @@
 #include "core/contact/integrable.hpp"
 #include "core/model/water_surfaces.hpp"
 #include "core/scene/judge_values.hpp"
+#include "core/scene/scene.hpp"
 #include "core/step/relaxation.hpp"
 #include "core/step/static_solver.hpp"
 #include "text/angle.hpp"

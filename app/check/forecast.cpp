@@ -21,7 +21,7 @@ template <int Dim>
 double smallest_size(const Model<Dim>& model) {
   double smallest = std::numeric_limits<double>::infinity();
   for (const Body<Dim>& body : model.bodies)
-    if (moves(body)) smallest = std::min(smallest, thickest_part(body));
+    if (moves(body)) smallest = std::min(smallest, inscribed_radius(body));
   return std::isfinite(smallest) ? smallest : 0;
 }
 
@@ -194,7 +194,7 @@ void find_overlaps(const Model<Dim>& model, Forecast& result) {
     if (!moves(body)) continue;
     const double overlap = own_weight_overlap(model, used, body);
     result.overlap = std::max(result.overlap, overlap);
-    result.overlap_fraction = std::max(result.overlap_fraction, overlap / thickest_part(body));
+    result.overlap_fraction = std::max(result.overlap_fraction, overlap / inscribed_radius(body));
   }
 }
 

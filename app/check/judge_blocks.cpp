@@ -50,8 +50,8 @@ void judge_bodies(const Prepared<Dim>& prepared, const Model<Dim>& model, const 
     const Body<Dim>& body = model.bodies[b];
     anything_moves |= body.prescribed;
     if (!moves(body)) continue;
-    smallest = std::min(smallest, thickest_part(body));
-    largest = std::max(largest, thickest_part(body));
+    smallest = std::min(smallest, inscribed_radius(body));
+    largest = std::max(largest, inscribed_radius(body));
     const Motion<Dim>& motion = state.bodies.motions[b];
     anything_moves |= motion.velocity.norm() > 0 || motion.angular_momentum.norm() > 0;
   }

@@ -76,7 +76,7 @@ double slowest_swing(const Model<Dim>& model, double period) {
     if (!moves(body)) continue;
     low = std::min(low, down.dot(body.reference) - body.size);
     high = std::max(high, down.dot(body.reference) + body.size);
-    sum += 2 * thickest_part(body);
+    sum += 2 * inscribed_radius(body);
     ++count;
   }
   if (count == 0) return period;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "app/base/bad_input.hpp"
-#include "app/base/input_hash.hpp"
 #include "app/run_folder/claimed_folder.hpp"
 #include "app/run_folder/run_folder.hpp"
 #include "core/run/begin.hpp"

@@ -184,7 +184,8 @@ struct Resolver {
   bool find_centre(Vector<Dim>& point) {
     if (search_centre(point)) return true;
     // a warm start can be unlucky; a cold one is the definition
-    return proven == 0 && !lp_solved && (!establish_cold() || search_centre(point)) && lp_solved;
+    if (proven != 0 || lp_solved) return false;
+    return establish_cold() ? search_centre(point) : lp_solved;
   }
 
   bool find_central_point(Vector<Dim>& point) {

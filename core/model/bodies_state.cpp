@@ -34,6 +34,21 @@ Spin<3> angular_momentum(const Body<3>& body, const Rotation<3>& rotation, const
 }
 
 template <int Dim>
+void note_placements(const BodiesState<Dim>& bodies, std::vector<Placement<Dim>>& placements) {
+  placements.clear();
+  for (const Motion<Dim>& m : bodies.motions)
+    placements.push_back({m.displacement, m.rotation});
+}
+
+template <int Dim>
+std::vector<Vector<Dim>> displacements(const BodiesState<Dim>& bodies) {
+  std::vector<Vector<Dim>> moved;
+  for (const Motion<Dim>& m : bodies.motions)
+    moved.push_back(m.displacement);
+  return moved;
+}
+
+template <int Dim>
 void cache_poses(const Model<Dim>& model, int threads, BodiesState<Dim>& bodies) {
   bodies.poses.resize(model.bodies.size());
   each_on_threads(threads, bodies.poses.size(), [&](int b) {
@@ -74,5 +89,9 @@ template Vector<2> between<2>(const CachedPose<2>&, const CachedPose<2>&);
 template Vector<3> between<3>(const CachedPose<3>&, const CachedPose<3>&);
 template Standing<2> standing<2>(const CachedPose<2>&);
 template Standing<3> standing<3>(const CachedPose<3>&);
+template void note_placements<2>(const BodiesState<2>&, std::vector<Placement<2>>&);
+template void note_placements<3>(const BodiesState<3>&, std::vector<Placement<3>>&);
+template std::vector<Vector<2>> displacements<2>(const BodiesState<2>&);
+template std::vector<Vector<3>> displacements<3>(const BodiesState<3>&);
 
 }  // namespace voussoir

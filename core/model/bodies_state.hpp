@@ -55,6 +55,14 @@ Vector<Dim> between(const CachedPose<Dim>& a, const CachedPose<Dim>& b);
 template <int Dim>
 Standing<Dim> standing(const CachedPose<Dim>& pose);
 
+// Where the bodies stand now, m and orientations; the list keeps its memory.
+template <int Dim>
+void note_placements(const BodiesState<Dim>& bodies, std::vector<Placement<Dim>>& placements);
+
+// m, by body
+template <int Dim>
+std::vector<Vector<Dim>> displacements(const BodiesState<Dim>& bodies);
+
 // BodiesState::poses from the motions
 template <int Dim>
 void cache_poses(const Model<Dim>& model, int threads, BodiesState<Dim>& bodies);

@@ -180,8 +180,7 @@ void append_water(std::vector<double>& values, const Monitor& monitor, const Mod
 template <int Dim>
 StageEnd<Dim> stage_end(int stage, const State<Dim>& state) {
   StageEnd<Dim> end{stage, {}};
-  for (const Motion<Dim>& m : state.bodies.motions)
-    end.bodies.push_back({m.displacement, m.rotation});
+  note_placements(state.bodies, end.bodies);
   return end;
 }
 

@@ -83,16 +83,9 @@ Work work_of(const Model<Dim>& model, const State<Dim>& state, const WatchPlan& 
   return work;
 }
 
-// tan φ or 1/F
-double strength_in_force(const WatchPlan& plan, const Schedule& schedule) {
-  const int first = plan.properties.front();
-  if (plan.searched == Searched::friction) return std::tan(schedule.friction[first]);
-  return schedule.strength_factor.empty() ? 1 : 1 / schedule.strength_factor[first];
-}
-
-template <int Dim>
 double required_by(const WatchPlan& plan, const Schedule& schedule, const Work& work) {
-  const double in_force = strength_in_force(plan, schedule), more = work.power / work.resistance;
+  const double in_force = strength_of(plan.searched, level_in_force(plan.searched, plan.properties, schedule));
+  const double more = work.power / work.resistance;
   return plan.searched == Searched::friction ? in_force + more : in_force * (1 + more);
 }
 
@@ -133,48 +126,52 @@ void judge_line(const Model<Dim>& model, const Moved<Dim>& since_begin, const Wo
                moved >= until_elastic_is_spent * trial.elastic;
 }
 
+template <int Dim>
+const Vector<Dim>& displacement_of(const Vector<Dim>& displacement) {
+  return displacement;
+}
+template <int Dim>
+const Vector<Dim>& displacement_of(const Placement<Dim>& placed) {
+  return placed.displacement;
+}
+
 }  // namespace
 
-MovingBodies moving_bodies(const std::vector<double>& moved, const std::vector<double>& values) {
-  MovingBodies moving{.farthest = moved.empty() ? 0 : std::ranges::max(moved)};
-  for (std::size_t b = 0; b < moved.size(); ++b)
-    if (moved[b] >= moving_share * moving.farthest) moving.most_of = std::max(moving.most_of, values[b]);
+template <int Dim, class From>
+MovingBodies moving_bodies(const Model<Dim>& model, const std::vector<From>& from,
+                           const std::vector<Placement<Dim>>& placed, const std::vector<double>& values) {
+  const auto moved = [&](std::size_t b) {
+    return model.bodies[b].fixed ? 0 : (placed[b].displacement - displacement_of<Dim>(from[b])).norm();
+  };
+  MovingBodies moving;
+  for (std::size_t b = 0; b < placed.size(); ++b)
+    moving.farthest = std::max(moving.farthest, moved(b));
+  for (std::size_t b = 0; b < placed.size(); ++b)
+    if (moved(b) >= moving_share * moving.farthest) moving.most_of = std::max(moving.most_of, values[b]);
   return moving;
 }
 
 template <int Dim>
-std::vector<double> moved_since(const Model<Dim>& model, const std::vector<Vector<Dim>>& displacements,
-                                const std::vector<Placement<Dim>>& placed) {
-  std::vector<double> moved;
-  for (std::size_t b = 0; b < placed.size(); ++b)
-    moved.push_back(model.bodies[b].fixed ? 0 : (placed[b].displacement - displacements[b]).norm());
-  return moved;
-}
-
-template <int Dim>
-std::vector<Placement<Dim>> placements(const BodiesState<Dim>& bodies) {
-  std::vector<Placement<Dim>> placed;
-  placed.reserve(bodies.motions.size());
-  for (const Motion<Dim>& m : bodies.motions)
-    placed.push_back({m.displacement, m.rotation});
-  return placed;
+bool has_failed_by_displacement(const Model<Dim>& model, const std::vector<Vector<Dim>>& began,
+                                const std::vector<Placement<Dim>>& placed, const WatchPlan& plan) {
+  const MovingBodies moving = moving_bodies(model, began, placed, plan.moved_away);
+  return moving.farthest > moving.most_of;
 }
 
 template <int Dim>
 void begin_watch(const State<Dim>& state, double level, FailureWatch<Dim>& watch) {
   watch.trial = {};
-  watch.trial.first = watch.trial.last = placements(state.bodies);
-  for (const Motion<Dim>& m : state.bodies.motions)
-    watch.trial.begin.push_back(m.displacement);
+  note_placements(state.bodies, watch.trial.first);
+  watch.trial.last = watch.trial.first;
   watch.trial.bonds = whole_bonds(state.contacts);
-  watch.trial.target = watch.plan.searched == Searched::friction ? std::tan(level) : 1 / level;
+  watch.trial.target = strength_of(watch.plan.searched, level);
 }
 
 template <int Dim>
 void look(const Model<Dim>& model, const State<Dim>& state, const std::vector<Placement<Dim>>& placed,
           const std::vector<Vector<Dim>>& began, FailureWatch<Dim>& watch) {
   TrialWatch<Dim>& trial = watch.trial;
-  const MovingBodies moving = moving_bodies(moved_since(model, trial.begin, placed), watch.plan.elastic);
+  const MovingBodies moving = moving_bodies(model, trial.first, placed, watch.plan.elastic);
   const double moved = moving.farthest;
   if (!(moved > 0)) return;
   trial.elastic = moving.most_of;
@@ -182,11 +179,11 @@ void look(const Model<Dim>& model, const State<Dim>& state, const std::vector<Pl
 
   const Moved<Dim> since_last = moved_between(model, trial.last, placed);
   const Work work = work_of(model, state, watch.plan, since_last);
-  const double displacement = std::ranges::max(moved_since(model, began, placed));
+  const double displacement = moving_bodies(model, began, placed, watch.plan.elastic).farthest;
   const double bolts = forces_of_bolts(model, state.loads);
   const bool goes_on = trial.required.empty() || displacement > trial.required.back().displacement;
   if (work.resistance > 0 && work.most > 0 && goes_on) {
-    trial.required.push_back({displacement, required_by<Dim>(watch.plan, state.schedule, work)});
+    trial.required.push_back({displacement, required_by(watch.plan, state.schedule, work)});
     trial.broke = trial.broke || whole_bonds(state.contacts) < trial.bonds;
     judge_line(model, moved_between(model, trial.first, placed), work, moved, (bolts - trial.bolts) * work.most,
                watch.plan.tolerance, trial);
@@ -218,6 +215,7 @@ std::vector<int> chosen_properties(const Model<Dim>& model, const ReducePlan& pl
 
 template <int Dim>
 std::string not_watched(const Model<Dim>& model, const ReducePlan& plan, const SupportsState<Dim>& supports) {
+  if (plan.failure_displacement > 0) return "a failure displacement is stated";
   if (plan.method != ReductionMethod::bisection) return "the search does not bisect";
   if (plan.failure_fraction > 0) return "a fraction of the blocks must fail";
   if (!model.prescribed.empty()) return "bodies are driven";
@@ -232,9 +230,7 @@ std::string not_watched(const Model<Dim>& model, const ReducePlan& plan, const S
 template <int Dim>
 WatchPlan watch_plan(const Model<Dim>& model, const Settings& settings, const ReducePlan& plan, const Levels& levels,
                      const State<Dim>& stable) {
-  if (plan.failure_displacement > 0 || plan.criterion == FailureCriterion::displacement ||
-      !not_watched(model, plan, stable.supports).empty())
-    return {};
+  if (plan.criterion == FailureCriterion::displacement || !not_watched(model, plan, stable.supports).empty()) return {};
   WatchPlan watch{.searched = plan.searched,
                   .properties = chosen_properties(model, plan),
                   .elastic = elastic_displacements(model, settings, stable)};
@@ -248,7 +244,9 @@ WatchPlan watch_plan(const Model<Dim>& model, const Settings& settings, const Re
 template <int Dim>
 void note_stable_trial(const Model<Dim>& model, const State<Dim>& state, const std::vector<Vector<Dim>>& began,
                        const WatchPlan& plan, double strength, SearchEstimates& known) {
-  const MovingBodies moving = moving_bodies(moved_since(model, began, placements(state.bodies)), plan.moved_away);
+  std::vector<Placement<Dim>> placed;
+  note_placements(state.bodies, placed);
+  const MovingBodies moving = moving_bodies(model, began, placed, plan.moved_away);
   known.stable.push_back(
       {.level = strength, .displacement = moving.farthest, .of_failure = moving.farthest / moving.most_of});
 }
@@ -266,9 +264,12 @@ void note_failed_trial(const TrialWatch<Dim>& trial, double strength, SearchEsti
 }
 
 #define VOUSSOIR_INSTANTIATE(Dim)                                                                             \
-  template std::vector<double> moved_since<Dim>(const Model<Dim>&, const std::vector<Vector<Dim>>&,           \
-                                                const std::vector<Placement<Dim>>&);                          \
-  template std::vector<Placement<Dim>> placements<Dim>(const BodiesState<Dim>&);                              \
+  template MovingBodies moving_bodies<Dim>(const Model<Dim>&, const std::vector<Vector<Dim>>&,                \
+                                           const std::vector<Placement<Dim>>&, const std::vector<double>&);   \
+  template MovingBodies moving_bodies<Dim>(const Model<Dim>&, const std::vector<Placement<Dim>>&,             \
+                                           const std::vector<Placement<Dim>>&, const std::vector<double>&);   \
+  template bool has_failed_by_displacement<Dim>(const Model<Dim>&, const std::vector<Vector<Dim>>&,           \
+                                                const std::vector<Placement<Dim>>&, const WatchPlan&);        \
   template void begin_watch<Dim>(const State<Dim>&, double, FailureWatch<Dim>&);                              \
   template void look<Dim>(const Model<Dim>&, const State<Dim>&, const std::vector<Placement<Dim>>&,           \
                           const std::vector<Vector<Dim>>&, FailureWatch<Dim>&);                               \

@@ -38,7 +38,6 @@ struct RequiredStrength {
 // what one trial has shown so far
 template <int Dim>
 struct TrialWatch {
-  std::vector<Vector<Dim>> begin;           // m, by body: displacements when the trial began
   std::vector<Placement<Dim>> first, last;  // by body: where the trial began; at the last look
   double bolts = 0;                         // N: forces of bolts on bodies at the last look
   long long bonds = 0;                      // whole at the begin
@@ -67,23 +66,21 @@ template <int Dim>
 void look(const Model<Dim>& model, const State<Dim>& state, const std::vector<Placement<Dim>>& placed,
           const std::vector<Vector<Dim>>& began, FailureWatch<Dim>& watch);
 
-// The bodies that move: those that have come at least half as far as the one that moved most.
+// The bodies that move: those that have come at least half as far as the one that moved most since the displacements or
+// placements `from`; held ones do not count. `values` by body.
 struct MovingBodies {
   double farthest = 0;  // m
   double most_of = 0;   // the largest of their values
 };
+template <int Dim, class From>
+MovingBodies moving_bodies(const Model<Dim>& model, const std::vector<From>& from,
+                           const std::vector<Placement<Dim>>& placed, const std::vector<double>& values);
 
-// both by body; m
-MovingBodies moving_bodies(const std::vector<double>& moved, const std::vector<double>& values);
-
-// m, by body: how far it is from a displacement; 0 of one that is held
+// Whether the bodies that move have come as far as any of them may: a splinter that rides on blocks fails with them,
+// one that moves alone by itself.
 template <int Dim>
-std::vector<double> moved_since(const Model<Dim>& model, const std::vector<Vector<Dim>>& displacements,
-                                const std::vector<Placement<Dim>>& placed);
-
-// where the bodies of a state are
-template <int Dim>
-std::vector<Placement<Dim>> placements(const BodiesState<Dim>& bodies);
+bool has_failed_by_displacement(const Model<Dim>& model, const std::vector<Vector<Dim>>& began,
+                                const std::vector<Placement<Dim>>& placed, const WatchPlan& plan);
 
 // without a stated displacement, bodies that moved by this fraction of their inscribed radius have failed
 inline constexpr double failure_fraction_of_radius = 0.1;

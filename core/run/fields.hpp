@@ -85,8 +85,8 @@ void visit_fields(Just<RequiredStrength> auto& r, auto&& visit) {
 }
 
 void visit_fields(Either<TrialWatch> auto& t, auto&& visit) {
-  auto& [begin, first, last, bolts, bonds, target, looks, required, elastic, lost, straight, turns, broke] = t;
-  visit(Saved{}, begin, first, last, bolts, bonds, target, looks, required, elastic, lost, straight, turns, broke);
+  auto& [first, last, bolts, bonds, target, looks, required, elastic, lost, straight, turns, broke] = t;
+  visit(Saved{}, first, last, bolts, bonds, target, looks, required, elastic, lost, straight, turns, broke);
 }
 
 void visit_fields(Either<FailureWatch> auto& w, auto&& visit) {

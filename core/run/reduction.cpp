@@ -88,7 +88,7 @@ struct Search {
     }
     // strength is reduced gradually to the trial's level: a sudden change would set the model in motion, and slip due
     // to inertia would destroy the shear locked in during settlement
-    progress.level_from = level_in_force();
+    progress.level_from = level_now();
     progress.level_rate = 0;
     const double ramp = static_cast<double>(plan.ramp_steps) * state.time_step.length;
     const double fall = levels.direction * (progress.target - progress.level_from);
@@ -116,11 +116,7 @@ struct Search {
            std::abs(progress.failed - progress.failed_from) > far_base * bracket();
   }
 
-  double level_in_force() const {
-    const Schedule& schedule = state.schedule;
-    if (plan.searched == Searched::friction) return schedule.friction[properties.front()];
-    return schedule.strength_factor.empty() ? 1 : schedule.strength_factor[properties.front()];
-  }
+  double level_now() const { return level_in_force(plan.searched, properties, state.schedule); }
 
   // relaxation and true motion alternate
   bool relaxes_first(const Attempt& attempt) const { return relaxes(!attempt.falls, settings.statics); }
@@ -141,10 +137,7 @@ struct Search {
   SearchTrial run_turn(const Attempt& attempt) {
     RunGoal goal;
     goal.rest = !attempt.falls;
-    if (watches())
-      goal.moved_away_of = progress.watch.plan.moved_away;
-    else
-      goal.moved_away = failure_displacement;
+    if (!watches()) goal.moved_away = failure_displacement;
     goal.moved_fraction = plan.failure_fraction;
     goal.step_limit = plan.step_limit - progress.trial_steps;
     if (relaxes_first(attempt)) goal.step_limit = std::min(*goal.step_limit, round());
@@ -162,7 +155,7 @@ struct Search {
   }
 
   // the level that the trial has reached
-  double level_of(const Attempt& attempt) const { return attempt.falls ? level_in_force() : attempt.target; }
+  double level_of(const Attempt& attempt) const { return attempt.falls ? level_now() : attempt.target; }
 
   // nothing: interrupted, or a numerical failure
   std::optional<SearchTrial> carry_out(const Attempt& attempt) {
@@ -257,7 +250,8 @@ struct Search {
     const Vector<Dim>& velocity = state.bodies.motions[body].velocity;
     const double away = velocity.dot(state.bodies.motions[body].displacement - progress.begin[body]) / most;
     return fmt::format("{} has moved by {:.3g} m of the {:.3g} m that are failure and {} at {:.2g} m/s",
-                       label_of(model, body), most, failure_displacement,
+                       label_of(model, body), most,
+                       watches() ? progress.watch.plan.moved_away[body] : failure_displacement,
                        away > 0.5 * velocity.norm() ? "creeps" : "oscillates", velocity.norm());
   }
 
@@ -290,6 +284,13 @@ struct Search {
       return "failed: the strength that the motion requires falls in a straight line after ten elastic displacements, "
              "or a "
              "body moved by a tenth of its inscribed radius";
+    return failed_by_displacement() + not_watched_rule();
+  }
+  std::string not_watched_rule() const {
+    if (plan.criterion != FailureCriterion::required_strength) return "";
+    return fmt::format(" (not by the required strength: {})", not_watched(model, plan, state.supports));
+  }
+  std::string failed_by_displacement() const {
     if (plan.failure_fraction == 0) return fmt::format("failed: a body moved more than {:.3g} m", failure_displacement);
     return fmt::format("failed: bodies of {:g} of the free mass moved more than {:.3g} m", plan.failure_fraction,
                        failure_displacement);
@@ -414,9 +415,7 @@ struct Search {
   // -------------------------------------------------------------------------------------------------------------------
 
   void search() {
-    if (progress.begin.empty())
-      for (const Motion<Dim>& m : state.bodies.motions)
-        progress.begin.push_back(m.displacement);
+    if (progress.begin.empty()) progress.begin = displacements(state.bodies);
     switch (plan.method) {
       case ReductionMethod::bisection:
         return bisect();

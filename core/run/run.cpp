@@ -71,21 +71,11 @@ bool follow(const Model<Dim>& model, const RunSchedule& plan, Schedule& schedule
 
 // where the bodies are; while the static solver is at work, at the last trial that it accepted
 template <int Dim>
-std::vector<Placement<Dim>> accepted_or_now(const Model<Dim>& model, const State<Dim>& state) {
-  return state.increment.under_way ? accepted_placements(model, state.increment) : placements(state.bodies);
-}
-
-bool ends_by_displacement(const RunGoal& goal) {
-  return goal.moved_away || !goal.moved_away_of.empty();
-}
-
-// Whether the bodies that move have come as far as any of them may, by its own measure: a splinter that rides on blocks
-// has failed with them, one that moves alone by itself.
-template <int Dim>
-bool has_moved_by_own_measure(const Model<Dim>& model, const std::vector<double>& moved_away,
-                              const std::vector<Vector<Dim>>& begin, const std::vector<Placement<Dim>>& placed) {
-  const MovingBodies moving = moving_bodies(moved_since(model, begin, placed), moved_away);
-  return moving.farthest > moving.most_of;
+void note_accepted(const Model<Dim>& model, const State<Dim>& state, std::vector<Placement<Dim>>& placed) {
+  if (state.increment.under_way)
+    placed = accepted_placements(model, state.increment);
+  else
+    note_placements(state.bodies, placed);
 }
 
 // Whether enough bodies have moved away. If one body is not enough, those that have are left behind.
@@ -244,16 +234,14 @@ bool begins_newton(const Model<Dim>& model, const Settings& settings, const RunP
 }
 
 template <int Dim>
-RunProgress<Dim> begin_run(const RunGoal& goal, const Counters& counters, BodiesState<Dim>& bodies,
-                           Schedule& schedule) {
+RunProgress<Dim> begin_run(const RunGoal& goal, bool by_displacement, const Counters& counters,
+                           BodiesState<Dim>& bodies, Schedule& schedule) {
   schedule.ends = goal.end_time.value_or(never);
   bodies.left_behind.clear();
   RunProgress<Dim> progress;
   progress.under_way = true;
   progress.unconverged = counters.unconverged;
-  if (ends_by_displacement(goal))
-    for (const Motion<Dim>& m : bodies.motions)
-      progress.begin.push_back(m.displacement);
+  if (by_displacement) progress.begin = displacements(bodies);
   return progress;
 }
 
@@ -295,10 +283,10 @@ std::string label_of(const Model<Dim>& model, int body) {
 template <int Dim>
 RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& goal, const RunSchedule& schedule,
               State<Dim>& state, RunProgress<Dim>& progress, const RunHooks<Dim>& hooks, FailureWatch<Dim>* watch) {
-  const bool relaxing = relaxes(goal.rest, settings.statics);
+  const bool relaxing = relaxes(goal.rest, settings.statics), by_displacement = goal.moved_away || watch;
   if (!progress.under_way) {
     std::vector<Vector<Dim>> stated = std::move(progress.begin);
-    progress = begin_run(goal, state.counters, state.bodies, state.schedule);
+    progress = begin_run(goal, by_displacement, state.counters, state.bodies, state.schedule);
     if (!stated.empty()) progress.begin = std::move(stated);
   }
   RunReport report;
@@ -316,6 +304,7 @@ RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& 
 
   // the forces of a step, and evaluations after the run, use the schedule at the time of the positions
   bool changing = follow(model, schedule, state.schedule, state.loads.relief);
+  std::vector<Placement<Dim>> placed;  // for the watch
   // made once: no step allocates memory
   const std::function<void(State<Dim>&)> with_forces = [&](State<Dim>& now) {
     if (progress.steps == 0) stop_bodies(model, relaxing, now);
@@ -323,14 +312,18 @@ RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& 
       begin_newton(model, settings, progress.steps == 0 ? ramp_of(schedule) : 0,
                    watch ? watch->plan.elastic : std::vector<double>{}, now);
     // a trial of the static solver is looked at when it has been judged
-    if (watch && !now.increment.under_way) look(model, now, placements(now.bodies), progress.begin, *watch);
+    if (watch && !now.increment.under_way) {
+      note_placements(now.bodies, placed);
+      look(model, now, placed, progress.begin, *watch);
+    }
     if (hooks.with_forces) hooks.with_forces(now);
   };
   while (true) {
     if (hooks.pause && hooks.pause()) return stop(StopReason::interrupted);
     const bool tried = state.increment.under_way;
     step<Dim>(model, settings, state, with_forces);
-    if (watch && tried) look(model, state, accepted_or_now(model, state), progress.begin, *watch);
+    if (watch) note_accepted(model, state, placed);
+    if (watch && tried) look(model, state, placed, progress.begin, *watch);
     const bool changed = std::exchange(changing, follow(model, schedule, state.schedule, state.loads.relief));
     ++progress.steps;
     report.unbalanced = goal.rest ? unbalanced_ratio(model, settings.threads, state) : -1;
@@ -350,14 +343,13 @@ RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& 
     if (watch && watch->trial.lost) return stop(StopReason::lost_equilibrium);
     if (goal.moved_away && has_moved_away(model, goal, progress.begin, state.increment, state.bodies))
       return stop(StopReason::moved_away);
-    if (!goal.moved_away_of.empty() &&
-        has_moved_by_own_measure(model, goal.moved_away_of, progress.begin, accepted_or_now(model, state)))
+    if (watch && has_failed_by_displacement(model, progress.begin, placed, watch->plan))
       return stop(StopReason::moved_away);
     if (goal.end_time && state.schedule.time >= *goal.end_time) return stop(StopReason::end_time);
     if (goal.rest && !evaluated && std::isinf(report.unbalanced))
       if (const std::string loose = loose_support(model, state); !loose.empty())
         return stop(StopReason::lining_loose, loose + ", and nothing else exerts a force");
-    if (goal.rest && !ends_by_displacement(goal) && !may_return(schedule, changing) && !state.increment.under_way &&
+    if (goal.rest && !by_displacement && !may_return(schedule, changing) && !state.increment.under_way &&
         progress.steps % steps_between_falls == 0)
       if (const int body = falling_free(model, state); body >= 0)
         return stop(StopReason::falls_free,

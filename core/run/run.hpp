@@ -35,7 +35,6 @@ struct RunGoal {
   std::optional<double> time_limit = {};     // s: simulated time at which the run gives up
   std::optional<long long> step_limit = {};  // of this run
   std::optional<double> moved_away = {};     // m: stop when a free body is this far from RunProgress::begin
-  std::vector<double> moved_away_of{};       // m, by body: the same, each by its own
   double moved_fraction = 0;                 // or when bodies of this fraction of the free mass are; 0: any body
 };
 

@@ -65,10 +65,11 @@ bool last_two_agree(const Levels& levels, const std::vector<TrialEstimate>& esti
 
 double error_of_estimate(const Levels& levels, const Bracket& bracket, const std::vector<TrialEstimate>& estimates) {
   const TrialEstimate& last = estimates.back();
-  const double level = levels.level_of(last.critical), n = estimates.size();
+  const std::size_t n = estimates.size();
+  const double level = levels.level_of(last.critical);
   const double taken_out = std::abs(level - levels.level_of(last.critical - last.taken_out));
   const double other = n < 2 ? 0.5 * std::abs(bracket.failed - bracket.stable)
-                             : std::abs(level - levels.level_of(estimates[estimates.size() - 2].critical));
+                             : std::abs(level - levels.level_of(estimates[n - 2].critical));
   return error_of_line * taken_out + other;
 }
 

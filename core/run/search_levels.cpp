@@ -17,8 +17,13 @@ double Levels::safer(double a, double b) const {
   return direction < 0 ? std::max(a, b) : std::min(a, b);
 }
 
-double Levels::strength(double level) const {
+double strength_of(Searched searched, double level) {
   return searched == Searched::friction ? std::tan(level) : 1 / level;
+}
+
+double level_in_force(Searched searched, const std::vector<int>& properties, const Schedule& schedule) {
+  if (searched == Searched::friction) return schedule.friction[properties.front()];
+  return schedule.strength_factor.empty() ? 1 : schedule.strength_factor[properties.front()];
 }
 
 double Levels::level_of(double strength) const {

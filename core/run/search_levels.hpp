@@ -3,10 +3,18 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "core/base/settings.hpp"
+#include "core/model/schedule.hpp"
 
 namespace voussoir {
+
+// tan φ of a friction angle, or the inverse of a factor: in it the strength that a motion requires is a sum
+double strength_of(Searched searched, double level);
+
+// the level at which the reduced properties, one at least, are now
+double level_in_force(Searched searched, const std::vector<int>& properties, const Schedule& schedule);
 
 struct Levels {
   Searched searched;
@@ -22,8 +30,7 @@ struct Levels {
   // the one of two that is nearer to stability
   double safer(double a, double b) const;
 
-  // tan φ, or the inverse of a factor: in it the strength that a motion requires is a sum, and a search goes down
-  double strength(double level) const;
+  double strength(double level) const { return strength_of(searched, level); }
   double level_of(double strength) const;
 };
 

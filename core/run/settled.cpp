@@ -141,8 +141,7 @@ struct Settling {
 template <int Dim>
 SettleBegin<Dim> settle_begin(const Model<Dim>& model, const State<Dim>& state, bool moving) {
   SettleBegin<Dim> begin;
-  for (const Motion<Dim>& m : state.bodies.motions)
-    begin.placed.push_back({m.displacement, m.rotation});
+  note_placements(state.bodies, begin.placed);
   std::map<std::pair<int, int>, bool> near;
   for (const Contact<Dim>& c : state.contacts.list)
     if (c.status != ContactStatus::apart)

@@ -1,3 +1,4 @@
+#include "core/base/fingerprint.hpp"
 #include "core/scene/renamed_keys.hpp"
 #include "core/scene/scene.hpp"
 
@@ -54,6 +55,10 @@ std::string canonical_text(const Node& part) {
 
 std::string canonical_text(const Scene& scene) {
   return canonical_text(with_earliest_names(*scene.tree));
+}
+
+std::string input_hash(const Scene& scene) {
+  return fingerprint(canonical_text(scene));
 }
 
 }  // namespace voussoir

@@ -223,19 +223,19 @@ std::string described(const Model<Dim>& model, const Body<Dim>& body) {
 
 template <int Dim>
 void judge_sizes(const Scene& scene, const Model<Dim>& model, Warnings& warnings) {
-  const auto by_size = [](const Body<Dim>& a, const Body<Dim>& b) { return thickest_part(a) < thickest_part(b); };
+  const auto by_size = [](const Body<Dim>& a, const Body<Dim>& b) { return inscribed_radius(a) < inscribed_radius(b); };
   const auto by_radius = [](const Body<Dim>& a, const Body<Dim>& b) { return a.radius < b.radius; };
   const Body<Dim>& thinnest = *std::min_element(model.bodies.begin(), model.bodies.end(), by_size);
   const Body<Dim>& largest = *std::max_element(model.bodies.begin(), model.bodies.end(), by_radius);
   const std::string file = scene.file + ": ";
-  const double thickness = 2 * thickest_part(thinnest);
+  const double thickness = 2 * inscribed_radius(thinnest);
   if (thickness < least_block)
     warnings.push_back(file + described(model, thinnest) + " is " + text(thickness) +
                        " m thick; coordinates are in m, were they given in km, or is it a sliver "
                        "(slicing.smallest_inscribed_radius)?");
   for (const Body<Dim>& body : model.bodies)
-    if (!body.fixed && 2 * thickest_part(body) > most_block) {
-      warnings.push_back(file + described(model, body) + " is " + text(2 * thickest_part(body)) +
+    if (!body.fixed && 2 * inscribed_radius(body) > most_block) {
+      warnings.push_back(file + described(model, body) + " is " + text(2 * inscribed_radius(body)) +
                          " m thick; coordinates are in m, were they given in mm?");
       break;
     }
@@ -258,9 +258,9 @@ void judge_sizes(const Scene& scene, const Model<Dim>& model, Warnings& warnings
 template <int Dim>
 double extent_of(const Model<Dim>& model) {
   Vector<Dim> low = model.bodies.front().reference, high = low;
-  double thinnest = thickest_part(model.bodies.front());
+  double thinnest = inscribed_radius(model.bodies.front());
   for (const Body<Dim>& body : model.bodies)
-    thinnest = std::min(thinnest, thickest_part(body));
+    thinnest = std::min(thinnest, inscribed_radius(body));
   for (const Body<Dim>& body : model.bodies)
     for (const Polytope<Dim>& part : body.parts)
       for (const Vector<Dim>& v : part.vertices) {
@@ -439,14 +439,6 @@ std::string endless_joints(const Scene& scene, std::size_t blocks) {
 }
 
 template <int Dim>
-double thickest_part(const Body<Dim>& body) {
-  double radius = 0;
-  for (const Polytope<Dim>& part : body.parts)
-    radius = std::max(radius, part.inscribed_radius);
-  return radius;
-}
-
-template <int Dim>
 std::vector<bool> properties_of_faces(const Model<Dim>& model) {
   std::vector<bool> used(model.properties.size(), false);
   for (const Body<Dim>& body : model.bodies) {
@@ -460,8 +452,6 @@ std::vector<bool> properties_of_faces(const Model<Dim>& model) {
   return used;
 }
 
-template double thickest_part<2>(const Body<2>&);
-template double thickest_part<3>(const Body<3>&);
 template std::vector<bool> properties_of_faces<2>(const Model<2>&);
 template std::vector<bool> properties_of_faces<3>(const Model<3>&);
 

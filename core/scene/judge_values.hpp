@@ -21,11 +21,6 @@ std::vector<std::string> judge_values(const Scene& scene, const Prepared<Dim>& p
 // other scenes, and if infinite joints are intended.
 std::string endless_joints(const Scene& scene, std::size_t blocks);
 
-// m: inscribed radius of the largest part. A block held together by construction joints may have thin parts without
-// being a sliver.
-template <int Dim>
-double thickest_part(const Body<Dim>& body);
-
 // for each of the model's properties, whether a face that may meet another has them
 template <int Dim>
 std::vector<bool> properties_of_faces(const Model<Dim>& model);

@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <fstream>
 
-#include "core/base/fingerprint.hpp"
 #include "core/scene/effective_scene.hpp"
 #include "core/scene/keys.hpp"
 #include "core/scene/scene.hpp"
@@ -107,7 +106,7 @@ TEST(RenamedKeys, KeepTheHashOfEarlierRuns) {
   const Parts earlier{.head = "damping = { statics = \"newton\", increments = 4, viscous_ratio = 0.1 }",
                       .side = "whole = \"below\"",
                       .dig = "let_off = { share = 0.4, duration_s = 1 }\ndamping = { statics = \"adaptive\" }"};
-  EXPECT_EQ(fingerprint(canonical_text(parse(scene_of(earlier)))), "fnv1a64:8b6a01df2055afd4");
+  EXPECT_EQ(input_hash(parse(scene_of(earlier))), "fnv1a64:8b6a01df2055afd4");
 }
 
 TEST(RenamedKeys, ExistUnderTheirPresentNamesOnly) {
@@ -189,7 +188,7 @@ TEST(RenamedKeys, AreTakenInOverrides) {
               parse(scene_of(
                   {.head = "statics = \"newton\"", .dig = "excavation_forces = { remaining = 0.4, duration_s = 1 }"})),
               "a whole table");
-  // and an unknown key is told as ever
+  // an unknown key has the message of any other
   expect_refused(text, {"damping.static=newton"}, {"damping.static: no such key"});
 }
 

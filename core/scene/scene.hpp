@@ -31,6 +31,9 @@ Prepared<Dim> prepare(const Scene& scene);
 // are written, of earlier or present names of keys, and of whether a value came from the file or an override. Unstated
 // defaults do not appear.
 std::string canonical_text(const Scene& scene);
+
+// the input hash: the fingerprint of that text
+std::string input_hash(const Scene& scene);
 std::string canonical_text(const Node& part);
 
 // every key, its meaning, unit, range and default, in markdown, from the table that the reader uses

@@ -47,14 +47,6 @@ double turned_by(const Rotation<3>& from, const Rotation<3>& to) {
   return chord < 0.5 ? 2.1 * chord : longest;
 }
 
-// poses of the bodies; the list keeps its memory
-template <int Dim>
-void note_placements(const BodiesState<Dim>& bodies, std::vector<Placement<Dim>>& placements) {
-  placements.clear();
-  for (const Motion<Dim>& m : bodies.motions)
-    placements.push_back({m.displacement, m.rotation});
-}
-
 // upper bound of the displacement of any point of a body
 template <int Dim>
 double moved(const Body<Dim>& body, const Placement<Dim>& then, const Motion<Dim>& now) {

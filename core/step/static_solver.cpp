@@ -387,9 +387,7 @@ void begin_newton(const Model<Dim>& model, const Settings& settings, double ramp
   StaticIncrement<Dim>& n = state.increment;
   n.under_way = true;
   n.elastic = elastic;
-  if (!elastic.empty())
-    for (const Motion<Dim>& m : state.bodies.motions)
-      n.began.push_back(m.displacement);
+  if (!elastic.empty()) n.began = displacements(state.bodies);
   Newton<Dim>(model, settings, state).take_base();
   if (!(ramp > 0)) return;
   n.trial = StaticIncrement<Dim>::Trial::waiting;
