@@ -19,13 +19,16 @@ struct PlanText {
   std::string operator()(const ReducePlan& plan) const {
     std::string of = "all joint properties";
     if (!plan.properties.empty()) of = fmt::format("{}", fmt::join(plan.properties, ", "));
-    std::string failure = plan.failure_displacement > 0 ? fmt::format("{:g} m", plan.failure_displacement)
-                                                        : std::string("a tenth of the smallest inscribed radius");
+    std::string failure = "after ";
+    failure += plan.failure_displacement > 0 ? fmt::format("{:g} m", plan.failure_displacement)
+                                             : std::string("a tenth of the smallest inscribed radius");
+    if (plan.criterion == FailureCriterion::required_strength && plan.failure_displacement == 0)
+      failure = "by the strength that its motion requires, or " + failure;
     if (plan.failure_fraction > 0) failure += fmt::format(", by {:g} of the free mass", plan.failure_fraction);
     if (plan.searched == Searched::factor)
-      return fmt::format("divide tan φ and cohesion of {} by {:g} to {:g} {}; failed after {}", of, plan.factor.from,
+      return fmt::format("divide tan φ and cohesion of {} by {:g} to {:g} {}; failed {}", of, plan.factor.from,
                          plan.factor.to, how(plan.method, plan.factor), failure);
-    return fmt::format("reduce the friction of {} from {:g} to {:g} deg {}; failed after {}", of, to_degrees(plan.from),
+    return fmt::format("reduce the friction of {} from {:g} to {:g} deg {}; failed {}", of, to_degrees(plan.from),
                        to_degrees(plan.to), how(plan), failure);
   }
   static std::string how(ReductionMethod method, const FactorPlan& plan) {

@@ -175,6 +175,10 @@ TEST_F(Check, WarnsIfASearchLetsBlocksLeaveTheirWater) {
   says(wet + "table = [[0, 0.5], [1, 0]]\n" + search, warning);
   silent(wet + "table = [[0, 0.5], [1, 0]]\n" + search + "failure_displacement = 0.0005\n", "counts as failed");
   silent(wet + "level = 0.5\n" + search, "counts as failed");
+  const std::string required =
+      wet + "table = [[0, 0.5], [1, 0]]\n" + search + "failure_criterion = \"required_strength\"\n";
+  silent(required, "counts as failed");
+  says(required, "failed by the strength that its motion requires, or after a tenth of the smallest inscribed radius");
 }
 
 // ---- blocks -------------------------------------------------------------------------------------------------------

@@ -52,6 +52,10 @@ void judge_searches_in_water(const Prepared<Dim>& prepared, std::vector<std::str
       values[change.water] = change.to;
     const auto* search = std::get_if<ReducePlan>(&stage.plan);
     if (!search) continue;
+    // its result is that at no displacement
+    if (search->criterion == FailureCriterion::required_strength &&
+        not_watched(model, *search, SupportsState<Dim>{}).empty())
+      continue;
     const double distance = failure_displacement_of(model, *search);
     const WaterLeft left = find_water_left(model, values, distance);
     if (left.most <= may_leave) continue;
