@@ -22,7 +22,7 @@ fi
 
 # The numerics alone, with the project's own flags: none is written here. A build type would bring its own -O.
 cmake -S "$source" -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_COMPILER="$compiler" \
-  -DCMAKE_CXX_FLAGS="$flags" -DVOUSSOIR_BUILD_TESTS=OFF "${part[@]}" -DVOUSSOIR_BUILD_BENCHMARKS=OFF -DVOUSSOIR_WITH_GLPK=OFF >"$folder/configure.txt"
+  -DCMAKE_CXX_FLAGS="$flags" -DVOUSSOIR_BUILD_TESTS=OFF "${part[@]}" -DVOUSSOIR_WITH_GLPK=OFF >"$folder/configure.txt"
 cmake --build "$folder" --target "$(basename "$program")" --parallel "${BUILD_JOBS:-1}" >"$folder/build.txt" 2>&1 ||
   { cat "$folder/build.txt"; exit 1; }
 
