@@ -53,7 +53,6 @@ LoadedScene load(Scene scene, int threads) {
   loaded.dimension = scene.dimension;
   loaded.text = toml_text(*scene.tree);
   loaded.files = scene.files;
-  loaded.from_level = scene.from_level;
   loaded.hash = input_hash(scene);
   if (scene.dimension == 2)
     load_prepared<2>(scene, threads, loaded);

@@ -24,7 +24,6 @@ struct LoadedScene {
   std::string text;  // the effective scene: the file with its overrides, as TOML
   std::string hash;  // fingerprint of its canonical form, which layout and comments do not change
   std::vector<std::filesystem::path> files;  // that were read
-  std::vector<std::string> from_level;       // set by accuracy.level: "key = value"
   std::vector<std::string> warnings;         // stated values that look like mistakes, one line each
   std::shared_ptr<const Scene> stated;       // as the file states it
   AnyPrepared prepared;

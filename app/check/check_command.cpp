@@ -335,10 +335,13 @@ ExitCode check_command(const CheckArguments& arguments) {
   const LoadedScene scene = load_scene(path, overrides);
   fmt::print("{} ({}-D)\n", scene.title.empty() ? path.filename().string() : scene.title, scene.dimension);
   std::visit([&](const auto& prepared) { print_active(*scene.stated, prepared); }, scene.prepared);
-  for (std::size_t k = 0; k < scene.from_level.size(); ++k)
-    print_line(k == 0 ? "by level" : "", scene.from_level[k]);
-  for (std::size_t k = 0; k < scene.stated->renamed.size(); ++k)
-    print_line(k == 0 ? "renamed" : "", scene.stated->renamed[k]);
+  const auto print_list = [](const char* label, const std::vector<std::string>& lines) {
+    for (std::size_t k = 0; k < lines.size(); ++k)
+      print_line(k == 0 ? label : "", lines[k]);
+  };
+  print_list("by preset", scene.stated->from_preset);
+  print_list("by level", scene.stated->from_level);
+  print_list("renamed", scene.stated->renamed);
   print_line("input hash", scene.hash);
   const Assessment assessment = assess(scene);
   print_derived(assessment.forecast);

@@ -13,7 +13,8 @@
 namespace voussoir {
 
 // A warning that names the open one of the two balances and its causes; empty if both close.
-// `stages`: those that were begun, with the scene's settings.
+// Of stages that are all solved by Newton's method, whose increments do not follow the work of contacts, only the
+// balance of the motion. `stages`: those that were begun, with the scene's settings.
 std::string doubts_of(const EnergyBalance& energy, std::span<const StagePlan> stages, const Settings& scene);
 
 // A warning for each critical angle below the range of the accuracy level (empty: none).

@@ -3,6 +3,7 @@
 #include "core/scene/scene.hpp"
 
 #include <charconv>
+#include <vector>
 
 namespace voussoir {
 namespace {
@@ -54,7 +55,9 @@ std::string canonical_text(const Node& part) {
 }
 
 std::string canonical_text(const Scene& scene) {
-  return canonical_text(with_earliest_names(*scene.tree));
+  Node tree = with_earliest_names(*scene.tree);
+  std::erase_if(tree.members, [](const Member& member) { return member.key == "preset"; });  // what it sets is there
+  return canonical_text(tree);
 }
 
 std::string input_hash(const Scene& scene) {

@@ -13,6 +13,7 @@
 #include "core/scene/keys.hpp"
 #include "core/scene/overrides.hpp"
 #include "core/scene/particles.hpp"
+#include "core/scene/preset.hpp"
 #include "core/scene/read_joint_sets.hpp"
 #include "core/scene/read_slicing.hpp"
 #include "core/scene/read_stages.hpp"
@@ -186,6 +187,7 @@ Scene read_tree(Node stated, const std::string& name, const std::vector<std::str
   const std::vector<std::string> from_level = apply_accuracy_level(*tree);
   check_keys(*tree);
   accuracy_target(*tree);
+  scene.from_preset = apply_preset(*tree, read_properties({tree.get(), ""}));
 
   // from here on every value has the right type and is in its range
   scene.file = file;

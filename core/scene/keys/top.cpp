@@ -1,4 +1,5 @@
 // The top of a scene file.
+#include "core/base/preset.hpp"
 #include "core/scene/keys/supports.hpp"
 #include "core/scene/scene_spec.hpp"
 
@@ -62,6 +63,11 @@ KeyTable top_keys() {
      .meaning = "blocks that cannot move in some directions (world axes)"},
     {.key = "initial_velocity", .type = tables, .holds = {"label", "motion", "selector"},
      .meaning = "blocks that move when the first stage begins"},
+    {.key = "preset", .type = choice, .example = "\"thesis\"", .choices = {presets.begin(), presets.end()},
+     .meaning = "numerical choices that the scene does not state; standard (taken without this key): Newton's method, integrated faces, "
+         "4 sub_contacts in joints that cannot be integrated, failure by the required strength; thesis: none of these, the "
+         "defaults of each key, with which the cases are verified. `voussoir check` lists what it sets",
+     .breaks = "thesis: one contact point a face resists neither spin nor rocking"},
     {.key = "accuracy", .type = table, .holds = {"accuracy"},
      .meaning = "numerical settings for a required accuracy"},
     {.key = "contact", .members = {group(&Settings::contact, "contact")},
