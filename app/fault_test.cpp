@@ -371,11 +371,11 @@ TEST_F(Faults, AnotherSceneIsRefused) {
   text.replace(text.find("2500"), 4, "2600");
   write("stopped/scene.toml", text);
   const Contents before = contents_of(out);
-  expect_one_line(run({.arguments = resume_arguments(out)}), 2, "is not the scene that this run began with");
+  expect_one_line(run({.arguments = resume_arguments(out)}), 2, "is not the scene that was run there");
   expect_equal(contents_of(out), before, "another scene");
   fs::remove(out + "/checkpoint");
   fs::remove(out + "/checkpoint.previous");
-  expect_one_line(run({.arguments = resume_arguments(out)}), 2, "is not the scene that this run began with");
+  expect_one_line(run({.arguments = resume_arguments(out)}), 2, "is not the scene that was run there");
 }
 
 TEST_F(Faults, ADamagedCheckpointGivesWayToTheOneBefore) {

@@ -45,10 +45,7 @@ ExitCode resume_command(const ResumeArguments& arguments) {
   LoadedScene scene = load_scene(folder / "scene.toml", {}, options.threads);
   end_with(options.until, scene);
   if (scene.hash != options.scene_hash)
-    throw BadInput(
-        fmt::format("'{}' is not the scene that this run began with: put it back, or start again with "
-                    "'voussoir run'",
-                    (folder / "scene.toml").string()));
+    throw BadInput(other_scene(folder / "scene.toml", options.scene_hash, "start again with 'voussoir run'"));
   refuse_inputs(folder, resume_outputs(), scene.files);
   if (!holds_checkpoints(folder) && options.rounds.empty())
     options.origins.clear();  // no state of earlier processes is left

@@ -62,8 +62,7 @@ AnyProgress progress_at_end(const fs::path& folder, const LoadedScene& scene, st
   const Scene base = read_scene(folder / "scene.toml");
   const std::string base_hash = input_hash(base);
   if (base_hash != read_options(folder).scene_hash)
-    throw BadInput(fmt::format("'{}' is not the scene that was run there: put it back, or run it once more",
-                               (folder / "scene.toml").string()));
+    throw BadInput(other_scene(folder / "scene.toml", read_options(folder).scene_hash, "run it once more"));
   if (base.dimension != scene.dimension)
     throw BadInput(
         fmt::format("--begin {}: dimension = {} there and {} in this scene; begin at the end of a run of "

@@ -6,9 +6,11 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "core/base/preset.hpp"
 #include "core/output/atomic_file.hpp"
 #include "core/output/support_table.hpp"
 #include "core/run/simulate.hpp"
+#include "core/scene/scene.hpp"
 #include "text/read_file.hpp"
 
 namespace voussoir {
@@ -203,6 +205,14 @@ Progress<Dim> last_progress(const fs::path& folder, const Prepared<Dim>& scene, 
                     "run --overwrite'",
                     fmt::join(refusals, "; ")));
   return initial_progress(scene);
+}
+
+std::string other_scene(const fs::path& scene, const std::string& hash, const std::string& otherwise) {
+  const std::string name = fmt::format("'{}'", scene.string());
+  if (input_hash(read_scene(scene, {fmt::format("preset=\"{}\"", thesis_preset)})) == hash)
+    return fmt::format("{} was run with the defaults of an earlier version: write preset = \"{}\" at its top", name,
+                       thesis_preset);
+  return fmt::format("{} is not the scene that was run there: put it back, or {}", name, otherwise);
 }
 
 template void save_checkpoint<2>(const fs::path&, const Progress<2>&, const std::string&);

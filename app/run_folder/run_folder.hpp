@@ -70,4 +70,8 @@ template <int Dim>
 Progress<Dim> last_progress(const std::filesystem::path& folder, const Prepared<Dim>& scene,
                             const std::string& scene_hash, std::vector<std::string>& remarks);
 
+// Why the scene of a folder is not the one with this hash, and the repair. Earlier versions had other defaults, those
+// of preset = "thesis".
+std::string other_scene(const std::filesystem::path& scene, const std::string& hash, const std::string& otherwise);
+
 }  // namespace voussoir

@@ -88,6 +88,7 @@ std::optional<StageOutcome> execute(const SettlePlan& settle, const StageInForce
   goal.rest = true;
   goal.time_limit = progress.stage_began + settle.time_limit;
   goal.step_limit = settle.step_limit;
+  goal.bonds = stage.plan().change.bond;
   return run_to(stage, goal, settle.gravity, StopReason::equilibrium, watcher, progress);
 }
 

@@ -28,6 +28,10 @@ constexpr long long steps_between_falls = 100;
 // root of the stiffness ratio.
 constexpr long long steps_until_newton = 80'000;
 
+// Steps of relaxation before Newton's method in a stage that bonds joints: the first compresses whole faces, of which
+// an increment would compress only the part that the entire load leaves closed.
+constexpr long long steps_that_bond = 5;
+
 constexpr double never = std::numeric_limits<double>::infinity();  // s
 
 // sets the scheduled values to those at the time of the positions; true while they still change
@@ -107,6 +111,10 @@ double ramp_of(const RunSchedule& plan) {
     ramp = std::max(ramp, water.ramp);
   if (plan.excavation_forces) ramp = std::max(ramp, plan.excavation_forces->duration);
   return ramp;
+}
+
+double ramp_left(const RunSchedule& plan, const Schedule& schedule) {
+  return std::max(ramp_of(plan) - (schedule.time - schedule.started), 0.0);
 }
 
 // The ramps that a run ending now has not completed, and their progress; else the missing steps of equilibrium.
@@ -224,13 +232,19 @@ void stop_bodies(const Model<Dim>& model, bool relaxing, State<Dim>& state) {
     begin_motion(state.time_step, state.relaxation);
 }
 
+// the step with which Newton's method begins, if the scene chooses it
+long long first_of_newton(const RunGoal& goal) {
+  return goal.bonds ? steps_that_bond : 0;
+}
+
 // Whether Newton's method begins with this step: the first, if the scene chooses it, or one of a slow relaxation.
 template <int Dim>
-bool begins_newton(const Model<Dim>& model, const Settings& settings, const RunProgress<Dim>& progress, bool changing,
-                   const State<Dim>& state) {
+bool begins_newton(const Model<Dim>& model, const Settings& settings, const RunGoal& goal,
+                   const RunProgress<Dim>& progress, bool changing, const State<Dim>& state) {
   const bool lingers = progress.steps > 0 && progress.steps % steps_until_newton == 0 && progress.at_rest == 0 &&
                        !changing && !state.increment.under_way;
-  return (lingers || (progress.steps == 0 && settings.statics.method == Statics::newton)) && newton_applies(model);
+  const bool first = progress.steps == first_of_newton(goal) && settings.statics.method == Statics::newton;
+  return (lingers || first) && newton_applies(model);
 }
 
 template <int Dim>
@@ -308,8 +322,8 @@ RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& 
   // made once: no step allocates memory
   const std::function<void(State<Dim>&)> with_forces = [&](State<Dim>& now) {
     if (progress.steps == 0) stop_bodies(model, relaxing, now);
-    if (relaxing && begins_newton(model, settings, progress, changing, now))
-      begin_newton(model, settings, progress.steps == 0 ? ramp_of(schedule) : 0,
+    if (relaxing && begins_newton(model, settings, goal, progress, changing, now))
+      begin_newton(model, settings, ramp_left(schedule, now.schedule),
                    watch ? watch->plan.elastic : std::vector<double>{}, now);
     // a trial of the static solver is looked at when it has been judged
     if (watch && !now.increment.under_way) {

@@ -36,6 +36,7 @@ struct RunGoal {
   std::optional<long long> step_limit = {};  // of this run
   std::optional<double> moved_away = {};     // m: stop when a free body is this far from RunProgress::begin
   double moved_fraction = 0;                 // or when bodies of this fraction of the free mass are; 0: any body
+  bool bonds = false;                        // joints are to be bonded when they are first compressed
 };
 
 // values that change while the run continues, from State::schedule.started

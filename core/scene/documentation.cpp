@@ -1,6 +1,7 @@
 // The key table as a page for users.
 #include <algorithm>
 
+#include "core/base/preset.hpp"
 #include "core/scene/keys.hpp"
 #include "core/scene/renamed_keys.hpp"
 #include "core/scene/scene.hpp"
@@ -112,9 +113,36 @@ std::string allowed_text(const KeyRow& row) {
   return type_text(row) + ", " + range + plausible;
 }
 
+std::string_view scope_text(PresetScope scope) {
+  switch (scope) {
+    case PresetScope::everywhere:
+      return "";
+    case PresetScope::integrable_faces:
+      return " if a joint can be integrated";
+    case PresetScope::faces_by_points:
+      return " for joints that cannot be integrated";
+    case PresetScope::watched_searches:
+      return " for bisections that state no displacement or fraction";
+    case PresetScope::searches_by_steps:
+      return " for other searches";
+    case PresetScope::motions:
+      return " for searches at a rate";
+  }
+  return "";
+}
+
+// what preset = "standard" sets, and the key's own default, which "thesis" leaves
 std::string default_text(const KeyRow& row) {
-  if (!row.default_value.empty()) return "`" + std::string(row.default_value) + "`";
-  return row.required ? "required" : "";
+  std::string own = row.required ? "required" : "";
+  if (!row.default_value.empty()) own = "`" + std::string(row.default_value) + "`";
+  for (const PresetSetting& setting : standard_settings) {
+    if (setting.table != row.table || setting.key != row.key) continue;
+    const auto* text = std::get_if<std::string_view>(&setting.value);
+    const std::string value = text ? std::string(*text) : std::to_string(std::get<int>(setting.value));
+    own = "`" + value + "`" + std::string(scope_text(setting.scope)) +
+          (own.empty() ? "" : "; " + own + " otherwise, and with preset = \"thesis\"");
+  }
+  return own;
 }
 
 std::string when_text(const KeyRow& row) {

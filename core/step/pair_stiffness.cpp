@@ -18,6 +18,9 @@ namespace {
 // uses at least this fraction of the blocks' size, because below it the rounding of coordinates matters.
 constexpr double of_overlap = 1e-6, of_size = 1e-13;
 
+// of coordinates, over the bodies' extent
+constexpr double rounding = 1e-15;
+
 // narrower contacts rotate as if their width were this fraction of the size
 constexpr double least_width = 1e-3;
 
@@ -67,6 +70,16 @@ Pair<Dim> moved(Pair<Dim> pair, const CachedPose<Dim>& b, int freedom, double st
   return pair;
 }
 
+// m: step of the difference on an integrated face, of second order, whose error is the square of the step over the
+// overlap, beside the rounding of coordinates over the step. It is one-sided: a joint that slips goes on slipping. At
+// first order forces normal to a sliding face had errors of 0.3 %.
+template <int Dim>
+double step_on_face(const Model<Dim>& model, const Contact<Dim>& c, const PairStiffness<Dim>& p) {
+  const double extent = std::max(model.bodies[p.body_a].radius, model.bodies[p.body_b].radius);
+  const double overlap = c.geometry.overlap > 0 ? c.geometry.overlap : rounding * extent;
+  return std::max(std::cbrt(rounding * extent * overlap * overlap), rounding * extent);
+}
+
 // contacts together in one batch of the kernel
 constexpr int together = 40;
 
@@ -113,10 +126,10 @@ struct MovedContacts {
             const PairStiffness<Dim>& p) {
     const double width = Dim == 3 ? std::sqrt(c.geometry.area) : c.geometry.area;
     const double size = size_of(model, p.body_a, p.body_b);
-    const double way = std::max(of_overlap * c.geometry.overlap, of_size * size);
+    const bool whole = is_integrated(settings.contact, model.properties[c.properties]);  // recomputed by the caller
+    const double way = whole ? step_on_face(model, c, p) : std::max(of_overlap * c.geometry.overlap, of_size * size);
     const Pair<Dim> here = pair_of(model, bodies, c.part_a, c.part_b, QueryLevel::area);
     ContactSensitivity<Dim> sensitivity;
-    const bool whole = is_integrated(settings.contact, model.properties[c.properties]);  // recomputed by the caller
     const bool closed_form = !whole && c.proof.kind != ProofKind::least_point && has_sensitivity(settings.contact) &&
                              find_sensitivity<Dim>(here, settings.contact, c, sensitivity);
     for (int f = 0; f < freedoms<Dim>; ++f) {
@@ -159,16 +172,32 @@ void difference(const Model<Dim>& model, const Settings& settings, const Schedul
     const PairMotion<Dim> now{p.apart, b.velocity - a.velocity, a.spin, b.spin, a.inverse_mass + b.inverse_mass};
     p.wrench = joint_wrench<Dim>(model, schedule, joint_step, c, subs_of(contacts, static_cast<std::size_t>(p.contact)),
                                  whole ? &contacts.faces[p.contact] : nullptr, now, history, sub_histories);
-    for (int f = 0; f < F; ++f) {
-      Contact<Dim>& then_contact = after.contacts[i * F + f];
-      const double step = after.steps[i * F + f];
+    const auto motion_after = [&](int f, double step) {
       Spin<Dim> spin = b.spin;
       Vector<Dim> way = Vector<Dim>::Zero();
       if (f < Dim)
         way[f] = step;
       else
         spin[f - Dim] += step;
-      const PairMotion<Dim> then{now.between + way, now.drift + way, a.spin, spin, now.inverse_mass};
+      return PairMotion<Dim>{now.between + way, now.drift + way, a.spin, spin, now.inverse_mass};
+    };
+    const auto press = [&](const Pair<Dim>& pair, int f, double step) {
+      Contact<Dim> then = c;
+      find_nearest_faces<Dim>(pair, then, planes);
+      integrate_contact<Dim>(pair, planes, then, pressed);
+      return joint_wrench<Dim>(model, schedule, joint_step, then, {}, &pressed, motion_after(f, step), history,
+                               sub_histories);
+    };
+    for (int f = 0; f < F; ++f) {
+      Contact<Dim>& then_contact = after.contacts[i * F + f];
+      const double step = after.steps[i * F + f];
+      if (whole) {
+        const Pair<Dim> here = pair_of(model, bodies, c.part_a, c.part_b, QueryLevel::area);
+        const PairWrench<Dim> near = press(after.pairs[i * F + f], f, step),
+                              far = press(moved(here, b, f, 2 * step), f, 2 * step);
+        p.stiffness.col(f) = (3 * p.wrench - 4 * near + far) / (2 * step);
+        continue;
+      }
       std::span<SubContact<Dim>> subs;
       if (then_contact.touching() && count > 0) {
         const std::size_t first = p.contact * sub_stride(contacts);
@@ -177,12 +206,8 @@ void difference(const Model<Dim>& model, const Settings& settings, const Schedul
         divide<Dim>(after.pairs[i * F + f], along, then_contact, std::span(cells).first(count));
         subs = std::span(cells).first(then_contact.cells);
       }
-      if (whole) {
-        find_nearest_faces<Dim>(after.pairs[i * F + f], then_contact, planes);
-        integrate_contact<Dim>(after.pairs[i * F + f], planes, then_contact, pressed);
-      }
-      const PairWrench<Dim> wrench = joint_wrench<Dim>(model, schedule, joint_step, then_contact, subs,
-                                                       whole ? &pressed : nullptr, then, history, sub_histories);
+      const PairWrench<Dim> wrench = joint_wrench<Dim>(model, schedule, joint_step, then_contact, subs, nullptr,
+                                                       motion_after(f, step), history, sub_histories);
       p.stiffness.col(f) = (p.wrench - wrench) / step;
     }
   }
