@@ -172,21 +172,23 @@ void difference(const Model<Dim>& model, const Settings& settings, const Schedul
     const PairMotion<Dim> now{p.apart, b.velocity - a.velocity, a.spin, b.spin, a.inverse_mass + b.inverse_mass};
     p.wrench = joint_wrench<Dim>(model, schedule, joint_step, c, subs_of(contacts, static_cast<std::size_t>(p.contact)),
                                  whole ? &contacts.faces[p.contact] : nullptr, now, history, sub_histories);
-    const auto motion_after = [&](int f, double step) {
+    // the wrench after a step of the second body
+    const auto wrench_after = [&](int f, double step, const Contact<Dim>& then, std::span<const SubContact<Dim>> subs,
+                                  const IntegratedContact<Dim>* face) {
       Spin<Dim> spin = b.spin;
       Vector<Dim> way = Vector<Dim>::Zero();
       if (f < Dim)
         way[f] = step;
       else
         spin[f - Dim] += step;
-      return PairMotion<Dim>{now.between + way, now.drift + way, a.spin, spin, now.inverse_mass};
+      const PairMotion<Dim> motion{now.between + way, now.drift + way, a.spin, spin, now.inverse_mass};
+      return joint_wrench<Dim>(model, schedule, joint_step, then, subs, face, motion, history, sub_histories);
     };
     const auto press = [&](const Pair<Dim>& pair, int f, double step) {
       Contact<Dim> then = c;
       find_nearest_faces<Dim>(pair, then, planes);
       integrate_contact<Dim>(pair, planes, then, pressed);
-      return joint_wrench<Dim>(model, schedule, joint_step, then, {}, &pressed, motion_after(f, step), history,
-                               sub_histories);
+      return wrench_after(f, step, then, {}, &pressed);
     };
     for (int f = 0; f < F; ++f) {
       Contact<Dim>& then_contact = after.contacts[i * F + f];
@@ -206,9 +208,7 @@ void difference(const Model<Dim>& model, const Settings& settings, const Schedul
         divide<Dim>(after.pairs[i * F + f], along, then_contact, std::span(cells).first(count));
         subs = std::span(cells).first(then_contact.cells);
       }
-      const PairWrench<Dim> wrench = joint_wrench<Dim>(model, schedule, joint_step, then_contact, subs, nullptr,
-                                                       motion_after(f, step), history, sub_histories);
-      p.stiffness.col(f) = (p.wrench - wrench) / step;
+      p.stiffness.col(f) = (p.wrench - wrench_after(f, step, then_contact, subs, nullptr)) / step;
     }
   }
 }
