@@ -7,7 +7,7 @@
 #include "app/base/progress_line.hpp"
 #include "app/testing/program.hpp"
 
-namespace voussoir {
+namespace voussoir::cli_test {
 namespace {
 
 using namespace program;
@@ -269,4 +269,4 @@ TEST_F(Program, WrongArgumentsAreBadInput) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::cli_test

@@ -4,7 +4,7 @@
 
 #include "app/testing/faults.hpp"
 
-namespace voussoir {
+namespace voussoir::failing_calls_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -224,4 +224,4 @@ TEST_F(FullDisk, AFullStandardOutputIsSixAndTheResultsAreThere) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::failing_calls_test

@@ -9,7 +9,7 @@
 
 #include "app/testing/faults.hpp"
 
-namespace voussoir {
+namespace voussoir::fault_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -462,4 +462,4 @@ TEST_F(Faults, ACompleteRunIsLeftAsItIs) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::fault_test

@@ -10,7 +10,7 @@
 #include "app/base/run_scene.hpp"
 #include "app/testing/program.hpp"
 
-namespace voussoir {
+namespace voussoir::hostile_files_test {
 namespace {
 
 using namespace program;
@@ -403,4 +403,4 @@ TEST_F(HostileFiles, OnlyRegularFilesOfSaneSizeAreOpened) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::hostile_files_test

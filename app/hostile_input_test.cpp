@@ -4,7 +4,7 @@
 
 #include "app/testing/program.hpp"
 
-namespace voussoir {
+namespace voussoir::hostile_input_test {
 namespace {
 
 using namespace program;
@@ -185,4 +185,4 @@ TEST_F(Hostile, JointSetsOfTooManyJointsAreRefusedBeforeTheyAreDrawn) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::hostile_input_test

@@ -24,6 +24,7 @@ function(voussoir_case name)
   target_link_libraries(case_${name} PRIVATE
     voussoir_flags voussoir_traps voussoir_verification voussoir::core voussoir_reference fmt::fmt ${arg_LIBS} GTest::gtest_main)
   target_precompile_headers(case_${name} REUSE_FROM voussoir_case_headers)
+  voussoir_compile_as_one(case_${name})
   target_compile_definitions(case_${name} PRIVATE
     VOUSSOIR_SOURCE_DIR="${PROJECT_SOURCE_DIR}" VOUSSOIR_CASE_DIR="${PROJECT_SOURCE_DIR}/cases/${name}")
 

@@ -8,15 +8,23 @@ if(CMAKE_BUILD_TYPE STREQUAL "Debug")
 else()
   set(by_room ON)
 endif()
-option(VOUSSOIR_BY_ROOM "compile the sources of a folder as one" ${by_room})
+option(VOUSSOIR_BY_ROOM "compile the sources of a folder, and those of a test program, as one" ${by_room})
+
+# voussoir_compile_as_one(<target>): all sources of a program of tests, each of which has a namespace named as its file
+function(voussoir_compile_as_one target)
+  if(VOUSSOIR_BY_ROOM)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
+    # a false warning about types in one of the sources, as if they were in a header
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  endif()
+endfunction()
 
 function(voussoir_compile_by_room target)
   if(NOT VOUSSOIR_BY_ROOM)
     return()
   endif()
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
-  # a false warning about types in one of the sources, as if they were in a header
-  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  voussoir_compile_as_one(${target})
+  set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
   get_target_property(sources ${target} SOURCES)
   foreach(group ${ARGN})
     string(REPLACE " " ";" folders ${group})

@@ -13,7 +13,7 @@
 #include "core/step/relaxation.hpp"
 #include "core/testing/models.hpp"
 
-namespace voussoir {
+namespace voussoir::step_test {
 namespace {
 
 using shapes::block_on_plate;
@@ -447,4 +447,4 @@ TEST(Model, SelectsBySideAndByPoint) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::step_test

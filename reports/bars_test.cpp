@@ -7,7 +7,7 @@
 
 #include "reports/study_report.hpp"
 
-namespace voussoir::reports {
+namespace voussoir::reports::bars_test {
 namespace {
 
 TEST(Bars, CountTheErrorsThatTheyCover) {
@@ -49,4 +49,4 @@ TEST(Bars, OfBracketsOnlyAreCountedInTheStudies) {
 }
 
 }  // namespace
-}  // namespace voussoir::reports
+}  // namespace voussoir::reports::bars_test

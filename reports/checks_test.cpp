@@ -11,7 +11,7 @@
 #include "reports/drawing.hpp"
 #include "verification/verdict_file.hpp"
 
-namespace voussoir::reports {
+namespace voussoir::reports::checks_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -109,4 +109,4 @@ TEST(Drawing, FilesOfSubfoldersComeInTheOrderOfNames) {
 }
 
 }  // namespace
-}  // namespace voussoir::reports
+}  // namespace voussoir::reports::checks_test

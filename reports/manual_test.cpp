@@ -13,7 +13,7 @@
 #include "reports/trade_page.hpp"
 #include "reports/verdict_tables.hpp"
 
-namespace voussoir::reports {
+namespace voussoir::reports::manual_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -268,4 +268,4 @@ TEST(ChecksPage, NamesMissingParts) {
 }
 
 }  // namespace
-}  // namespace voussoir::reports
+}  // namespace voussoir::reports::manual_test

@@ -12,7 +12,7 @@
 #include "reports/matrix_page.hpp"
 #include "verification/verdict_file.hpp"
 
-namespace voussoir::reports {
+namespace voussoir::reports::matrix_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -219,4 +219,4 @@ TEST(MatrixPage, SetsFormulasAndLinksToChecks) {
 }
 
 }  // namespace
-}  // namespace voussoir::reports
+}  // namespace voussoir::reports::matrix_test

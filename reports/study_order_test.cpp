@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace voussoir::reports {
+namespace voussoir::reports::study_order_test {
 namespace {
 
 TEST(ObservedOrder, FindsThePowerThatMadeTheErrors) {
@@ -61,4 +61,4 @@ TEST(ObservedOrder, IsNoneIfNothingFalls) {
 }
 
 }  // namespace
-}  // namespace voussoir::reports
+}  // namespace voussoir::reports::study_order_test

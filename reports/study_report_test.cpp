@@ -5,7 +5,7 @@
 
 #include <stdexcept>
 
-namespace voussoir::reports {
+namespace voussoir::reports::study_report_test {
 namespace {
 
 const std::string header =
@@ -103,4 +103,4 @@ TEST(Study, NamesFiguresWithoutSurprises) {
 }
 
 }  // namespace
-}  // namespace voussoir::reports
+}  // namespace voussoir::reports::study_report_test

@@ -5,7 +5,7 @@
 
 #include "reports/study_report.hpp"
 
-namespace voussoir::reports {
+namespace voussoir::reports::trade_test {
 namespace {
 
 CaseStudy made(const std::string& name, const std::string& lines) {
@@ -104,4 +104,4 @@ TEST(Trade, ShowsWhatLevelsReachAndNamesBrokenPromises) {
 }
 
 }  // namespace
-}  // namespace voussoir::reports
+}  // namespace voussoir::reports::trade_test

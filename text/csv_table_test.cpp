@@ -5,7 +5,7 @@
 
 #include <limits>
 
-namespace voussoir {
+namespace voussoir::csv_table_test {
 namespace {
 
 void expect_fault(const std::string& text, std::size_t most_rows, int line, int column, const std::string& part) {
@@ -107,4 +107,4 @@ TEST(CsvReader, ReadsRowByRow) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::csv_table_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace voussoir {
+namespace voussoir::plain_text_test {
 namespace {
 
 void expect_fault(std::string_view text, std::size_t at, const std::string& part) {
@@ -67,4 +67,4 @@ TEST(PlainText, ShowsTheRestHarmlessly) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::plain_text_test

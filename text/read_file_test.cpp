@@ -7,7 +7,7 @@
 
 #include <fstream>
 
-namespace voussoir {
+namespace voussoir::read_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -53,4 +53,4 @@ TEST_F(ReadFile, OnlyRegularFilesOfSaneSize) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::read_file_test

@@ -6,7 +6,7 @@
 
 #include "verification/architecture.hpp"
 
-namespace voussoir::verification {
+namespace voussoir::verification::architecture_test {
 namespace {
 
 std::vector<std::string> arrow(const std::string& from, const std::string& to) {
@@ -192,4 +192,4 @@ TEST(Architecture, HoldsInTheSources) {
 }
 
 }  // namespace
-}  // namespace voussoir::verification
+}  // namespace voussoir::verification::architecture_test

@@ -10,7 +10,7 @@
 
 #include "text/csv_table.hpp"
 
-namespace voussoir::verification {
+namespace voussoir::verification::history_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -134,4 +134,4 @@ TEST_F(History, RefusesInvalidHistories) {
 }
 
 }  // namespace
-}  // namespace voussoir::verification
+}  // namespace voussoir::verification::history_test

@@ -8,7 +8,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace voussoir::verification {
+namespace voussoir::verification::verdicts_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -117,4 +117,4 @@ TEST_F(Table, IsReadBackAsItWasWritten) {
 }
 
 }  // namespace
-}  // namespace voussoir::verification
+}  // namespace voussoir::verification::verdicts_test

@@ -12,7 +12,7 @@
 
 #include "verification/verdict_file.hpp"
 
-namespace voussoir::verification {
+namespace voussoir::verification::verification_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -246,4 +246,4 @@ TEST_F(Report, WritesReferenceNumbersForTheStudy) {
 }
 
 }  // namespace
-}  // namespace voussoir::verification
+}  // namespace voussoir::verification::verification_test

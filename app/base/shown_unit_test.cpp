@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace voussoir {
+namespace voussoir::shown_unit_test {
 namespace {
 
 TEST(ShownUnit, ForcesStressesAndMomentsAreInThousands) {
@@ -23,4 +23,4 @@ TEST(ShownUnit, OtherUnitsAreThoseOfFiles) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::shown_unit_test

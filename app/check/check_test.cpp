@@ -4,7 +4,7 @@
 
 #include "app/testing/checked_scene.hpp"
 
-namespace voussoir {
+namespace voussoir::check_test {
 namespace {
 
 using namespace program;
@@ -404,4 +404,4 @@ TEST_F(Check, AResultBelowTheAnglesThatALevelGuaranteesIsWarnedOf) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::check_test

@@ -1,7 +1,7 @@
 // Repairs that name the mistake in a scene or in one of its tables.
 #include "app/testing/checked_scene.hpp"
 
-namespace voussoir {
+namespace voussoir::repairs_test {
 namespace {
 
 using namespace program;
@@ -60,4 +60,4 @@ TEST_F(Repair, OfAFolderWithoutPermissionNamesTheFolder) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::repairs_test

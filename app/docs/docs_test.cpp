@@ -3,7 +3,7 @@
 
 #include "app/testing/program.hpp"
 
-namespace voussoir {
+namespace voussoir::docs_test {
 namespace {
 
 using namespace program;
@@ -113,4 +113,4 @@ TEST_F(CommandPages, BashCompletesValuesFilesAndFolders) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::docs_test

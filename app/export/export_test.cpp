@@ -9,7 +9,7 @@
 #include "app/testing/program.hpp"
 #include "core/geometry/types.hpp"
 
-namespace voussoir {
+namespace voussoir::export_test {
 namespace {
 
 using namespace program;
@@ -383,4 +383,4 @@ TEST_F(Export, UnsupportedFeaturesAreRefusedInOneLine) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::export_test

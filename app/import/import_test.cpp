@@ -11,7 +11,7 @@
 #include "text/angle.hpp"
 #include "text/plain_text.hpp"
 
-namespace voussoir {
+namespace voussoir::import_test {
 namespace {
 
 using namespace program;
@@ -321,4 +321,4 @@ TEST(ImportFormats, NamesExchangedColumns) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::import_test

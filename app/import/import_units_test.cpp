@@ -12,7 +12,7 @@
 #include "core/testing/shapes.hpp"
 #include "text/angle.hpp"
 
-namespace voussoir {
+namespace voussoir::import_units_test {
 namespace {
 
 using namespace program;
@@ -404,4 +404,4 @@ TEST_F(ImportWarns, OfDegreesAndPrintsZeroAsZero) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::import_units_test

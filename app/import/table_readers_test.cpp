@@ -10,7 +10,7 @@
 #include "core/testing/shapes.hpp"
 #include "text/csv_table.hpp"
 
-namespace voussoir {
+namespace voussoir::table_readers_test {
 namespace {
 
 using namespace program;
@@ -125,4 +125,4 @@ TEST_F(TableReaders, TheFigureIsDrawnForAnyName) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::table_readers_test

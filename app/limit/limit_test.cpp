@@ -4,7 +4,7 @@
 
 #include "app/testing/program.hpp"
 
-namespace voussoir {
+namespace voussoir::limit_test {
 namespace {
 
 using namespace program;
@@ -147,4 +147,4 @@ TEST_F(Program, LimitFindsTheFactorOfAppliedForces) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::limit_test

@@ -1,7 +1,7 @@
 // Messages of 'voussoir limit' about blocks between walls, if no number is a result.
 #include "app/testing/program.hpp"
 
-namespace voussoir {
+namespace voussoir::limit_words_test {
 namespace {
 
 using namespace program;
@@ -75,4 +75,4 @@ TEST_F(LimitWords, OfNextToNoStrengthAreNoInfinity) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::limit_words_test

@@ -5,7 +5,7 @@
 
 #include "app/testing/program.hpp"
 
-namespace voussoir {
+namespace voussoir::claimed_folder_test {
 namespace {
 
 using namespace program;
@@ -131,4 +131,4 @@ TEST_F(Claimed, OddNamesComeBackFromEveryFile) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::claimed_folder_test

@@ -5,7 +5,7 @@
 
 #include "app/testing/program.hpp"
 
-namespace voussoir {
+namespace voussoir::slice_report_test {
 namespace {
 
 using namespace program;
@@ -148,4 +148,4 @@ TEST_F(SliceReport, ReportsFiniteJoints) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::slice_report_test

@@ -6,7 +6,7 @@
 #include "app/base/digest.hpp"
 #include "app/testing/planned_study.hpp"
 
-namespace voussoir {
+namespace voussoir::study_faults_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -223,4 +223,4 @@ TEST_F(StudyKillsLong, TwoHundredLoseNothing) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::study_faults_test

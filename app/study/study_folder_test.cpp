@@ -12,7 +12,7 @@
 #include "app/run_folder/results_hash.hpp"
 #include "app/testing/planned_study.hpp"
 
-namespace voussoir {
+namespace voussoir::study_folder_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -388,4 +388,4 @@ TEST_F(PlannedStudy, TheInputIsCopiedWithAllFilesItReads) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::study_folder_test

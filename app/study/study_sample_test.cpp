@@ -10,7 +10,7 @@
 #include "app/study/statistics.hpp"
 #include "app/testing/program.hpp"
 
-namespace voussoir {
+namespace voussoir::study_sample_test {
 namespace {
 
 using namespace program;
@@ -300,4 +300,4 @@ TEST_F(StudySample, BothAreReadStrictly) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::study_sample_test

@@ -7,7 +7,7 @@
 
 #include "app/testing/program.hpp"
 
-namespace voussoir {
+namespace voussoir::study_test {
 namespace {
 
 using namespace program;
@@ -433,4 +433,4 @@ TEST_F(Study, IsReadStrictly) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::study_test

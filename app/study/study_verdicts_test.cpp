@@ -10,7 +10,7 @@
 #include "app/study/plan.hpp"
 #include "app/testing/planned_study.hpp"
 
-namespace voussoir {
+namespace voussoir::study_verdicts_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -449,4 +449,4 @@ TEST(FlatResults, AreFoundAlongAKeyOfAGrid) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::study_verdicts_test

@@ -9,7 +9,7 @@
 #include "core/limit/limit.hpp"
 #include "reference/arch/arch.hpp"
 
-namespace voussoir::cases {
+namespace voussoir::cases::arch_test {
 namespace {
 
 using reference::ElasticArch;
@@ -301,4 +301,4 @@ TEST(Arch, IsStableAboveItsLimitAndFailsBelowOnIntegratedFaces) {
 }
 
 }  // namespace
-}  // namespace voussoir::cases
+}  // namespace voussoir::cases::arch_test

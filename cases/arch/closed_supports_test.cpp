@@ -9,7 +9,7 @@
 #include "cases/arch/arch_trial.hpp"
 #include "reference/arch/arch.hpp"
 
-namespace voussoir::cases {
+namespace voussoir::cases::closed_supports_test {
 namespace {
 
 using verification::CaseReport;
@@ -132,4 +132,4 @@ TEST(ClosedSupportsLong, ReachEquilibriumForEveryArch) {
 }
 
 }  // namespace
-}  // namespace voussoir::cases
+}  // namespace voussoir::cases::closed_supports_test

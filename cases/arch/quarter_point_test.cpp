@@ -9,7 +9,7 @@
 #include "cases/arch/arch_trial.hpp"
 #include "reference/arch/loaded_arch.hpp"
 
-namespace voussoir::cases {
+namespace voussoir::cases::quarter_point_test {
 namespace {
 
 using reference::ElasticLoad;
@@ -273,4 +273,4 @@ TEST(QuarterPointFigure, HasItsReference) {
 }
 
 }  // namespace
-}  // namespace voussoir::cases
+}  // namespace voussoir::cases::quarter_point_test

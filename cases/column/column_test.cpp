@@ -8,7 +8,7 @@
 #include "cases/case_tools.hpp"
 #include "reference/small/small.hpp"
 
-namespace voussoir::cases {
+namespace voussoir::cases::column_test {
 namespace {
 
 using verification::CaseReport;
@@ -109,4 +109,4 @@ TEST(Column, SwingsInItsFirstMode) {
 }
 
 }  // namespace
-}  // namespace voussoir::cases
+}  // namespace voussoir::cases::column_test

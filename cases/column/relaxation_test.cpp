@@ -8,7 +8,7 @@
 #include "cases/case_tools.hpp"
 #include "reference/small/small.hpp"
 
-namespace voussoir::cases {
+namespace voussoir::cases::relaxation_test {
 namespace {
 
 using verification::Bound;
@@ -136,4 +136,4 @@ TEST(ColumnAtRestLong, SoDoLongerColumns) {
 }
 
 }  // namespace
-}  // namespace voussoir::cases
+}  // namespace voussoir::cases::relaxation_test

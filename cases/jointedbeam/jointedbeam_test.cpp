@@ -11,7 +11,7 @@
 #include "cases/jointedbeam/beam_run.hpp"
 #include "text/angle.hpp"
 
-namespace voussoir::cases {
+namespace voussoir::cases::jointedbeam_test {
 namespace {
 
 // ---- data for the figures
@@ -353,4 +353,4 @@ INSTANTIATE_TEST_SUITE_P(Laws, JointedBeamUnder, testing::ValuesIn(laws),
                          [](const auto& chosen) { return chosen.param.test; });
 
 }  // namespace
-}  // namespace voussoir::cases
+}  // namespace voussoir::cases::jointedbeam_test

@@ -8,7 +8,7 @@
 #include "cases/jointedbeam/beam_run.hpp"
 #include "text/angle.hpp"
 
-namespace voussoir::cases {
+namespace voussoir::cases::whole_faces_test {
 namespace {
 
 // Integrated face contacts are the distributed joint until parts of it slip. At 89 degrees cells of the chain still
@@ -57,4 +57,4 @@ TEST(JointedBeam, OnIntegratedFacesIsTheChainOfDistributedJointsThatDoNotSlip) {
 }
 
 }  // namespace
-}  // namespace voussoir::cases
+}  // namespace voussoir::cases::whole_faces_test

@@ -6,7 +6,7 @@
 #include "cases/kernel_trade/radius.hpp"
 #include "cases/kernel_trade/trade.hpp"
 
-namespace voussoir::cases {
+namespace voussoir::cases::kernel_trade_test {
 namespace {
 
 using namespace trade;
@@ -231,4 +231,4 @@ TEST(KernelTrade, TheRadiusOfThePotentialParticle) {
 }
 
 }  // namespace
-}  // namespace voussoir::cases
+}  // namespace voussoir::cases::kernel_trade_test

@@ -9,7 +9,7 @@
 #include "core/testing/fall_scene.hpp"
 #include "core/testing/fall_watch.hpp"
 
-namespace voussoir::cases {
+namespace voussoir::cases::fall_test {
 namespace {
 
 using namespace shapes;
@@ -180,4 +180,4 @@ TEST(PotentialParticlesLong, TheEnergyBalanceClosesWithTheSquareOfSmallSteps) {
 }
 
 }  // namespace
-}  // namespace voussoir::cases
+}  // namespace voussoir::cases::fall_test

@@ -11,7 +11,7 @@
 #include "reference/small/small.hpp"
 #include "text/angle.hpp"
 
-namespace voussoir::cases {
+namespace voussoir::cases::motion_test {
 namespace {
 
 using verification::CaseReport;
@@ -119,4 +119,4 @@ TEST(PotentialParticles, ARoundedSquareRollsOverItsCorner) {
 }
 
 }  // namespace
-}  // namespace voussoir::cases
+}  // namespace voussoir::cases::motion_test

@@ -10,7 +10,7 @@ namespace voussoir::cases {
 namespace {
 
 constexpr double carried = 50e3;          // N, by the most loaded contact
-constexpr double pressed = 0.02;          // of r, by that
+constexpr double most_pressed = 0.02;     // of r, by that
 constexpr double least_radius = 1e-4;     // of the size
 constexpr double first = 3, again = 0.5;  // s
 // The fallen blocks overlap by some 2 mm everywhere, and stiffer contacts would throw them apart.
@@ -22,7 +22,7 @@ std::string resting_scene(const Model<3>& model, const State<3>& state, const Ro
   std::string free;
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
     if (!model.bodies[b].fixed) free += fmt::format("{}\"{}\"", free.empty() ? "" : ", ", model.bodies[b].name);
-  const double stiffness = carried / (pressed * radius);
+  const double stiffness = carried / (most_pressed * radius);
   return fmt::format(R"(dimension = 3
 gravity = [0, 0, -9.81]
 density = 2500

@@ -15,7 +15,7 @@
 #include "reference/potential_particles/contact.hpp"
 #include "verification/case_report.hpp"
 
-namespace voussoir::cases {
+namespace voussoir::cases::potential_particles_test {
 namespace {
 
 using verification::CaseReport;
@@ -217,4 +217,4 @@ TEST(PotentialParticles, ApproachSharpBodiesInProportionToTheRadius) {
 }
 
 }  // namespace
-}  // namespace voussoir::cases
+}  // namespace voussoir::cases::potential_particles_test

@@ -13,7 +13,7 @@
 #include "reference/potential_particles/contact.hpp"
 #include "verification/case_report.hpp"
 
-namespace voussoir::cases {
+namespace voussoir::cases::readings_test {
 namespace {
 
 using verification::CaseReport;
@@ -144,4 +144,4 @@ TEST(PotentialParticles, WithoutTheLinkContactsAreMissed) {
 }
 
 }  // namespace
-}  // namespace voussoir::cases
+}  // namespace voussoir::cases::readings_test

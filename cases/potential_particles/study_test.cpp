@@ -17,7 +17,7 @@
 #include "reference/wedge/wedge.hpp"
 #include "text/angle.hpp"
 
-namespace voussoir::cases {
+namespace voussoir::cases::study_test {
 namespace {
 
 using verification::Bound;
@@ -304,4 +304,4 @@ TEST(PotentialParticlesLong, WhichRoundingIsAcceptableForASettlingPack) {
 }
 
 }  // namespace
-}  // namespace voussoir::cases
+}  // namespace voussoir::cases::study_test

@@ -14,10 +14,6 @@ namespace {
 using exact::Quad;
 using exact::to_double;
 
-// as in judge_pair.cpp: exact for planes within 64 units of rounding of the coordinates
-constexpr double unit_rounding = std::numeric_limits<double>::epsilon() / 2;
-constexpr double whole_chain = 64 * unit_rounding;
-
 // make_block's own tolerances (slicing/block.cpp): corners closer than this fraction of the extent are one, and a plane
 // that cuts off no ball larger than this fraction of the inscribed radius is dropped
 constexpr double merged = 1e-10;
@@ -32,10 +28,6 @@ constexpr double dropped_volume = 1e-9;
 // slice's tolerance: a joint whose section holds no circle larger than this fraction of the inscribed radius does not
 // cut
 constexpr double cut_tolerance = 1e-10;
-
-Judgement wrong(std::string reason) {
-  return {Verdict::wrong, std::move(reason), 0};
-}
 
 double support(const std::vector<std::array<double, 3>>& points, const Vector<3>& u) {
   double highest = -std::numeric_limits<double>::infinity();

@@ -15,11 +15,6 @@ namespace {
 using exact::Quad;
 using exact::to_double;
 
-// Every promise is of one kind: the result is exact for planes within so many units of rounding (2^-53 of the
-// coordinates) of the given ones. 64 for a result of assembly and solution, 16 for one stage alone.
-constexpr double unit_rounding = std::numeric_limits<double>::epsilon() / 2;
-constexpr double whole_chain = 64 * unit_rounding, one_stage = 16 * unit_rounding;
-
 // Newton's last decrement is below newton_tolerance = 1e-5 before the step, which squares it; a factor 10 for the
 // constant
 constexpr double newton_remainder = 1e-9;
@@ -42,10 +37,6 @@ struct Scene {
     return std::abs(planes[i].offset) + x.cwiseAbs().maxCoeff();
   }
 };
-
-Judgement wrong(std::string reason) {
-  return {Verdict::wrong, std::move(reason), 0};
-}
 
 // correct or wrong by the error as a fraction of the promise
 Judgement by_fraction(double fraction, const std::string& what) {

@@ -9,7 +9,7 @@
 #include "cases/robustness/judges.hpp"
 #include "cases/robustness/sweep.hpp"
 
-namespace voussoir::cases {
+namespace voussoir::cases::robustness_test {
 namespace {
 
 using namespace atlas;
@@ -147,4 +147,4 @@ TEST(RobustnessLong, DenseMap) {
 }
 
 }  // namespace
-}  // namespace voussoir::cases
+}  // namespace voussoir::cases::robustness_test

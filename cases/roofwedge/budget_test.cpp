@@ -11,7 +11,7 @@
 #include "reference/roofwedge/roofwedge.hpp"
 #include "text/angle.hpp"
 
-namespace voussoir::cases {
+namespace voussoir::cases::budget_test {
 namespace {
 
 using verification::CaseReport;
@@ -138,4 +138,4 @@ TEST(RoofWedgeLong, BudgetsEncloseJointRelaxation) {
 }
 
 }  // namespace
-}  // namespace voussoir::cases
+}  // namespace voussoir::cases::budget_test

@@ -13,7 +13,7 @@
 #include "reference/roofwedge/roofwedge.hpp"
 #include "text/angle.hpp"
 
-namespace voussoir::cases {
+namespace voussoir::cases::roofwedge_test {
 namespace {
 
 using verification::CaseReport;
@@ -288,4 +288,4 @@ TEST(RoofWedge, NeedsTheFrictionOfItsStiffnessRatioAndStress) {
 }
 
 }  // namespace
-}  // namespace voussoir::cases
+}  // namespace voussoir::cases::roofwedge_test

@@ -7,7 +7,7 @@
 #include "reference/roofwedge/roofwedge.hpp"
 #include "text/angle.hpp"
 
-namespace voussoir::cases {
+namespace voussoir::cases::speed_up_test {
 namespace {
 
 // long: the thesis' method takes a million and a half steps
@@ -27,4 +27,4 @@ TEST(RoofWedgeSavingLong, BisectionAgainstTheThesisRate) {
 }
 
 }  // namespace
-}  // namespace voussoir::cases
+}  // namespace voussoir::cases::speed_up_test

@@ -16,7 +16,7 @@
 #include "core/solvers/feasibility.hpp"
 #include "reference/slicing/arrangement.hpp"
 
-namespace voussoir::cases {
+namespace voussoir::cases::growth_test {
 namespace {
 
 using verification::Bound;
@@ -317,4 +317,4 @@ TEST(SlicingGrowth, AnAssemblyInSpaceFillsItsBoxAndItsFacesMatch) {
 }
 
 }  // namespace
-}  // namespace voussoir::cases
+}  // namespace voussoir::cases::growth_test

@@ -7,7 +7,7 @@
 #include "cases/model_picture.hpp"
 #include "cases/recorded_run.hpp"
 
-namespace voussoir::cases {
+namespace voussoir::cases::settling_test {
 namespace {
 
 using verification::Bound;
@@ -216,4 +216,4 @@ TEST(SlicingSettlingLong, TwentyFiveHundredBlocksReachEquilibriumByRelaxation) {
 }
 
 }  // namespace
-}  // namespace voussoir::cases
+}  // namespace voussoir::cases::settling_test

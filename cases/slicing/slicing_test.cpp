@@ -16,7 +16,7 @@
 #include "reference/slicing/arrangement.hpp"
 #include "text/angle.hpp"
 
-namespace voussoir::cases {
+namespace voussoir::cases::slicing_test {
 namespace {
 
 using reference::Line2;
@@ -299,4 +299,4 @@ TEST(Slicing, OnePatternCutInFourWays) {
 }
 
 }  // namespace
-}  // namespace voussoir::cases
+}  // namespace voussoir::cases::slicing_test

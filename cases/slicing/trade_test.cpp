@@ -7,7 +7,7 @@
 #include "core/scene/scene.hpp"
 #include "core/step.hpp"
 
-namespace voussoir::cases {
+namespace voussoir::cases::trade_test {
 namespace {
 
 using verification::Bound;
@@ -213,4 +213,4 @@ TEST(SlicingTrade, ALargerLimitCanMakeMoreBlocks) {
 }
 
 }  // namespace
-}  // namespace voussoir::cases
+}  // namespace voussoir::cases::trade_test

@@ -11,7 +11,7 @@
 #include "cases/budget_trial.hpp"
 #include "cases/slump/layered_scene.hpp"
 
-namespace voussoir::cases {
+namespace voussoir::cases::budget_test {
 namespace {
 
 using verification::CaseReport;
@@ -100,4 +100,4 @@ TEST(SlumpBudgetLong, OfTheWholeSearchEnclosesTheReference) {
 }
 
 }  // namespace
-}  // namespace voussoir::cases
+}  // namespace voussoir::cases::budget_test

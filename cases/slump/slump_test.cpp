@@ -10,7 +10,7 @@
 #include "reference/slump/elastoplastic.hpp"
 #include "text/angle.hpp"
 
-namespace voussoir::cases {
+namespace voussoir::cases::slump_test {
 namespace {
 
 using verification::CaseReport;
@@ -283,4 +283,4 @@ TEST(SlumpLong, FailsAsASliceInSpace) {
 }
 
 }  // namespace
-}  // namespace voussoir::cases
+}  // namespace voussoir::cases::slump_test

@@ -5,7 +5,7 @@
 
 #include "cases/speed_up.hpp"
 
-namespace voussoir::cases {
+namespace voussoir::cases::speed_up_test {
 namespace {
 
 // Long: the thesis' method takes four million steps of fifty contacts. SearchedQuantity is the angle of this model with
@@ -22,4 +22,4 @@ TEST(SlumpSavingLong, BisectionAgainstTheThesisRate) {
 }
 
 }  // namespace
-}  // namespace voussoir::cases
+}  // namespace voussoir::cases::speed_up_test

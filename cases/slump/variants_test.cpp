@@ -15,7 +15,7 @@
 #include "reference/slump/elastoplastic.hpp"
 #include "text/angle.hpp"
 
-namespace voussoir::cases {
+namespace voussoir::cases::variants_test {
 namespace {
 
 using verification::CaseReport;
@@ -234,4 +234,4 @@ TEST(SlumpVariantsLong, FailByDistinctElements) {
 }
 
 }  // namespace
-}  // namespace voussoir::cases
+}  // namespace voussoir::cases::variants_test

@@ -11,7 +11,7 @@
 #include "reference/tunnel/bedded_arc.hpp"
 #include "text/angle.hpp"
 
-namespace voussoir::cases {
+namespace voussoir::cases::lining_test {
 namespace {
 
 using verification::CaseReport;
@@ -230,4 +230,4 @@ TEST(Lining, APlateFallsIfItsInterfaceIsTooWeak) {
 }
 
 }  // namespace
-}  // namespace voussoir::cases
+}  // namespace voussoir::cases::lining_test

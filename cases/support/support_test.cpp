@@ -10,7 +10,7 @@
 #include "reference/small/bolts.hpp"
 #include "text/angle.hpp"
 
-namespace voussoir::cases {
+namespace voussoir::cases::support_test {
 namespace {
 
 using verification::Bound;
@@ -227,4 +227,4 @@ TEST(Support, ABoltedBlockNeedsNoFailureDisplacementByRequiredStrength) {
 }
 
 }  // namespace
-}  // namespace voussoir::cases
+}  // namespace voussoir::cases::support_test

@@ -12,7 +12,7 @@
 #include "reference/tunnel/isotropic_mass.hpp"
 #include "reference/tunnel/lining.hpp"
 
-namespace voussoir::cases {
+namespace voussoir::cases::continuum_test {
 namespace {
 
 using verification::CaseReport;
@@ -173,4 +173,4 @@ TEST(ContinuumLong, SmallerBlocks) {
 }
 
 }  // namespace
-}  // namespace voussoir::cases
+}  // namespace voussoir::cases::continuum_test

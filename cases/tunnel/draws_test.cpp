@@ -6,7 +6,7 @@
 #include "text/angle.hpp"
 #include "text/file_fault.hpp"
 
-namespace voussoir::cases {
+namespace voussoir::cases::draws_test {
 namespace {
 
 using reference::Kind;
@@ -76,4 +76,4 @@ TEST(Draws, TableHasOursBesideTheThesis) {
 }
 
 }  // namespace
-}  // namespace voussoir::cases
+}  // namespace voussoir::cases::draws_test

@@ -7,7 +7,7 @@
 
 #include "cases/tunnel/oedometer.hpp"
 
-namespace voussoir::cases {
+namespace voussoir::cases::oedometer_test {
 namespace {
 
 using verification::Bound;
@@ -109,4 +109,4 @@ TEST(OedometerLong, SevenDraws) {
 }
 
 }  // namespace
-}  // namespace voussoir::cases
+}  // namespace voussoir::cases::oedometer_test

@@ -12,7 +12,7 @@
 #include "reference/tunnel/lining.hpp"
 #include "reference/tunnel/rock_mass.hpp"
 
-namespace voussoir::cases {
+namespace voussoir::cases::support_test {
 namespace {
 
 using verification::Bound;
@@ -312,4 +312,4 @@ TEST(SupportLong, Trends) {
 }
 
 }  // namespace
-}  // namespace voussoir::cases
+}  // namespace voussoir::cases::support_test

@@ -10,7 +10,7 @@
 #include "reference/tunnel/bolted_ring.hpp"
 #include "reference/tunnel/lining.hpp"
 
-namespace voussoir::cases {
+namespace voussoir::cases::supported_test {
 namespace {
 
 using verification::CaseReport;
@@ -231,4 +231,4 @@ TEST(SupportedLong, OtherDrawsOfTheSameBlocks) {
 }
 
 }  // namespace
-}  // namespace voussoir::cases
+}  // namespace voussoir::cases::supported_test

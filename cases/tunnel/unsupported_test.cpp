@@ -8,7 +8,7 @@
 #include "cases/tunnel/openings.hpp"
 #include "verification/case_report.hpp"
 
-namespace voussoir::cases {
+namespace voussoir::cases::unsupported_test {
 namespace {
 
 using reference::Place;
@@ -140,4 +140,4 @@ TEST(UnsupportedLong, HeldRockAndTimeSteps) {
 }
 
 }  // namespace
-}  // namespace voussoir::cases
+}  // namespace voussoir::cases::unsupported_test

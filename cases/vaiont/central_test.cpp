@@ -7,7 +7,7 @@
 #include "cases/vaiont/elements.hpp"
 #include "verification/comparison.hpp"
 
-namespace voussoir::cases {
+namespace voussoir::cases::central_test {
 namespace {
 
 using verification::Bound;
@@ -146,4 +146,4 @@ TEST(VaiontCentralLong, FollowsThePublishedTrends) {
 }
 
 }  // namespace
-}  // namespace voussoir::cases
+}  // namespace voussoir::cases::central_test

@@ -6,7 +6,7 @@
 
 #include "cases/case_tools.hpp"
 
-namespace voussoir::cases {
+namespace voussoir::cases::column_test {
 namespace {
 
 using verification::Bound;
@@ -71,4 +71,4 @@ TEST(VaiontColumn, CreepsWhileItRings) {
 }
 
 }  // namespace
-}  // namespace voussoir::cases
+}  // namespace voussoir::cases::column_test

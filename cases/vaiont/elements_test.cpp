@@ -6,7 +6,7 @@
 #include "reference/vaiont/section.hpp"
 #include "text/angle.hpp"
 
-namespace voussoir::cases {
+namespace voussoir::cases::elements_test {
 namespace {
 
 using verification::Bound;
@@ -232,4 +232,4 @@ TEST(VaiontElementsLong, NeedTheSameByOtherRampsAndBrackets) {
 }
 
 }  // namespace
-}  // namespace voussoir::cases
+}  // namespace voussoir::cases::elements_test

@@ -12,7 +12,7 @@
 #include "cases/vaiont/elements.hpp"
 #include "text/angle.hpp"
 
-namespace voussoir::cases {
+namespace voussoir::cases::slide_test {
 namespace {
 
 using verification::CaseReport;
@@ -191,4 +191,4 @@ TEST(VaiontSlideLong, HasASpeedThatDependsOnItsFriction) {
 }
 
 }  // namespace
-}  // namespace voussoir::cases
+}  // namespace voussoir::cases::slide_test

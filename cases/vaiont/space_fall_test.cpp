@@ -11,7 +11,7 @@
 #include "cases/recorded_run.hpp"
 #include "cases/vaiont/elements.hpp"
 
-namespace voussoir::cases {
+namespace voussoir::cases::space_fall_test {
 namespace {
 
 using verification::Bound;
@@ -267,4 +267,4 @@ TEST(VaiontInSpaceFallsLong, ReachesEquilibriumAfterTheReservoirHasFilled) {
 }
 
 }  // namespace
-}  // namespace voussoir::cases
+}  // namespace voussoir::cases::space_fall_test

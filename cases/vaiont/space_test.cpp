@@ -7,7 +7,7 @@
 #include "core/model/water_surfaces.hpp"
 #include "reference/vaiont/slide_in_space.hpp"
 
-namespace voussoir::cases {
+namespace voussoir::cases::space_test {
 namespace {
 
 using verification::CaseReport;
@@ -94,4 +94,4 @@ TEST(VaiontInSpace, HasTheVolumesBelowTheReservoir) {
 }
 
 }  // namespace
-}  // namespace voussoir::cases
+}  // namespace voussoir::cases::space_test

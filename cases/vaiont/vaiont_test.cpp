@@ -10,7 +10,7 @@
 #include "reference/vaiont/section.hpp"
 #include "text/angle.hpp"
 
-namespace voussoir::cases {
+namespace voussoir::cases::vaiont_test {
 namespace {
 
 using reference::SectionBlock;
@@ -189,4 +189,4 @@ TEST(Vaiont, FactorOfSafety) {
 }
 
 }  // namespace
-}  // namespace voussoir::cases
+}  // namespace voussoir::cases::vaiont_test

@@ -10,7 +10,7 @@
 #include "reference/water/floating.hpp"
 #include "text/angle.hpp"
 
-namespace voussoir::cases {
+namespace voussoir::cases::floating_test {
 namespace {
 
 using reference::FloatingBlock;
@@ -132,4 +132,4 @@ TEST(FloatingBlock, LollsIfItIsTooNarrow) {
 }
 
 }  // namespace
-}  // namespace voussoir::cases
+}  // namespace voussoir::cases::floating_test

@@ -7,7 +7,7 @@
 #include "reference/water/ringing.hpp"
 #include "text/angle.hpp"
 
-namespace voussoir::cases {
+namespace voussoir::cases::ringing_test {
 namespace {
 
 using verification::Bound;
@@ -82,4 +82,4 @@ TEST(RingingBlock, KeepsItsMobilisedFrictionOnEqualSprings) {
 }
 
 }  // namespace
-}  // namespace voussoir::cases
+}  // namespace voussoir::cases::ringing_test

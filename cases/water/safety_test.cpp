@@ -3,7 +3,7 @@
 
 #include "cases/water/plane_failure.hpp"
 
-namespace voussoir::cases {
+namespace voussoir::cases::safety_test {
 namespace {
 
 using reference::PlaneFailure;
@@ -64,4 +64,4 @@ TEST(PlaneFailure, HasTheFactorsOfThePrintedExample) {
 }
 
 }  // namespace
-}  // namespace voussoir::cases
+}  // namespace voussoir::cases::safety_test

@@ -9,7 +9,7 @@
 #include "cases/water/plane_failure.hpp"
 #include "core/step/integrate.hpp"
 
-namespace voussoir::cases {
+namespace voussoir::cases::slopes_test {
 namespace {
 
 using reference::DrawnDownBlock;
@@ -162,4 +162,4 @@ TEST(Drawdown, SlidesOnAJointThatIsStillFull) {
 }
 
 }  // namespace
-}  // namespace voussoir::cases
+}  // namespace voussoir::cases::slopes_test

@@ -9,7 +9,7 @@
 #include "reference/wedge/wedge_path.hpp"
 #include "text/angle.hpp"
 
-namespace voussoir::cases {
+namespace voussoir::cases::wet_wedge_test {
 namespace {
 
 using reference::ElasticPlasticWedge;
@@ -117,4 +117,4 @@ TEST(ThreeWays, LowerFrictionToTheSameAngle) {
 }
 
 }  // namespace
-}  // namespace voussoir::cases
+}  // namespace voussoir::cases::wet_wedge_test

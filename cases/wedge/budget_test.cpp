@@ -7,7 +7,7 @@
 #include "cases/budget_trial.hpp"
 #include "cases/wedge/wedge_scene.hpp"
 
-namespace voussoir::cases {
+namespace voussoir::cases::budget_test {
 namespace {
 
 using verification::CaseReport;
@@ -95,4 +95,4 @@ TEST(WedgeLong, AnErrorOfATenthOfAPercentIsReached) {
 }
 
 }  // namespace
-}  // namespace voussoir::cases
+}  // namespace voussoir::cases::budget_test

@@ -15,7 +15,7 @@
 #include "cases/case_tools.hpp"
 #include "cases/wedge/wedge_scene.hpp"
 
-namespace voussoir::cases {
+namespace voussoir::cases::scatter_test {
 namespace {
 
 using verification::Bound;
@@ -174,4 +174,4 @@ TEST(WedgeLong, IntervalsOfSamplesHoldTheShare) {
 }
 
 }  // namespace
-}  // namespace voussoir::cases
+}  // namespace voussoir::cases::scatter_test

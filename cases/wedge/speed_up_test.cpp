@@ -8,7 +8,7 @@
 #include "reference/wedge/wedge.hpp"
 #include "text/angle.hpp"
 
-namespace voussoir::cases {
+namespace voussoir::cases::speed_up_test {
 namespace {
 
 using verification::CaseReport;
@@ -71,4 +71,4 @@ TEST(WedgeSavingFigure, HasErrorAgainstCost) {
 }
 
 }  // namespace
-}  // namespace voussoir::cases
+}  // namespace voussoir::cases::speed_up_test

@@ -13,7 +13,7 @@
 #include "reference/wedge/wedge_path.hpp"
 #include "text/angle.hpp"
 
-namespace voussoir::cases {
+namespace voussoir::cases::wedge_test {
 namespace {
 
 using verification::CaseReport;
@@ -260,4 +260,4 @@ TEST(WedgeLong, ManyRandomWedges) {
 }
 
 }  // namespace
-}  // namespace voussoir::cases
+}  // namespace voussoir::cases::wedge_test

@@ -6,7 +6,7 @@
 #include "core/step.hpp"
 #include "core/testing/models.hpp"
 
-namespace voussoir {
+namespace voussoir::energy_test {
 namespace {
 
 using shapes::block_on_plate;
@@ -146,4 +146,4 @@ TEST(EnergyBalance, ClosesWhenAnAssemblyCollapses) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::energy_test

@@ -8,7 +8,7 @@
 #include <limits>
 #include <thread>
 
-namespace voussoir {
+namespace voussoir::floating_point_traps_test {
 namespace {
 
 // not known to the compiler, so that the operation happens when it runs
@@ -46,4 +46,4 @@ TEST(Traps, UnderflowAndRoundingAreNoErrors) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::floating_point_traps_test

@@ -8,7 +8,7 @@
 #include <string>
 #include <thread>
 
-namespace voussoir {
+namespace voussoir::on_threads_test {
 namespace {
 
 TEST(OnThreads, EveryPieceIsDoneOnce) {
@@ -55,4 +55,4 @@ TEST(OnThreads, AThreadThatFindsTheTeamBusyWorksAlone) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::on_threads_test

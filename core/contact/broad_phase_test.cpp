@@ -7,7 +7,7 @@
 
 #include "core/testing/shapes.hpp"
 
-namespace voussoir {
+namespace voussoir::broad_phase_test {
 namespace {
 
 using shapes::Random;
@@ -149,4 +149,4 @@ TEST(BroadPhase, HandlesInfiniteBoxes) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::broad_phase_test

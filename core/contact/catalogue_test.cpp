@@ -15,7 +15,7 @@
 #include "core/testing/exact_contacts.hpp"
 #include "text/angle.hpp"
 
-namespace voussoir {
+namespace voussoir::catalogue_test {
 namespace {
 
 using exact::Quad;
@@ -276,4 +276,4 @@ TEST(SectionArea, TurnsWithTheNormalNearACorner) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::catalogue_test

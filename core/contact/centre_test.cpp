@@ -9,7 +9,7 @@
 #include "core/testing/contacts.hpp"
 #include "core/testing/exact_contacts.hpp"
 
-namespace voussoir {
+namespace voussoir::centre_test {
 namespace {
 
 using contacts::Outcome;
@@ -263,4 +263,4 @@ TEST(CentreLong, MovesWithoutAJumpInAHundredThousandSteps) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::centre_test

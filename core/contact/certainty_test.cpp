@@ -9,7 +9,7 @@
 #include "core/testing/contacts.hpp"
 #include "core/testing/pair_judge.hpp"
 
-namespace voussoir {
+namespace voussoir::certainty_test {
 namespace {
 
 using families::Tally;
@@ -101,4 +101,4 @@ TEST_P(AMillionPairsLong, HaveNoWrongResult) {
 INSTANTIATE_TEST_SUITE_P(Parts, AMillionPairsLong, testing::Range(0, 8));
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::certainty_test

@@ -7,7 +7,7 @@
 #include "core/contact/contact_between.hpp"
 #include "core/testing/contacts.hpp"
 
-namespace voussoir {
+namespace voussoir::contact_test {
 namespace {
 
 using namespace contacts;
@@ -323,4 +323,4 @@ TEST(ContactBetween, RefusesInvalidPlacements) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::contact_test

@@ -15,7 +15,7 @@
 #include "core/testing/models.hpp"
 #include "core/testing/oracles.hpp"
 
-namespace voussoir {
+namespace voussoir::coplanar_facets_test {
 namespace {
 
 using shapes::Random;
@@ -287,4 +287,4 @@ TEST(CoplanarFacets, OfWeightsThatAddUpToOneCountOnce) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::coplanar_facets_test

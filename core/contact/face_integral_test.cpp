@@ -11,7 +11,7 @@
 #include "core/testing/exact_referee.hpp"
 #include "core/testing/shapes.hpp"
 
-namespace voussoir {
+namespace voussoir::face_integral_test {
 namespace {
 
 using shapes::Random, shapes::uniform, shapes::integer, shapes::power_of_ten;
@@ -230,4 +230,4 @@ TEST(FaceIntegralLong, AgreesWithExactArithmetic) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::face_integral_test

@@ -5,7 +5,7 @@
 
 #include "core/testing/contacts.hpp"
 
-namespace voussoir {
+namespace voussoir::multipliers_test {
 namespace {
 
 using namespace contacts;
@@ -314,4 +314,4 @@ TEST(Multipliers, AndSoHasItsMoment) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::multipliers_test

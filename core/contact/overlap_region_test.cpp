@@ -7,7 +7,7 @@
 #include "core/contact/bracketing.hpp"
 #include "core/testing/contacts.hpp"
 
-namespace voussoir {
+namespace voussoir::overlap_region_test {
 namespace {
 
 using namespace contacts;
@@ -248,4 +248,4 @@ TEST(FailingSearch, LeavesANamedFailure) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::overlap_region_test

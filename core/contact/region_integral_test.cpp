@@ -9,7 +9,7 @@
 #include "core/testing/contacts.hpp"
 #include "core/testing/exact_referee.hpp"
 
-namespace voussoir {
+namespace voussoir::region_integral_test {
 namespace {
 
 using namespace contacts;
@@ -433,4 +433,4 @@ TEST(IntegratedContact, IsOneEnergyFromFaceToCorner) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::region_integral_test

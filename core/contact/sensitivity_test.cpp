@@ -11,7 +11,7 @@
 #include "core/testing/contacts.hpp"
 #include "core/testing/exact_contacts.hpp"
 
-namespace voussoir {
+namespace voussoir::sensitivity_test {
 namespace {
 
 using exact::Planes;
@@ -273,4 +273,4 @@ TEST(Sensitivity, BelongsToThePublishedContactAlone) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::sensitivity_test

@@ -17,7 +17,7 @@
 #include "core/testing/contacts.hpp"
 #include "core/testing/pair_families.hpp"
 
-namespace voussoir {
+namespace voussoir::symmetry_test {
 namespace {
 
 using families::Case;
@@ -439,4 +439,4 @@ TEST(SamePair, OnRegistersOfAnyWidth2D) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::symmetry_test

@@ -6,7 +6,7 @@
 
 #include "core/testing/contacts.hpp"
 
-namespace voussoir {
+namespace voussoir::thin_contact_test {
 namespace {
 
 using namespace contacts;
@@ -278,4 +278,4 @@ TEST(Options, TheChebyshevPointIsTheLargestBallsCentre) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::thin_contact_test

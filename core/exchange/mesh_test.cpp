@@ -13,7 +13,7 @@
 #include "core/testing/expected_fault.hpp"
 #include "core/testing/shapes.hpp"
 
-namespace voussoir {
+namespace voussoir::mesh_test {
 namespace {
 
 Mesh mesh_of(const HalfSpaces<3>& planes, const Vector<3>& place) {
@@ -328,4 +328,4 @@ TEST(Stl, ALossOfDigitsFarFromTheOriginIsReported) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::mesh_test

@@ -11,7 +11,7 @@
 #include "core/testing/shapes.hpp"
 #include "text/angle.hpp"
 
-namespace voussoir {
+namespace voussoir::tables_test {
 namespace {
 
 TEST(JointTable, ReportsThePlaceOfAnError) {
@@ -165,4 +165,4 @@ TEST(PlaneTable, ReturnsPlanesExactly) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::tables_test

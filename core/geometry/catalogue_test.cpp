@@ -12,7 +12,7 @@
 #include "core/testing/shapes.hpp"
 #include "core/testing/workers.hpp"
 
-namespace voussoir {
+namespace voussoir::geometry_catalogue_test {
 namespace {
 
 using exact::Quad;
@@ -379,4 +379,4 @@ TEST(BlockCatalogue, TouchingAndRepeatedPlanesAreDroppedInAnyOrder) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::geometry_catalogue_test

@@ -9,7 +9,7 @@
 #include "core/testing/oracles.hpp"
 #include "core/testing/shapes.hpp"
 
-namespace voussoir {
+namespace voussoir::geometry_test {
 namespace {
 
 using shapes::Random;
@@ -299,4 +299,4 @@ TEST(Mass, ThinSlabsAndNeedlesAreExact) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::geometry_test

@@ -8,7 +8,7 @@
 
 #include "core/testing/shapes.hpp"
 
-namespace voussoir {
+namespace voussoir::face_friction_test {
 namespace {
 
 using shapes::Random, shapes::uniform;
@@ -180,4 +180,4 @@ TEST(FaceFriction, NoPlaceOfThePoleIsSpecial) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::face_friction_test

@@ -12,7 +12,7 @@
 #include "core/testing/shapes.hpp"
 #include "text/angle.hpp"
 
-namespace voussoir {
+namespace voussoir::joint_law_test {
 namespace {
 
 using shapes::Random;
@@ -372,4 +372,4 @@ TEST(JointEnergy, WorkIsStoredDissipatedOrCounted) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::joint_law_test

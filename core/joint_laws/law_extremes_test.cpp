@@ -9,7 +9,7 @@
 #include "core/joint_laws/elastic_coulomb.hpp"
 #include "core/testing/shapes.hpp"
 
-namespace voussoir {
+namespace voussoir::law_extremes_test {
 namespace {
 
 using shapes::Random;
@@ -388,4 +388,4 @@ TEST(LawExtremes, NoDashpotPulls) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::law_extremes_test

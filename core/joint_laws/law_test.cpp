@@ -7,7 +7,7 @@
 #include "core/joint_laws/elastic_coulomb.hpp"
 #include "core/testing/shapes.hpp"
 
-namespace voussoir {
+namespace voussoir::law_test {
 namespace {
 
 using shapes::Random;
@@ -261,4 +261,4 @@ TEST(Carried, AnOppositeNormalGivesAFiniteForceInThePlane) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::law_test

@@ -13,7 +13,7 @@
 #include "core/testing/shapes.hpp"
 #include "text/angle.hpp"
 
-namespace voussoir {
+namespace voussoir::joint_sets_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -419,4 +419,4 @@ TEST(Statistics, SharesOfBlocks) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::joint_sets_test

@@ -8,7 +8,7 @@
 #include "core/testing/limit_models.hpp"
 #include "text/angle.hpp"
 
-namespace voussoir {
+namespace voussoir::factor_of_safety_test {
 namespace {
 
 using limit_models::block_on_plate;
@@ -81,4 +81,4 @@ TEST(CriticalFriction, IncludesWaterWithAKinkAtAFace) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::factor_of_safety_test

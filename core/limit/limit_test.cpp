@@ -11,7 +11,7 @@
 #include "core/testing/limit_models.hpp"
 #include "text/angle.hpp"
 
-namespace voussoir {
+namespace voussoir::limit_test {
 namespace {
 
 using namespace limit_models;
@@ -423,4 +423,4 @@ TEST(Toppling, ShowsTheErrorOfAssociatedFlow) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::limit_test

@@ -11,7 +11,7 @@
 #include "core/testing/shapes.hpp"
 #include "text/angle.hpp"
 
-namespace voussoir {
+namespace voussoir::self_stress_test {
 namespace {
 
 using namespace limit_models;
@@ -145,4 +145,4 @@ TEST(SelfStress, IsNotReportedForLoadsThatCompressTheirJoints) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::self_stress_test

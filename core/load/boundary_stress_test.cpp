@@ -11,7 +11,7 @@
 #include "core/testing/models.hpp"
 #include "core/testing/oracles.hpp"
 
-namespace voussoir {
+namespace voussoir::boundary_stress_test {
 namespace {
 
 using namespace shapes;
@@ -283,4 +283,4 @@ TEST(BoundaryStress, WorkOnATurningBlockIsItsKineticEnergy) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::boundary_stress_test

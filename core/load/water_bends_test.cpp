@@ -9,7 +9,7 @@
 #include "core/testing/oracles.hpp"
 #include "core/testing/shapes.hpp"
 
-namespace voussoir {
+namespace voussoir::water_bends_test {
 namespace {
 
 using namespace shapes;
@@ -272,4 +272,4 @@ TEST(BentWater, AtABendEqualsItsLoadBesideTheBend) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::water_bends_test

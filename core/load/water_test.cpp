@@ -12,7 +12,7 @@
 #include "core/testing/shapes.hpp"
 #include "text/angle.hpp"
 
-namespace voussoir {
+namespace voussoir::water_test {
 namespace {
 
 using namespace shapes;
@@ -340,4 +340,4 @@ TEST(WaterNumbers, OfATableAreStraightBetweenPointsAndConstantBeyond) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::water_test

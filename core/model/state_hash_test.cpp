@@ -11,7 +11,7 @@
 #include "core/testing/models.hpp"
 #include "core/testing/probe/models.hpp"
 
-namespace voussoir {
+namespace voussoir::state_hash_test {
 namespace {
 
 // a block that slides on its plate, and a candidate that touches nothing
@@ -120,4 +120,4 @@ TEST(StateHash, AnySkinGivesTheSame) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::state_hash_test

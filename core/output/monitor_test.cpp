@@ -13,7 +13,7 @@
 #include "core/run/history.hpp"
 #include "core/testing/whole_runs.hpp"
 
-namespace voussoir {
+namespace voussoir::monitor_test {
 namespace {
 
 // Four blocks about a square opening of 2 m whose centre is (5, 5): a joint above, one below, and one on each side.
@@ -293,4 +293,4 @@ TEST(Since, ASimulationMeasuresFromThereAndResumesTheSame) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::monitor_test

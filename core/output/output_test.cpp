@@ -12,7 +12,7 @@
 #include "core/output/results_json.hpp"
 #include "core/testing/temporary_folder.hpp"
 
-namespace voussoir {
+namespace voussoir::output_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -135,4 +135,4 @@ TEST(WriteFile, ReplacesCompleteFilesAndNamesFailures) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::output_test

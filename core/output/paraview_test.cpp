@@ -10,7 +10,7 @@
 #include "core/slicing/block.hpp"
 #include "core/testing/temporary_folder.hpp"
 
-namespace voussoir {
+namespace voussoir::paraview_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -341,4 +341,4 @@ TEST(Paraview, TrialsAreASeriesOfTheirOwn) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::paraview_test

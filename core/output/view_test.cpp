@@ -13,7 +13,7 @@
 #include "core/output/output_error.hpp"
 #include "core/slicing/block.hpp"
 
-namespace voussoir {
+namespace voussoir::view_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -144,4 +144,4 @@ TEST_F(ViewTest, AFileThatCannotBeWrittenIsNamed) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::view_test

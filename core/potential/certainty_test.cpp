@@ -11,7 +11,7 @@
 #include "core/testing/potential_pairs.hpp"
 #include "core/testing/potential_referee.hpp"
 
-namespace voussoir {
+namespace voussoir::certainty_test {
 namespace {
 
 using referee::Quad;
@@ -196,4 +196,4 @@ TEST(PotentialOutside, WithoutTheLinkTheProgramLeavesTheContact) {
 #endif
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::certainty_test

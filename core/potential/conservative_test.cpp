@@ -10,7 +10,7 @@
 #include "core/potential/contact.hpp"
 #include "core/testing/potential_pairs.hpp"
 
-namespace voussoir {
+namespace voussoir::conservative_test {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -219,4 +219,4 @@ TEST(PotentialConservative, AroundClosedPathsItDoesNoWorkAndTheBracketedOverlapD
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::conservative_test

@@ -9,7 +9,7 @@
 #include "core/testing/potential_pairs.hpp"
 #include "core/testing/potential_referee.hpp"
 
-namespace voussoir {
+namespace voussoir::contact_test {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -353,4 +353,4 @@ TEST(PotentialContact, TouchingToRoundingIsUndecided) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::contact_test

@@ -7,7 +7,7 @@
 
 #include "core/testing/potential_pairs.hpp"
 
-namespace voussoir {
+namespace voussoir::mass_test {
 namespace {
 
 using std::numbers::pi;
@@ -115,4 +115,4 @@ TEST(PotentialMass, AnErrorThatIsNotReachedIsStated) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::mass_test

@@ -6,7 +6,7 @@
 #include "core/potential/surface.hpp"
 #include "core/testing/potential_pairs.hpp"
 
-namespace voussoir {
+namespace voussoir::shape_test {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -210,4 +210,4 @@ TEST(PotentialShape, RandomShapesOfTheTestsAreValid) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::shape_test

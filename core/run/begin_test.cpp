@@ -11,7 +11,7 @@
 #include "core/run/simulate.hpp"
 #include "core/scene/scene.hpp"
 
-namespace voussoir {
+namespace voussoir::begin_test {
 namespace {
 
 // A block on a fixed floor; half of it is excavated, then the rest slips.
@@ -127,4 +127,4 @@ TEST(Begin, OtherBlocksDoNotFit) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::begin_test

@@ -9,7 +9,7 @@
 #include "core/testing/models.hpp"
 #include "core/testing/whole_runs.hpp"
 
-namespace voussoir {
+namespace voussoir::checkpoint_test {
 namespace {
 
 using shapes::block_on_plate;
@@ -190,4 +190,4 @@ TEST(Checkpoint, HasARecordThatIsReadFirst) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::checkpoint_test

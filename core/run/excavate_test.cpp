@@ -10,7 +10,7 @@
 #include "core/step.hpp"
 #include "core/testing/whole_runs.hpp"
 
-namespace voussoir {
+namespace voussoir::excavate_test {
 namespace {
 
 constexpr double weight = 2000 * 10, stiffness = 1e9;  // N/m³, Pa/m
@@ -295,4 +295,4 @@ in_situ = { surface = 4, k0 = 0.5 }
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::excavate_test

@@ -13,7 +13,7 @@
 #include "core/testing/limit_models.hpp"
 #include "text/angle.hpp"
 
-namespace voussoir {
+namespace voussoir::failure_watch_test {
 namespace {
 
 using limit_models::box;
@@ -99,4 +99,4 @@ TEST(FailureWatch, NamesTheKindsThatItDoesNotJudge) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::failure_watch_test

@@ -8,7 +8,7 @@
 #include "core/run/simulate.hpp"
 #include "core/testing/models.hpp"
 
-namespace voussoir {
+namespace voussoir::reduction_test {
 namespace {
 
 using shapes::block_on_plate;
@@ -356,4 +356,4 @@ TEST(Reduction, ReportsASearchInTheWrongRange) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::reduction_test

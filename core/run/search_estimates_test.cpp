@@ -7,7 +7,7 @@
 
 #include "text/angle.hpp"
 
-namespace voussoir {
+namespace voussoir::search_estimates_test {
 namespace {
 
 Levels friction_levels() {
@@ -102,4 +102,4 @@ TEST(SearchEstimates, BodiesThatTurnAreJudgedByTheFit) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::search_estimates_test

@@ -14,7 +14,7 @@
 #include "core/testing/whole_runs.hpp"
 #include "text/angle.hpp"
 
-namespace voussoir {
+namespace voussoir::settled_test {
 namespace {
 
 using Engine = std::mt19937_64;
@@ -186,4 +186,4 @@ TEST(Settled, AnInterruptedRunNamesTheSameBodies) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::settled_test

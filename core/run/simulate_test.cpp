@@ -14,7 +14,7 @@
 #include "core/testing/models.hpp"
 #include "core/testing/whole_runs.hpp"
 
-namespace voussoir {
+namespace voussoir::simulate_test {
 namespace {
 
 using shapes::block_on_plate;
@@ -436,4 +436,4 @@ TEST(FreeFall, IsNotReportedIfSomethingMayCatchTheBlock) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::simulate_test

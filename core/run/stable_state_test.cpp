@@ -13,7 +13,7 @@
 #include "core/scene/scene.hpp"
 #include "core/testing/whole_runs.hpp"
 
-namespace voussoir {
+namespace voussoir::stable_state_test {
 namespace {
 
 constexpr double tension = 20e3, weight = 2600 * 9.81;  // Pa; N/m³, of columns 1 m high
@@ -217,4 +217,4 @@ TEST(StableState, IsThatOfTheLastStableTrialOfEveryMethod) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::stable_state_test

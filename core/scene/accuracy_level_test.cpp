@@ -10,7 +10,7 @@
 #include "core/scene/scene.hpp"
 #include "text/angle.hpp"
 
-namespace voussoir {
+namespace voussoir::accuracy_level_test {
 namespace {
 
 const std::string bisected = R"(dimension = 2
@@ -117,4 +117,4 @@ TEST(AccuracyLevel, TableIsSound) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::accuracy_level_test

@@ -8,7 +8,7 @@
 #include "core/scene/scene_error.hpp"
 #include "core/testing/bad_scenes.hpp"
 
-namespace voussoir {
+namespace voussoir::bad_bolts_test {
 namespace {
 
 using bad_scenes::complaint_about;
@@ -131,4 +131,4 @@ TEST(BadBolts, AreRefusedWithAReasonAndARepair) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::bad_bolts_test

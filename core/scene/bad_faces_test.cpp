@@ -1,7 +1,7 @@
 // Mistakes about integrated face contacts (contact.face = "integrated").
 #include "core/testing/bad_scenes.hpp"
 
-namespace voussoir {
+namespace voussoir::bad_faces_test {
 namespace {
 
 using namespace bad_scenes;
@@ -68,4 +68,4 @@ TEST(Faces, AreAcceptedTogetherWithPoints) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::bad_faces_test

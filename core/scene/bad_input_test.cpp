@@ -5,7 +5,7 @@
 
 #include "core/testing/bad_scenes.hpp"
 
-namespace voussoir {
+namespace voussoir::bad_input_test {
 namespace {
 
 using namespace bad_scenes;
@@ -362,4 +362,4 @@ TEST(Damaged, NeverCrashes) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::bad_input_test

@@ -8,7 +8,7 @@
 #include "core/scene/scene_error.hpp"
 #include "core/testing/bad_scenes.hpp"
 
-namespace voussoir {
+namespace voussoir::bad_linings_test {
 namespace {
 
 using bad_scenes::complaint_about;
@@ -108,4 +108,4 @@ TEST(BadLinings, ArePlaneOnly) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::bad_linings_test

@@ -8,7 +8,7 @@
 #include "core/scene/scene_error.hpp"
 #include "core/testing/bad_scenes.hpp"
 
-namespace voussoir {
+namespace voussoir::bad_monitors_test {
 namespace {
 
 using bad_scenes::complaint_about;
@@ -107,4 +107,4 @@ excavate = ["tunnel"]
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::bad_monitors_test

@@ -1,7 +1,7 @@
 // Mistakes in the keys of potential particles.
 #include "core/testing/bad_scenes.hpp"
 
-namespace voussoir {
+namespace voussoir::bad_particles_test {
 namespace {
 
 using namespace bad_scenes;
@@ -97,4 +97,4 @@ INSTANTIATE_TEST_SUITE_P(
     by_name);
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::bad_particles_test

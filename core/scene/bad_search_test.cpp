@@ -1,7 +1,7 @@
 // Mistakes in searches, in changes of friction by a stage, and in joint sets through a point.
 #include "core/testing/bad_scenes.hpp"
 
-namespace voussoir {
+namespace voussoir::bad_search_test {
 namespace {
 
 using namespace bad_scenes;
@@ -97,4 +97,4 @@ INSTANTIATE_TEST_SUITE_P(
     by_name);
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::bad_search_test

@@ -1,7 +1,7 @@
 // Mistakes in the loads of a stage: stress on faces, forces, prescribed motions.
 #include "core/testing/bad_scenes.hpp"
 
-namespace voussoir {
+namespace voussoir::bad_stage_loads_test {
 namespace {
 
 using namespace bad_scenes;
@@ -162,4 +162,4 @@ INSTANTIATE_TEST_SUITE_P(
     by_name);
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::bad_stage_loads_test

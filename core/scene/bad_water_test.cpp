@@ -1,7 +1,7 @@
 // Mistakes in the keys of water.
 #include "core/testing/bad_scenes.hpp"
 
-namespace voussoir {
+namespace voussoir::bad_water_test {
 namespace {
 
 using namespace bad_scenes;
@@ -136,4 +136,4 @@ TEST(BadTable, IsReportedInOneLine) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::bad_water_test

@@ -13,7 +13,7 @@
 #include "core/scene/scene_text.hpp"
 #include "text/angle.hpp"
 
-namespace voussoir {
+namespace voussoir::divided_strength_test {
 namespace {
 
 // the text of a stage
@@ -207,4 +207,4 @@ TEST(DividedStrength, ASentenceNamesTheDividedStrengths) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::divided_strength_test

@@ -10,7 +10,7 @@
 #include "core/scene/scene.hpp"
 #include "core/testing/every_key.hpp"
 
-namespace voussoir {
+namespace voussoir::keys_test {
 namespace {
 
 using every_key::address;
@@ -248,4 +248,4 @@ TEST(Documentation, ContainsASceneThatRuns) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::keys_test

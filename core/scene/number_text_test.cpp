@@ -8,7 +8,7 @@
 
 #include "core/scene/scene.hpp"
 
-namespace voussoir {
+namespace voussoir::number_text_test {
 namespace {
 
 const std::string head =
@@ -166,4 +166,4 @@ TEST(Texts, OfOtherEncodingsAreRefusedInOneLine) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::number_text_test

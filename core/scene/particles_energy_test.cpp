@@ -11,7 +11,7 @@
 #include "core/scene/scene.hpp"
 #include "core/step.hpp"
 
-namespace voussoir {
+namespace voussoir::particles_energy_test {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -178,4 +178,4 @@ TEST(ParticlesEnergy, ADrivenPairDoesNoWorkAroundAClosedPath) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::particles_energy_test

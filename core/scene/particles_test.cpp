@@ -20,7 +20,7 @@
 #include "core/testing/end_bytes.hpp"
 #include "core/testing/potential_pairs.hpp"
 
-namespace voussoir {
+namespace voussoir::particles_test {
 namespace {
 
 constexpr double g = 9.81, density = 2600, stiffness = 1e7;  // m/s², kg/m³, N/m
@@ -317,4 +317,4 @@ TEST(Particles, MoveTheSameForAnySkin) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::particles_test

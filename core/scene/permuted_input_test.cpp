@@ -11,7 +11,7 @@
 #include "core/step.hpp"
 #include "core/testing/models.hpp"
 
-namespace voussoir {
+namespace voussoir::permuted_input_test {
 namespace {
 
 using shapes::Random;
@@ -201,4 +201,4 @@ TEST(PermutedInput, PartsAndCorners) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::permuted_input_test

@@ -11,7 +11,7 @@
 #include "core/scene/keys.hpp"
 #include "core/scene/scene.hpp"
 
-namespace voussoir {
+namespace voussoir::renamed_keys_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -230,4 +230,4 @@ TEST_F(RenamedBase, IsOverriddenByAVariant) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::renamed_keys_test

@@ -10,7 +10,7 @@
 
 #include "core/scene/scene.hpp"
 
-namespace voussoir {
+namespace voussoir::repeat_test {
 namespace {
 
 std::string head(int dimension) {
@@ -362,4 +362,4 @@ TEST(Repeat, IsAbsentFromTheScenesRun) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::repeat_test

@@ -12,7 +12,7 @@
 #include "core/scene/draw_joint_sets.hpp"
 #include "core/scene/scene.hpp"
 
-namespace voussoir {
+namespace voussoir::scene_files_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -255,4 +255,4 @@ TEST_F(SceneFiles, JointSetsAreChecked) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::scene_files_test

@@ -11,7 +11,7 @@
 #include "core/scene/judge_values.hpp"
 #include "text/angle.hpp"
 
-namespace voussoir {
+namespace voussoir::scene_test {
 namespace {
 
 const std::string wedge = R"(title = "Sliding wedge"
@@ -421,4 +421,4 @@ TEST(Scene, OneNameMeansAListOfOne) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::scene_test

@@ -7,7 +7,7 @@
 
 #include "core/scene/scene.hpp"
 
-namespace voussoir {
+namespace voussoir::slicing_scene_test {
 namespace {
 
 // a square of 2 m, a persistent joint x = 0, and the additions of a test
@@ -301,4 +301,4 @@ duration_s = 1
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::slicing_scene_test

@@ -11,7 +11,7 @@
 
 #include "core/scene/scene.hpp"
 
-namespace voussoir {
+namespace voussoir::stage_excavations_test {
 namespace {
 
 using Engine = std::mt19937_64;
@@ -74,4 +74,4 @@ TEST(StageExcavations, AShareAboveTheOneInForceIsRefused) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::stage_excavations_test

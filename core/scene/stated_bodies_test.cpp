@@ -10,7 +10,7 @@
 #include "core/testing/oracles.hpp"
 #include "core/testing/shapes.hpp"
 
-namespace voussoir {
+namespace voussoir::stated_bodies_test {
 namespace {
 
 using namespace shapes;
@@ -187,4 +187,4 @@ TEST(PartsOfABody, ThatArePotentialParticlesAreRefusedToo) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::stated_bodies_test

@@ -15,7 +15,7 @@
 #include "core/testing/whole_runs.hpp"
 #include "text/angle.hpp"
 
-namespace voussoir {
+namespace voussoir::water_scene_test {
 namespace {
 
 const std::string stack = R"(dimension = 2
@@ -197,4 +197,4 @@ TEST(WaterOfAScene, AtAKinkPushesInRunAndSearch) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::water_scene_test

@@ -6,7 +6,7 @@
 #include "core/testing/exact_referee.hpp"
 #include "core/testing/shapes.hpp"
 
-namespace voussoir::exact {
+namespace voussoir::exact::exact_slicing_test {
 namespace {
 
 using shapes::Random;
@@ -97,4 +97,4 @@ TEST(ExactSlicing, CellsOfIntegerPlanesAreTheReferees) {
 }
 
 }  // namespace
-}  // namespace voussoir::exact
+}  // namespace voussoir::exact::exact_slicing_test

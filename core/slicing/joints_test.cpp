@@ -13,7 +13,7 @@
 #include "core/testing/oracles.hpp"
 #include "core/testing/shapes.hpp"
 
-namespace voussoir {
+namespace voussoir::joints_test {
 namespace {
 
 using shapes::Random;
@@ -348,4 +348,4 @@ TEST(Kinds, FacesInheritTheirJoint) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::joints_test

@@ -10,7 +10,7 @@
 #include "core/testing/oracles.hpp"
 #include "core/testing/shapes.hpp"
 
-namespace voussoir {
+namespace voussoir::slicing_test {
 namespace {
 
 using shapes::Random;
@@ -426,4 +426,4 @@ TEST(Slice, ThinSlabsAreBlocksToo) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::slicing_test

@@ -6,7 +6,7 @@
 #include "core/slicing/slice.hpp"
 #include "core/testing/shapes.hpp"
 
-namespace voussoir {
+namespace voussoir::sliver_test {
 namespace {
 
 using shapes::Random;
@@ -112,4 +112,4 @@ TEST(Sliver, AThousandFacesTakeNoTime) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::sliver_test

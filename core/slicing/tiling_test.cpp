@@ -12,7 +12,7 @@
 #include "core/testing/oracles.hpp"
 #include "core/testing/shapes.hpp"
 
-namespace voussoir {
+namespace voussoir::tiling_test {
 namespace {
 
 using shapes::Random;
@@ -288,4 +288,4 @@ TEST(Tiling, JointsNearACornerAnEdgeAndAFace) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::tiling_test

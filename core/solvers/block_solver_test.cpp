@@ -8,7 +8,7 @@
 #include "core/solvers/block_factors.hpp"
 #include "core/testing/dense.hpp"
 
-namespace voussoir {
+namespace voussoir::block_solver_test {
 namespace {
 
 // blocks in a ring with a few chords, diagonally dominant: against a dense factorisation
@@ -101,4 +101,4 @@ TEST(BlockMatrix, ReportsThatItIsSingular) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::block_solver_test

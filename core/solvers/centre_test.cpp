@@ -8,7 +8,7 @@
 #include "core/testing/oracles.hpp"
 #include "core/testing/random_pair.hpp"
 
-namespace voussoir {
+namespace voussoir::centre_test {
 namespace {
 
 using shapes::Random;
@@ -219,4 +219,4 @@ TEST(AnalyticCentre, PowersOfTwoScaleItExactly) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::centre_test

@@ -8,7 +8,7 @@
 #include "core/testing/oracles.hpp"
 #include "core/testing/random_pair.hpp"
 
-namespace voussoir {
+namespace voussoir::feasibility_test {
 namespace {
 
 using shapes::Random;
@@ -284,4 +284,4 @@ TEST(Feasibility, BlocksAlongAnEdgeBetweenJointsAreSolved) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::feasibility_test

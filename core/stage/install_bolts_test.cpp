@@ -10,7 +10,7 @@
 #include "core/testing/hung_slab.hpp"
 #include "core/testing/whole_runs.hpp"
 
-namespace voussoir {
+namespace voussoir::install_bolts_test {
 namespace {
 
 using hung_slab::hang;
@@ -228,4 +228,4 @@ TEST(Monitors, SumAndAverageOverBlocks) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::install_bolts_test

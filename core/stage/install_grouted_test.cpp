@@ -13,7 +13,7 @@
 #include "core/testing/shapes.hpp"
 #include "core/testing/whole_runs.hpp"
 
-namespace voussoir {
+namespace voussoir::install_grouted_test {
 namespace {
 
 using hung_slab::hang;
@@ -392,4 +392,4 @@ TEST(GroutedBolts, KeepTheEnergyBalanceOfAMotion) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::install_grouted_test

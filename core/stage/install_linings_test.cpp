@@ -16,7 +16,7 @@
 #include "core/testing/lined_opening.hpp"
 #include "core/testing/whole_runs.hpp"
 
-namespace voussoir {
+namespace voussoir::install_linings_test {
 namespace {
 
 using namespace lined_opening;
@@ -282,4 +282,4 @@ TEST(Linings, LoseContactsOfExcavatedRock) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::install_linings_test

@@ -14,7 +14,7 @@
 #include "core/testing/counted_allocations.hpp"
 #include "core/testing/pressed_block.hpp"
 
-namespace voussoir {
+namespace voussoir::face_forces_test {
 namespace {
 
 using pressed::height, pressed::width, pressed::Springs;
@@ -306,4 +306,4 @@ TEST(IntegratedFaces, AllocateNoMemory) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::face_forces_test

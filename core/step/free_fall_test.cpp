@@ -13,7 +13,7 @@
 #include "core/step.hpp"
 #include "core/testing/models.hpp"
 
-namespace voussoir {
+namespace voussoir::free_fall_test {
 namespace {
 
 using Engine = std::mt19937_64;
@@ -205,4 +205,4 @@ TEST(FreeFall, IsFoundInAnyDirection) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::free_fall_test

@@ -11,7 +11,7 @@
 #include "core/step/time_step.hpp"
 #include "core/testing/pressed_block.hpp"
 
-namespace voussoir {
+namespace voussoir::joint_forces_test {
 namespace {
 
 using shapes::block_on_plate;
@@ -227,4 +227,4 @@ TEST(StressDependentStiffness, IsTheSameThroughAnyNumberOfPointsAndShortensTheSt
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::joint_forces_test

@@ -13,7 +13,7 @@
 #include "core/testing/models.hpp"
 #include "core/testing/whole_runs.hpp"
 
-namespace voussoir {
+namespace voussoir::loads_test {
 namespace {
 
 using shapes::block_on_plate;
@@ -321,4 +321,4 @@ TEST(AppliedForces, AreTheSameBitsForAnyNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::loads_test

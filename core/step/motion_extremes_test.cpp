@@ -11,7 +11,7 @@
 #include "core/step/time_step.hpp"
 #include "core/testing/assemblies.hpp"
 
-namespace voussoir {
+namespace voussoir::motion_extremes_test {
 namespace {
 
 using shapes::Random;
@@ -369,4 +369,4 @@ TEST(MotionExtremesLong, TheEstimatedStepIsSafeAndUsefulIn1e5Sets) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::motion_extremes_test

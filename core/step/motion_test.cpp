@@ -10,7 +10,7 @@
 #include "core/step/time_step.hpp"
 #include "core/testing/assemblies.hpp"
 
-namespace voussoir {
+namespace voussoir::motion_test {
 namespace {
 
 using shapes::Random;
@@ -438,4 +438,4 @@ TEST(TimeStep, WithADashpotTheLimitIsThatOfStability) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::motion_test

@@ -11,7 +11,7 @@
 #include "core/testing/models.hpp"
 #include "core/testing/whole_runs.hpp"
 
-namespace voussoir {
+namespace voussoir::prescribed_test {
 namespace {
 
 using shapes::block_on_plate;
@@ -256,4 +256,4 @@ TEST(Prescribed, ContinuesFromACheckpoint) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::prescribed_test

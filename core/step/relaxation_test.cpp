@@ -8,7 +8,7 @@
 #include "core/step.hpp"
 #include "core/testing/models.hpp"
 
-namespace voussoir {
+namespace voussoir::relaxation_test {
 namespace {
 
 using shapes::block_on_plate;
@@ -159,4 +159,4 @@ TEST(Relaxation, MotionAfterwardsStartsFromZeroVelocity) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::relaxation_test

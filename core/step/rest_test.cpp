@@ -14,7 +14,7 @@
 #include "core/testing/models.hpp"
 #include "core/testing/whole_runs.hpp"
 
-namespace voussoir {
+namespace voussoir::rest_test {
 namespace {
 
 using Engine = std::mt19937_64;
@@ -251,4 +251,4 @@ water = [{ name = "seep", pressure = 2e4, duration_s = 1 }]
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::rest_test

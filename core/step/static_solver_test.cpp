@@ -18,7 +18,7 @@
 #include "core/testing/whole_runs.hpp"
 #include "text/angle.hpp"
 
-namespace voussoir {
+namespace voussoir::static_solver_test {
 namespace {
 
 using shapes::block_on_plate;
@@ -409,4 +409,4 @@ TEST(Newton, MayBeInterruptedAfterEveryEvaluation) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::static_solver_test

@@ -9,7 +9,7 @@
 #include "core/run/reduction.hpp"
 #include "core/testing/models.hpp"
 
-namespace voussoir {
+namespace voussoir::static_solver_verdict_test {
 namespace {
 
 using shapes::body_of;
@@ -182,4 +182,4 @@ TEST(NewtonVerdictLong, IsThatOfRelaxationAndOfTheClosedForm) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::static_solver_verdict_test

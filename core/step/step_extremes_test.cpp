@@ -9,7 +9,7 @@
 #include "core/step.hpp"
 #include "core/testing/models.hpp"
 
-namespace voussoir {
+namespace voussoir::step_extremes_test {
 namespace {
 
 using shapes::block_on_plate;
@@ -331,4 +331,4 @@ TEST(StepExtremes, ANaNStopsTheRunImmediatelyAndNamesTheBody) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::step_extremes_test

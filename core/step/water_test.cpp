@@ -9,7 +9,7 @@
 #include "core/step.hpp"
 #include "core/testing/models.hpp"
 
-namespace voussoir {
+namespace voussoir::water_test {
 namespace {
 
 using namespace shapes;
@@ -220,4 +220,4 @@ TEST(WaterThatRises, WithGravityDoesOnlyTheWorkOfDisplacements) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::water_test

@@ -11,7 +11,7 @@
 #include "core/testing/dense.hpp"
 #include "core/testing/shapes.hpp"
 
-namespace voussoir {
+namespace voussoir::beam_test {
 namespace {
 
 using shapes::Random;
@@ -425,4 +425,4 @@ TEST(BeamStep, HeldNodesAreIgnored) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::beam_test

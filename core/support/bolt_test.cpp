@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace voussoir {
+namespace voussoir::bolt_test {
 namespace {
 
 constexpr double K = 2e8, ks = 1e7, F0 = 3e4;
@@ -140,4 +140,4 @@ TEST(BoltSpring, SlipsAcrossAtItsDowelStrength) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::bolt_test

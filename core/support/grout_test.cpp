@@ -11,7 +11,7 @@
 #include "core/testing/counted_allocations.hpp"
 #include "core/testing/shapes.hpp"
 
-namespace voussoir {
+namespace voussoir::grout_test {
 namespace {
 
 using shapes::power_of_ten;
@@ -478,4 +478,4 @@ TEST(Grout, EndsWithoutForceWhereItIsCut) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::grout_test

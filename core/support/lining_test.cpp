@@ -8,7 +8,7 @@
 
 #include "core/joint_laws/joint_law.hpp"
 
-namespace voussoir {
+namespace voussoir::lining_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -150,4 +150,4 @@ TEST(Utilisation, IsThatOfAnElasticSection) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::lining_test

@@ -6,7 +6,7 @@
 
 #include "core/testing/shapes.hpp"
 
-namespace voussoir::exact {
+namespace voussoir::exact::exact_referee_test {
 namespace {
 
 using shapes::Random;
@@ -203,4 +203,4 @@ TEST(ExactReferee, NormalOfFacesAndRoots) {
 }
 
 }  // namespace
-}  // namespace voussoir::exact
+}  // namespace voussoir::exact::exact_referee_test

@@ -9,7 +9,7 @@
 #include "core/testing/lined_opening.hpp"
 #include "core/testing/models.hpp"
 
-namespace voussoir {
+namespace voussoir::step_memory_test {
 namespace {
 
 // 200 steps with constant neighbours
@@ -97,4 +97,4 @@ TEST(Step, ALiningAllocatesNoMemory) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::step_memory_test

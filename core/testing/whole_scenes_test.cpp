@@ -8,7 +8,7 @@
 
 #include "core/testing/whole_runs.hpp"
 
-namespace voussoir {
+namespace voussoir::whole_scenes_test {
 namespace {
 
 Progress<2> ran(const std::string& text, const std::vector<std::string>& overrides = {}) {
@@ -115,4 +115,4 @@ stage = [{ name = "topple", kind = "run", duration_s = 0.5, damping = { local = 
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::whole_scenes_test

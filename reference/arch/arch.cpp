@@ -10,7 +10,7 @@
 namespace voussoir::reference {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // load on a joint of the right half: weight from the crown to it, and its moment about the centre
 struct Above {

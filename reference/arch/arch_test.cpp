@@ -7,7 +7,7 @@
 #include <numbers>
 #include <stdexcept>
 
-namespace voussoir::reference {
+namespace voussoir::reference::arch_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -146,4 +146,4 @@ TEST(ClosedArch, HasTheThrustOfItsHingesOnStiffJoints) {
 }
 
 }  // namespace
-}  // namespace voussoir::reference
+}  // namespace voussoir::reference::arch_test

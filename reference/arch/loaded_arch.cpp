@@ -9,7 +9,7 @@
 namespace voussoir::reference {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // --- rigid voussoirs
 

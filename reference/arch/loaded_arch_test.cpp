@@ -8,7 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
-namespace voussoir::reference {
+namespace voussoir::reference::loaded_arch_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -184,4 +184,4 @@ TEST(ElasticLoad, HasItsStableEquilibriumBelowTheGreatestLoadOnly) {
 }
 
 }  // namespace
-}  // namespace voussoir::reference
+}  // namespace voussoir::reference::loaded_arch_test

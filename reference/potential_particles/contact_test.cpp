@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace voussoir::reference {
+namespace voussoir::reference::contact_test {
 namespace {
 
 // the least of a convex function on 0..end, by thirds
@@ -88,4 +88,4 @@ TEST(PotentialParticles, ScalesWithItsLengthsAndTouchesAtTheSum) {
 }
 
 }  // namespace
-}  // namespace voussoir::reference
+}  // namespace voussoir::reference::contact_test

@@ -8,7 +8,7 @@
 #include "reference/ode.hpp"
 #include "reference/small/small.hpp"
 
-namespace voussoir::reference {
+namespace voussoir::reference::motion_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -100,4 +100,4 @@ TEST(RollingCorner, RefusesInvalidBodies) {
 }
 
 }  // namespace
-}  // namespace voussoir::reference
+}  // namespace voussoir::reference::motion_test

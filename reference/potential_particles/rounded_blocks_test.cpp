@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace voussoir::reference {
+namespace voussoir::reference::rounded_blocks_test {
 namespace {
 
 TEST(FaceBulge, IsFlatWithoutASphereAndAlmostTheSphereAtItsEnd) {
@@ -121,4 +121,4 @@ TEST(RoundedColumn, IsTheRadiusAtWhichSomeTiltLowersTheCentroids) {
 }
 
 }  // namespace
-}  // namespace voussoir::reference
+}  // namespace voussoir::reference::rounded_blocks_test

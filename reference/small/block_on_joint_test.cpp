@@ -11,7 +11,7 @@
 #include "reference/small/toppling.hpp"
 #include "text/angle.hpp"
 
-namespace voussoir::reference {
+namespace voussoir::reference::block_on_joint_test {
 namespace {
 
 BlockOnJoint block_at(double slope_deg, double friction_deg, double stiffness = 100e9) {
@@ -147,4 +147,4 @@ TEST(BlockOnJoint, NeedsLessFrictionThanARigidBlockToHoldItsFoot) {
 }
 
 }  // namespace
-}  // namespace voussoir::reference
+}  // namespace voussoir::reference::block_on_joint_test

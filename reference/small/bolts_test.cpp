@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace voussoir::reference {
+namespace voussoir::reference::bolts_test {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
@@ -30,4 +30,4 @@ TEST(Bolts, HoldABlockByForceAndByPressure) {
 }
 
 }  // namespace
-}  // namespace voussoir::reference
+}  // namespace voussoir::reference::bolts_test

@@ -13,7 +13,7 @@
 namespace voussoir::reference {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 // Brent's method gains a digit or more a round; 200 leaves room for the worst bisection.
 constexpr int most_rounds = 200;
 

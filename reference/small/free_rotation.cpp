@@ -14,7 +14,7 @@
 namespace voussoir::reference {
 namespace {
 
-constexpr Require require{"free rotation: "};
+constexpr Require rotation_requires{"free rotation: "};
 
 // The motion w_a = A cn u, w_b = B sn u, w_c = C dn u, u = u0 + rate t; c is the axis the angular momentum circles
 // about.
@@ -28,8 +28,8 @@ struct Motion {
 
 double incomplete_integral(double phi, double parameter) {
   gsl_sf_result result;
-  require(gsl_sf_ellint_F_e(phi, std::sqrt(parameter), GSL_PREC_DOUBLE, &result) == GSL_SUCCESS,
-          "the start is on the middle axis, about which rotation is unstable; tilt it");
+  rotation_requires(gsl_sf_ellint_F_e(phi, std::sqrt(parameter), GSL_PREC_DOUBLE, &result) == GSL_SUCCESS,
+                    "the start is on the middle axis, about which rotation is unstable; tilt it");
   return result.val;
 }
 
@@ -37,10 +37,10 @@ Motion motion_of(const FreeRotation& body) {
   const auto& inertia = body.inertia;
   const auto& w = body.angular_velocity;
   for (int i = 0; i < 3; ++i) {
-    require(std::isfinite(inertia[i]) && inertia[i] > 0, "moments of inertia must be positive");
-    require(std::isfinite(w[i]), "angular velocity must be finite");
-    require(inertia[i] <= (inertia[(i + 1) % 3] + inertia[(i + 2) % 3]) * (1 + 1e-12),
-            "a moment of inertia exceeds the sum of the others; no body has such moments");
+    rotation_requires(std::isfinite(inertia[i]) && inertia[i] > 0, "moments of inertia must be positive");
+    rotation_requires(std::isfinite(w[i]), "angular velocity must be finite");
+    rotation_requires(inertia[i] <= (inertia[(i + 1) % 3] + inertia[(i + 2) % 3]) * (1 + 1e-12),
+                      "a moment of inertia exceeds the sum of the others; no body has such moments");
   }
   gsl_set_error_handler_off();
 
@@ -95,7 +95,7 @@ constexpr double largest_turn = 0.005;  // rad in a step of the attitude
 }  // namespace
 
 std::array<double, 3> free_rotation(const FreeRotation& body, double time) {
-  require(std::isfinite(time), "time must be finite");
+  rotation_requires(std::isfinite(time), "time must be finite");
   const Motion motion = motion_of(body);
   if (motion.steady) return body.angular_velocity;
   double sn = 0, cn = 0, dn = 0;
@@ -118,7 +118,7 @@ double free_rotation_period(const FreeRotation& body) {
 }
 
 std::array<double, 3> free_rotation_in_space(const FreeRotation& body, double time) {
-  require(time >= 0, "time must not be negative");
+  rotation_requires(time >= 0, "time must not be negative");
   double fastest = 0;
   for (int i = 0; i < 3; ++i)  // the energy bounds the velocity about each axis
     for (int k = 0; k < 3; ++k)

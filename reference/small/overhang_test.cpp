@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace voussoir::reference {
+namespace voussoir::reference::overhang_test {
 namespace {
 
 OverhangStack stack_of(int blocks) {
@@ -89,4 +89,4 @@ TEST(Overhang, RefusesJointsThatAreTooSoft) {
 }
 
 }  // namespace
-}  // namespace voussoir::reference
+}  // namespace voussoir::reference::overhang_test

@@ -23,7 +23,7 @@ void require_lean(const RockingBlock& block, double lean) {
 }
 
 // x to the side the block leans to, y up from the base; turns clockwise
-enum Entry { lean_, spin_, x_, speed_x_, y_, speed_y_, shear_, entries_ };
+enum RockingEntry { lean_, lean_rate_, x_, speed_x_, y_, speed_y_, shear_, rocking_entries_ };
 
 }  // namespace
 
@@ -68,11 +68,12 @@ double elastic_quarter_period(const RockingBlock& block, double lean, double nor
     // its point of action, from the centroid: two thirds of the wedge from its tip, which is on the base
     const double tip = beside - (above - s[y_]) / std::tan(turn);
     const double rx = tip + 2.0 / 3 * length * std::cos(half), ry = -s[y_] - 2.0 / 3 * length * std::sin(half);
-    const double slip = (s[speed_x_] + s[spin_] * ry) * std::cos(half) - (s[speed_y_] - s[spin_] * rx) * std::sin(half);
+    const double slip =
+        (s[speed_x_] + s[lean_rate_] * ry) * std::cos(half) - (s[speed_y_] - s[lean_rate_] * rx) * std::sin(half);
     const double fx = pressure * std::sin(half) + s[shear_] * std::cos(half),
                  fy = pressure * std::cos(half) - s[shear_] * std::sin(half);
-    slope[lean_] = s[spin_];
-    slope[spin_] = -(rx * fy - ry * fx) / inertia;
+    slope[lean_] = s[lean_rate_];
+    slope[lean_rate_] = -(rx * fy - ry * fx) / inertia;
     slope[x_] = s[speed_x_];
     slope[speed_x_] = fx / mass;
     slope[y_] = s[speed_y_];
@@ -82,7 +83,7 @@ double elastic_quarter_period(const RockingBlock& block, double lean, double nor
 
   // without motion the weight is supported upright: pressure and shear are its components
   const double length = std::sqrt(weight * std::cos(0.5 * lean) / (normal_stiffness * std::tan(0.5 * lean)));
-  std::vector<double> state(entries_, 0.0);
+  std::vector<double> state(rocking_entries_, 0.0);
   state[lean_] = lean;
   state[y_] = radius * std::cos(alpha - lean) - length * std::cos(0.5 * lean) * std::sin(lean);
   state[shear_] = -weight * std::sin(0.5 * lean);
@@ -98,7 +99,7 @@ double elastic_quarter_period(const RockingBlock& block, double lean, double nor
     if (time > 1e3 * housner_quarter_period(block, lean))
       throw std::runtime_error("rocking block: it does not return to upright");
   }
-  return time - state[lean_] / state[spin_];
+  return time - state[lean_] / state[lean_rate_];
 }
 
 double housner_restitution(const RockingBlock& block) {

@@ -7,7 +7,7 @@
 
 #include "reference/small/small.hpp"
 
-namespace voussoir::reference {
+namespace voussoir::reference::rocking_test {
 namespace {
 
 TEST(Rocking, IsHousnersForSlenderBlocks) {
@@ -59,4 +59,4 @@ TEST(Rocking, LiftsOffItsBase) {
 }
 
 }  // namespace
-}  // namespace voussoir::reference
+}  // namespace voussoir::reference::rocking_test

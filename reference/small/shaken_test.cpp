@@ -7,9 +7,9 @@
 #include "reference/small/small.hpp"
 #include "text/angle.hpp"
 
-using namespace voussoir::reference;
 using voussoir::degree;
 
+namespace voussoir::reference::shaken_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -69,3 +69,4 @@ TEST(ShakenBlock, StaysBelowTheLimitAndRefusesWhatItDoesNotModel) {
 }
 
 }  // namespace
+}  // namespace voussoir::reference::shaken_test

@@ -4,8 +4,7 @@
 
 #include <cmath>
 
-using namespace voussoir::reference;
-
+namespace voussoir::reference::shear_curve_test {
 namespace {
 
 const ShearCurve curve{2e6, 5e10, 0.6};
@@ -36,3 +35,4 @@ TEST(ShearCurve, Limits) {
 }
 
 }  // namespace
+}  // namespace voussoir::reference::shear_curve_test

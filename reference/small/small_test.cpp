@@ -13,9 +13,9 @@
 #include "reference/ode.hpp"
 #include "text/angle.hpp"
 
-using namespace voussoir::reference;
 using voussoir::degree;
 
+namespace voussoir::reference::small_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -352,3 +352,4 @@ TEST(FallOver, Limits) {
 }
 
 }  // namespace
+}  // namespace voussoir::reference::small_test

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace voussoir::reference {
+namespace voussoir::reference::toppling_test {
 namespace {
 
 InclinedBlock block_at(double slope_deg, double friction_deg) {
@@ -82,4 +82,4 @@ TEST(SteppedColumns, HaveThePublishedHeightsAndFriction) {
 }
 
 }  // namespace
-}  // namespace voussoir::reference
+}  // namespace voussoir::reference::toppling_test

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace voussoir::reference {
+namespace voussoir::reference::bedded_arc_test {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
@@ -106,4 +106,4 @@ TEST(BeddedArc, Scales) {
 }
 
 }  // namespace
-}  // namespace voussoir::reference
+}  // namespace voussoir::reference::bedded_arc_test

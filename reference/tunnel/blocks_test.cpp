@@ -9,6 +9,7 @@
 
 using namespace voussoir::reference::network;
 
+namespace voussoir::reference::blocks_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -217,3 +218,4 @@ TEST(NetworkBlocks, RingOnRays) {
 }
 
 }  // namespace
+}  // namespace voussoir::reference::blocks_test

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <stdexcept>
 
-using namespace voussoir::reference;
 using voussoir::degree;
 
+namespace voussoir::reference::bolted_ring_test {
 namespace {
 
 // Boon (2013), section 5.4: D 10 m, centre 25 m deep at 2700 kg/m3, 0.2 GN/m per joint, s_mean 0.77 m, unit thickness.
@@ -154,3 +154,4 @@ TEST(BoltedRing, RefusesBadInput) {
 }
 
 }  // namespace
+}  // namespace voussoir::reference::bolted_ring_test

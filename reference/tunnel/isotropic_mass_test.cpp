@@ -12,9 +12,9 @@
 #include "reference/tunnel/bolted_ring.hpp"
 #include "reference/tunnel/lining.hpp"
 
-using namespace voussoir::reference;
 using namespace voussoir::reference::network;
 
+namespace voussoir::reference::isotropic_mass_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -285,3 +285,4 @@ TEST(IsotropicOpening, RefusesBadInput) {
 }
 
 }  // namespace
+}  // namespace voussoir::reference::isotropic_mass_test

@@ -9,9 +9,9 @@
 #include "reference/tunnel/isotropic_mass.hpp"
 #include "reference/tunnel/lining.hpp"
 
-using namespace voussoir::reference;
 using namespace voussoir::reference::network;
 
+namespace voussoir::reference::lined_opening_test {
 namespace {
 
 using std::numbers::pi;
@@ -109,3 +109,4 @@ TEST(LinedOpening, UnequalStresses) {
 }
 
 }  // namespace
+}  // namespace voussoir::reference::lined_opening_test

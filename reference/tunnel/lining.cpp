@@ -9,10 +9,10 @@
 namespace voussoir::reference {
 namespace {
 
-constexpr Require require{"lining: "};
+constexpr Require lining_requires{"lining: "};
 
 void require_positive(double value, const std::string& name) {
-  require(std::isfinite(value) && value > 0, name + " must be positive and finite");
+  lining_requires(std::isfinite(value) && value > 0, name + " must be positive and finite");
 }
 
 }  // namespace
@@ -23,8 +23,8 @@ double lining_hoop_force(const SoftLining& lining) {
   require_positive(lining.lining_modulus, "lining modulus");
   require_positive(lining.lining_thickness, "lining thickness");
   require_positive(lining.interface_stiffness, "interface stiffness");
-  require(std::isfinite(lining.in_situ_pressure), "in-situ pressure must be finite");
-  require(std::abs(lining.lining_poisson_ratio) < 1, "lining Poisson's ratio must be between -1 and 1");
+  lining_requires(std::isfinite(lining.in_situ_pressure), "in-situ pressure must be finite");
+  lining_requires(std::abs(lining.lining_poisson_ratio) < 1, "lining Poisson's ratio must be between -1 and 1");
   const double flexibility = lining.radius * (1 - lining.lining_poisson_ratio * lining.lining_poisson_ratio) /
                                  (lining.lining_modulus * lining.lining_thickness) +
                              1 / (lining.interface_stiffness * lining.radius);
@@ -39,11 +39,11 @@ RingLiningForces ring_lining(const RingLining& lining, LiningContact contact) {
   require_positive(lining.lining_modulus, "lining modulus");
   require_positive(lining.lining_area, "lining area");
   require_positive(lining.lining_inertia, "lining inertia");
-  require(std::isfinite(lining.vertical_stress) && std::isfinite(lining.horizontal_ratio),
-          "vertical stress and horizontal ratio must be finite");
-  require(lining.ground_poisson_ratio >= 0 && lining.ground_poisson_ratio < 0.5,
-          "ground Poisson's ratio must be in 0..0.5, 0.5 excluded");
-  require(std::abs(lining.lining_poisson_ratio) < 1, "lining Poisson's ratio must be between -1 and 1");
+  lining_requires(std::isfinite(lining.vertical_stress) && std::isfinite(lining.horizontal_ratio),
+                  "vertical stress and horizontal ratio must be finite");
+  lining_requires(lining.ground_poisson_ratio >= 0 && lining.ground_poisson_ratio < 0.5,
+                  "ground Poisson's ratio must be in 0..0.5, 0.5 excluded");
+  lining_requires(std::abs(lining.lining_poisson_ratio) < 1, "lining Poisson's ratio must be between -1 and 1");
 
   const double nu = lining.ground_poisson_ratio, radius = lining.radius;
   const double modulus_ratio = lining.ground_modulus * (1 - lining.lining_poisson_ratio * lining.lining_poisson_ratio) /

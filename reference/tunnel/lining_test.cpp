@@ -9,8 +9,7 @@
 
 #include "reference/ode.hpp"
 
-using namespace voussoir::reference;
-
+namespace voussoir::reference::lining_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -211,3 +210,4 @@ TEST(RingLining, SymmetrySignsAndScaling) {
 }
 
 }  // namespace
+}  // namespace voussoir::reference::lining_test

@@ -9,8 +9,7 @@
 #include <utility>
 #include <vector>
 
-using namespace voussoir::reference;
-
+namespace voussoir::reference::mechanism_test {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
@@ -181,3 +180,4 @@ TEST(Mechanism, RefusesBlocksAndSetsThatDoNotExist) {
 }
 
 }  // namespace
+}  // namespace voussoir::reference::mechanism_test

@@ -16,7 +16,7 @@ constexpr double least_pivot = 1e-12;
 
 constexpr int largest_row = 6;
 
-[[noreturn]] void refuse(const std::string& message) {
+[[noreturn]] void refuse_network(const std::string& message) {
   throw std::invalid_argument("network: " + message);
 }
 
@@ -96,22 +96,24 @@ struct Assembly {
 
 void check_block(const Block& block, int i) {
   const std::string name = "block " + std::to_string(i);
-  if (block.parts.empty()) refuse(name + " has no parts");
+  if (block.parts.empty()) refuse_network(name + " has no parts");
   for (const Polygon& part : block.parts) {
-    if (part.size() < 3) refuse(name + " has a part of fewer than three corners");
+    if (part.size() < 3) refuse_network(name + " has a part of fewer than three corners");
     for (const Point& corner : part)
-      if (!std::isfinite(corner[0]) || !std::isfinite(corner[1])) refuse(name + " has a corner that is not finite");
-    if (!(area(Block{{part}}) > 0)) refuse(name + " has a part without area; give its corners counter-clockwise");
+      if (!std::isfinite(corner[0]) || !std::isfinite(corner[1]))
+        refuse_network(name + " has a corner that is not finite");
+    if (!(area(Block{{part}}) > 0))
+      refuse_network(name + " has a part without area; give its corners counter-clockwise");
   }
   for (int k = 0; k < 3; ++k)
     if (!std::isfinite(block.load[k]) || !std::isfinite(block.imposed[k]))
-      refuse(name + " has a load or displacement that is not finite");
+      refuse_network(name + " has a load or displacement that is not finite");
 }
 
 void check_pair(const Network& network, int first, int second, const std::string& name) {
   const int count = static_cast<int>(network.blocks.size());
   if (first < 0 || second < 0 || first >= count || second >= count || first == second)
-    refuse(name + " must lie between two different blocks of 0 to " + std::to_string(count - 1));
+    refuse_network(name + " must lie between two different blocks of 0 to " + std::to_string(count - 1));
 }
 
 void check(const Network& network) {
@@ -121,48 +123,48 @@ void check(const Network& network) {
     const Spring& s = network.springs[i];
     const std::string name = "spring " + std::to_string(i);
     check_pair(network, s.first, s.second, name);
-    if (!is_unit(s.normal)) refuse(name + " needs a unit normal");
-    if (!(std::isfinite(s.length) && s.length > 0)) refuse(name + " needs a positive length, in m");
+    if (!is_unit(s.normal)) refuse_network(name + " needs a unit normal");
+    if (!(std::isfinite(s.length) && s.length > 0)) refuse_network(name + " needs a positive length, in m");
     if (!is_stiffness(s.normal_stiffness) || !is_stiffness(s.shear_stiffness) || !is_stiffness(s.spread))
-      refuse(name + " must have stiffnesses and a spread that are not negative");
+      refuse_network(name + " must have stiffnesses and a spread that are not negative");
   }
   for (std::size_t i = 0; i < network.bolts.size(); ++i) {
     const Bolt& b = network.bolts[i];
     const std::string name = "bolt " + std::to_string(i);
     check_pair(network, b.first, b.second, name);
-    if (!is_unit(b.axis)) refuse(name + " needs a unit axis");
+    if (!is_unit(b.axis)) refuse_network(name + " needs a unit axis");
     if (!is_stiffness(b.stiffness) || !is_stiffness(b.across) || !std::isfinite(b.pretension))
-      refuse(name + " must have stiffnesses that are not negative, and a finite pretension");
+      refuse_network(name + " must have stiffnesses that are not negative, and a finite pretension");
   }
 }
 
 void check(const Lining& lining, int blocks) {
   if (lining.nodes.empty()) {
-    if (!lining.ties.empty()) refuse("ties without nodes of a lining");
+    if (!lining.ties.empty()) refuse_network("ties without nodes of a lining");
     return;
   }
   const int count = static_cast<int>(lining.nodes.size());
-  if (count < (lining.closed ? 3 : 2)) refuse("a lining needs two nodes, a closed one three");
+  if (count < (lining.closed ? 3 : 2)) refuse_network("a lining needs two nodes, a closed one three");
   if (!(lining.axial > 0 && lining.bending > 0) || !std::isfinite(lining.axial) || !std::isfinite(lining.bending))
-    refuse("a lining needs positive stiffnesses EA and EI");
+    refuse_network("a lining needs positive stiffnesses EA and EI");
   double twice_area = 0;
   for (int i = 0; i < count; ++i) {
     const Node& node = lining.nodes[i];
     for (int k = 0; k < 3; ++k)
       if (!std::isfinite(node.load[k]) || !std::isfinite(node.imposed[k]))
-        refuse("node " + std::to_string(i) + " has a load or displacement that is not finite");
+        refuse_network("node " + std::to_string(i) + " has a load or displacement that is not finite");
     twice_area += cross(node.at, lining.nodes[(i + 1) % count].at);
   }
-  if (lining.closed && !(twice_area > 0)) refuse("nodes of a closed lining run counter-clockwise");
+  if (lining.closed && !(twice_area > 0)) refuse_network("nodes of a closed lining run counter-clockwise");
   for (std::size_t i = 0; i < lining.ties.size(); ++i) {
     const Tie& tie = lining.ties[i];
     const std::string name = "tie " + std::to_string(i);
-    if (tie.node < 0 || tie.node >= count) refuse(name + " names a node that does not exist");
-    if (tie.block < 0 || tie.block >= blocks) refuse(name + " names a block that does not exist");
-    if (!is_unit(tie.normal)) refuse(name + " needs a unit normal");
-    if (!(std::isfinite(tie.length) && tie.length > 0)) refuse(name + " needs a positive length, in m");
+    if (tie.node < 0 || tie.node >= count) refuse_network(name + " names a node that does not exist");
+    if (tie.block < 0 || tie.block >= blocks) refuse_network(name + " names a block that does not exist");
+    if (!is_unit(tie.normal)) refuse_network(name + " needs a unit normal");
+    if (!(std::isfinite(tie.length) && tie.length > 0)) refuse_network(name + " needs a positive length, in m");
     if (!is_stiffness(tie.normal_stiffness) || !is_stiffness(tie.shear_stiffness))
-      refuse(name + " must have stiffnesses that are not negative");
+      refuse_network(name + " must have stiffnesses that are not negative");
   }
 }
 
@@ -214,7 +216,7 @@ void add_beams(Assembly& a) {
     const int first = 3 * (a.blocks() + i), second = 3 * (a.blocks() + (i + 1) % count);
     const Point chord = minus(lining.nodes[(i + 1) % count].at, lining.nodes[i].at);
     const double length = std::hypot(chord[0], chord[1]);
-    if (!(std::isfinite(length) && length > 0)) refuse("beam " + std::to_string(i) + " has no length");
+    if (!(std::isfinite(length) && length > 0)) refuse_network("beam " + std::to_string(i) + " has no length");
     const Point along{chord[0] / length, chord[1] / length}, left = turned(along);
     Row stretch, opposite, alike;
     for (int k = 0; k < 2; ++k) {
@@ -260,7 +262,8 @@ void refuse_loose(const Assembly& a, const std::vector<char>& held) {
   for (int i = 0; i < 3 * a.bodies(); ++i)
     if (held[i]) anchored[find(i / 3)] = 1;
   for (int i = 0; i < a.bodies(); ++i)
-    if (!anchored[find(i)]) refuse(name_of(a, 3 * i) + ": neither it nor any body joined to it by springs is held");
+    if (!anchored[find(i)])
+      refuse_network(name_of(a, 3 * i) + ": neither it nor any body joined to it by springs is held");
 }
 
 // The free freedoms from K u = f, scaled to a unit diagonal.
@@ -291,7 +294,7 @@ void find_displacements(const Assembly& a, const std::vector<char>& held, const 
     }
   }
   for (Eigen::Index i = 0; i < count; ++i) {
-    if (!(scale[i] > 0)) refuse(name_of(a, freedom[i]) + ": no spring holds it");
+    if (!(scale[i] > 0)) refuse_network(name_of(a, freedom[i]) + ": no spring holds it");
     scale[i] = 1 / std::sqrt(scale[i]);
   }
   Eigen::SparseMatrix<double> stiffness(count, count);
@@ -301,7 +304,8 @@ void find_displacements(const Assembly& a, const std::vector<char>& held, const 
   const Eigen::VectorXd pivots = factors.vectorD();
   for (Eigen::Index i = 0; i < count; ++i)
     if (!(pivots[i] > least_pivot))
-      refuse(name_of(a, freedom[factors.permutationPinv().indices()[i]]) + ": its springs leave it a mechanism");
+      refuse_network(name_of(a, freedom[factors.permutationPinv().indices()[i]]) +
+                     ": its springs leave it a mechanism");
   const Eigen::VectorXd solved = scale.cwiseProduct(factors.solve(scale.cwiseProduct(right)));
   for (Eigen::Index i = 0; i < count; ++i)
     moved[freedom[i]] = solved[i];
@@ -362,7 +366,7 @@ double area(const Block& block) {
 }
 
 Point centroid(const Block& block) {
-  if (!(area(block) > 0)) refuse("a block without area has no centroid; give its corners counter-clockwise");
+  if (!(area(block) > 0)) refuse_network("a block without area has no centroid; give its corners counter-clockwise");
   const Point origin = block.parts[0][0];
   const std::array<double, 3> sum = moments(block, origin);
   return {origin[0] + sum[1] / sum[0], origin[1] + sum[2] / sum[0]};
@@ -383,7 +387,7 @@ Point displacement(const Network& network, const Solution& solution, int block, 
 
 void install(Network& network, const Solution& before) {
   if (before.blocks.size() != network.blocks.size())
-    refuse("supports are installed after a solution of the same blocks");
+    refuse_network("supports are installed after a solution of the same blocks");
   for (Bolt& bolt : network.bolts) {
     const Point toe = displacement(network, before, bolt.second, bolt.second_anchor);
     const Point collar = displacement(network, before, bolt.first, bolt.first_anchor);

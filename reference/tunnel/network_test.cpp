@@ -13,6 +13,7 @@
 
 using namespace voussoir::reference::network;
 
+namespace voussoir::reference::network_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -361,3 +362,4 @@ TEST(Network, RefusesBadNumbersByName) {
 }
 
 }  // namespace
+}  // namespace voussoir::reference::network_test

@@ -12,11 +12,11 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr Require require{"ring: "};
+constexpr Require ring_requires{"ring: "};
 
 void check(double pressure, double radius) {
-  require(std::isfinite(pressure), "pressure must be finite, in Pa");
-  require(std::isfinite(radius) && radius > 0, "radius must be positive, in m");
+  ring_requires(std::isfinite(pressure), "pressure must be finite, in Pa");
+  ring_requires(std::isfinite(radius) && radius > 0, "radius must be positive, in m");
 }
 
 }  // namespace
@@ -29,34 +29,34 @@ MemberForces ring_under_vertical_pressure(double pressure, double radius, double
 
 MemberForces polygon_under_pressure(double pressure, double circumradius, int sides, double fraction) {
   check(pressure, circumradius);
-  require(sides >= 3, "a polygon needs at least 3 sides");
-  require(fraction >= 0 && fraction <= 1, "fraction along the side must be in 0..1");
+  ring_requires(sides >= 3, "a polygon needs at least 3 sides");
+  ring_requires(fraction >= 0 && fraction <= 1, "fraction along the side must be in 0..1");
   const double length = 2 * circumradius * std::sin(pi / sides);
   return {pressure * length * length * (fraction * (1 - fraction) / 2 - 1.0 / 12),
           pressure * circumradius * std::cos(pi / sides)};
 }
 
 double pressure_from_moments(const std::vector<double>& position, const std::vector<double>& moment) {
-  require(position.size() == moment.size() && position.size() >= 3,
-          "give at least three positions and as many moments");
+  ring_requires(position.size() == moment.size() && position.size() >= 3,
+                "give at least three positions and as many moments");
   const auto count = static_cast<Eigen::Index>(position.size());
   // Centred and scaled: a parabola far from the origin is badly conditioned.
   const auto [low, high] = std::minmax_element(position.begin(), position.end());
   const double middle = (*low + *high) / 2, half = (*high - *low) / 2;
-  require(half > 0, "positions must differ");
+  ring_requires(half > 0, "positions must differ");
   Eigen::MatrixXd powers(count, 3);
   for (Eigen::Index i = 0; i < count; ++i) {
     const double x = (position[static_cast<std::size_t>(i)] - middle) / half;
     powers.row(i) << 1, x, x * x;
   }
   const auto factors = powers.colPivHouseholderQr();
-  require(factors.rank() == 3, "at least three positions must differ");
+  ring_requires(factors.rank() == 3, "at least three positions must differ");
   const Eigen::Vector3d fit = factors.solve(Eigen::Map<const Eigen::VectorXd>(moment.data(), count));
   return -2 * fit(2) / (half * half);
 }
 
 std::vector<double> ring_moments(const std::vector<double>& pressure, double radius) {
-  require(pressure.size() >= 4, "give pressures at four or more angles");
+  ring_requires(pressure.size() >= 4, "give pressures at four or more angles");
   for (const double p : pressure)
     check(p, radius);
   const int count = static_cast<int>(pressure.size());

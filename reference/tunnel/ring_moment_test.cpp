@@ -9,11 +9,11 @@
 #include <stdexcept>
 #include <vector>
 
-using namespace voussoir::reference;
 using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 
+namespace voussoir::reference::ring_moment_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -216,3 +216,4 @@ TEST(RingMoment, PressureFromASide) {
 }
 
 }  // namespace
+}  // namespace voussoir::reference::ring_moment_test

@@ -12,7 +12,7 @@
 namespace voussoir::reference::network {
 namespace {
 
-constexpr Require require{"rock mass: "};
+constexpr Require rock_mass_requires{"rock mass: "};
 
 // how far inside a polygon's edge a point is: offset - normal·x, normal unit
 struct Side {
@@ -71,8 +71,8 @@ Piece piece_of(Polygon polygon) {
 
 std::vector<Trace> draw_traces(const Point& low, const Point& high, double density, double angle, double deviation,
                                double length, std::uint64_t seed) {
-  require(high[0] > low[0] && high[1] > low[1], "traces need a box with an area");
-  require(density > 0 && length > 0 && deviation >= 0, "density and length of traces must be positive");
+  rock_mass_requires(high[0] > low[0] && high[1] > low[1], "traces need a box with an area");
+  rock_mass_requires(density > 0 && length > 0 && deviation >= 0, "density and length of traces must be positive");
   std::mt19937_64 bits(seed);
   const auto uniform = [&] { return (static_cast<double>(bits() >> 11) + 0.5) * 0x1p-53; };
   std::vector<Trace> traces;
@@ -89,14 +89,15 @@ std::vector<Trace> draw_traces(const Point& low, const Point& high, double densi
 // The largest circle touches three sides: all threes are tried, for polygons have few.
 SpacedJointsModuli spaced_joints_moduli(double spacing, double normal_stiffness, double shear_stiffness,
                                         double poisson_ratio) {
-  require(spacing > 0 && normal_stiffness > 0 && shear_stiffness > 0, "spacing and stiffnesses must be positive");
-  require(poisson_ratio >= 0 && poisson_ratio < 0.5, "Poisson's ratio must be in 0..0.5, 0.5 excluded");
+  rock_mass_requires(spacing > 0 && normal_stiffness > 0 && shear_stiffness > 0,
+                     "spacing and stiffnesses must be positive");
+  rock_mass_requires(poisson_ratio >= 0 && poisson_ratio < 0.5, "Poisson's ratio must be in 0..0.5, 0.5 excluded");
   const double young = normal_stiffness * spacing;
   return {young, shear_stiffness * spacing, young / (2 * (1 + poisson_ratio))};
 }
 
 double inscribed_radius(const Polygon& polygon) {
-  require(polygon.size() >= 3, "a polygon needs three corners");
+  rock_mass_requires(polygon.size() >= 3, "a polygon needs three corners");
   const Point origin = polygon[0];
   const std::vector<Side> sides = sides_of(polygon, origin);
   double largest = 0;
@@ -118,7 +119,7 @@ double inscribed_radius(const Polygon& polygon) {
 }
 
 std::vector<Polygon> cut_by_traces(const Polygon& whole, const std::vector<Trace>& traces, double least_radius) {
-  require(least_radius > 0, "the least inscribed radius must be positive, in m");
+  rock_mass_requires(least_radius > 0, "the least inscribed radius must be positive, in m");
   std::vector<Piece> pieces{piece_of(whole)};
   for (const Trace& trace : traces) {
     const Point normal{-std::sin(trace.angle), std::cos(trace.angle)};
@@ -155,9 +156,9 @@ std::vector<Trace> in_turn(const std::vector<std::vector<Trace>>& sets) {
 
 OedometerAnswer oedometer(std::vector<Block> blocks, const Point& low, const Point& high, int cells,
                           double normal_stiffness, double shear_stiffness, int along, double tolerance) {
-  require(along == 0 || along == 1, "an oedometer presses along 0 (x) or 1 (y)");
+  rock_mass_requires(along == 0 || along == 1, "an oedometer presses along 0 (x) or 1 (y)");
   const Point size{high[0] - low[0], high[1] - low[1]};
-  require(size[0] > 0 && size[1] > 0, "an oedometer needs a box with an area");
+  rock_mass_requires(size[0] > 0 && size[1] > 0, "an oedometer needs a box with an area");
   // walls left, right, below, above, as thick as they are long
   const std::array<Point, 4> shifts{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
   const int first_wall = static_cast<int>(blocks.size());

@@ -12,6 +12,7 @@
 using namespace voussoir::reference::network;
 using voussoir::degree;
 
+namespace voussoir::reference::rock_mass_test {
 namespace {
 
 TEST(RockMass, InscribedRadius) {
@@ -131,3 +132,4 @@ TEST(RockMassLong, Chapter) {
 }
 
 }  // namespace
+}  // namespace voussoir::reference::rock_mass_test

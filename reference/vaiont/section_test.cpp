@@ -11,9 +11,9 @@
 
 #include "text/angle.hpp"
 
-using namespace voussoir::reference;
 using voussoir::degree;
 
+namespace voussoir::reference::section_test {
 namespace {
 
 constexpr double vertical = std::numbers::pi / 2, rock = 40 * degree;
@@ -201,3 +201,4 @@ TEST(VaiontSection, RefusesInvalidInput) {
 }
 
 }  // namespace
+}  // namespace voussoir::reference::section_test

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace voussoir::reference {
+namespace voussoir::reference::slide_in_space_test {
 namespace {
 
 // a wedge of rock on a plane that dips by 45 degrees to the north, under level ground, cut off by the gorge
@@ -38,4 +38,4 @@ TEST(SlideInSpace, HasTheVolumesOfVaiont) {
 }
 
 }  // namespace
-}  // namespace voussoir::reference
+}  // namespace voussoir::reference::slide_in_space_test

@@ -8,9 +8,9 @@
 
 #include "text/angle.hpp"
 
-using namespace voussoir::reference;
 using voussoir::degree;
 
+namespace voussoir::reference::floating_test {
 namespace {
 
 const FloatingBlock raft{2, 1, 0.6, 9.81}, tender{1.1, 1, 0.5, 9.81};
@@ -119,3 +119,4 @@ TEST(Submerged, CubeByCountingPoints) {
 }
 
 }  // namespace
+}  // namespace voussoir::reference::floating_test

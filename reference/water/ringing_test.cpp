@@ -8,9 +8,9 @@
 
 #include "text/angle.hpp"
 
-using namespace voussoir::reference;
 using voussoir::degree;
 
+namespace voussoir::reference::ringing_test {
 namespace {
 
 RingingBlock block(double shear_stiffness) {
@@ -85,3 +85,4 @@ TEST(RingingBlock, RefusesValuesOutOfRange) {
 }
 
 }  // namespace
+}  // namespace voussoir::reference::ringing_test

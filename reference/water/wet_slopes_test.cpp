@@ -9,9 +9,9 @@
 
 #include "text/angle.hpp"
 
-using namespace voussoir::reference;
 using voussoir::degree;
 
+namespace voussoir::reference::wet_slopes_test {
 namespace {
 
 struct Point {
@@ -161,3 +161,4 @@ TEST(DrawnDownBlock, LimitsAndScaling) {
 }
 
 }  // namespace
+}  // namespace voussoir::reference::wet_slopes_test

@@ -19,9 +19,9 @@ using Eigen::Vector3d;
 // degrees about 1500 remain, at the same error.
 constexpr double widening_distance = 0.0044;
 
-constexpr Require require{"wedge path: "};
+constexpr Require path_requires{"wedge path: "};
 
-Vector3d to_eigen(const Vector3& v) {
+Vector3d eigen_of(const Vector3& v) {
   return {v[0], v[1], v[2]};
 }
 
@@ -53,8 +53,8 @@ WedgePathResult follow(const ElasticPlasticWedge& block, const WedgePathSettings
     return all;
   };
   const auto put_on = [&](const Vector3& now) {
-    require(equilibrate(joints, equal(settings.friction_start), now, size, settlement, state),
-            "the block does not hold while its loads are applied; raise friction_start or gravity_steps");
+    path_requires(equilibrate(joints, equal(settings.friction_start), now, size, settlement, state),
+                  "the block does not hold while its loads are applied; raise friction_start or gravity_steps");
   };
   const auto part = [&](int step) { return static_cast<double>(step) / settings.gravity_steps; };
   for (int step = 1; step <= settings.gravity_steps; ++step)
@@ -90,14 +90,14 @@ WedgePathResult follow(const ElasticPlasticWedge& block, const WedgePathSettings
 WedgePathResult elastic_plastic_path(const ElasticPlasticWedge& block, const WedgePathSettings& settings) {
   solve_wedge(block.wedge);  // checks the orientation and the weight
   for (const WedgePlane* plane : {&block.wedge.a, &block.wedge.b})
-    require(plane->cohesion_force == 0, "cohesion is not modelled along the path; set it to zero");
+    path_requires(plane->cohesion_force == 0, "cohesion is not modelled along the path; set it to zero");
   for (const double value : {block.area_a, block.area_b, block.normal_stiffness, block.shear_stiffness})
-    require(std::isfinite(value) && value > 0, "areas and stiffnesses must be positive and finite");
-  require(settings.friction_start > 0 && settings.friction_start < 1.5707963,
-          "friction_start must be between 0 and pi/2 radians");
-  require(settings.gravity_steps >= 1, "gravity_steps must be at least 1");
-  require(settings.friction_step > settings.smallest_step && settings.smallest_step > 0,
-          "friction_step must exceed smallest_step, and both must be positive");
+    path_requires(std::isfinite(value) && value > 0, "areas and stiffnesses must be positive and finite");
+  path_requires(settings.friction_start > 0 && settings.friction_start < 1.5707963,
+                "friction_start must be between 0 and pi/2 radians");
+  path_requires(settings.gravity_steps >= 1, "gravity_steps must be at least 1");
+  path_requires(settings.friction_step > settings.smallest_step && settings.smallest_step > 0,
+                "friction_step must exceed smallest_step, and both must be positive");
 
   WedgePathSettings finer = settings;
   finer.gravity_steps *= 2;
@@ -108,11 +108,11 @@ WedgePathResult elastic_plastic_path(const ElasticPlasticWedge& block, const Wed
 }
 
 WedgeFaces wedge_faces(const Wedge& wedge, double face_dip, double face_dip_direction, double height) {
-  require(std::isfinite(height) && height > 0, "height must be positive and finite");
+  path_requires(std::isfinite(height) && height > 0, "height must be positive and finite");
   const WedgeSolution solution = solve_wedge(wedge);
-  const Vector3d n_a = to_eigen(upward_normal(wedge.a.dip, wedge.a.dip_direction));
-  const Vector3d n_b = to_eigen(upward_normal(wedge.b.dip, wedge.b.dip_direction));
-  const Vector3d face = to_eigen(upward_normal(face_dip, face_dip_direction));
+  const Vector3d n_a = eigen_of(upward_normal(wedge.a.dip, wedge.a.dip_direction));
+  const Vector3d n_b = eigen_of(upward_normal(wedge.b.dip, wedge.b.dip_direction));
+  const Vector3d face = eigen_of(upward_normal(face_dip, face_dip_direction));
   const Vector3d up(0, 0, 1);
 
   // Corners: the line daylights at the origin; the others are on the top plane z = height.
@@ -120,20 +120,21 @@ WedgeFaces wedge_faces(const Wedge& wedge, double face_dip, double face_dip_dire
     Matrix3d rows;
     rows << first.transpose(), second.transpose(), up.transpose();
     const Eigen::FullPivLU<Matrix3d> factors(rows);
-    require(factors.isInvertible(),
-            "two of the planes meet in a horizontal line; the wedge has no corner at the crest");
+    path_requires(factors.isInvertible(),
+                  "two of the planes meet in a horizontal line; the wedge has no corner at the crest");
     return factors.solve(Vector3d(0, 0, height));
   };
   const Vector3d back = corner(n_a, n_b), on_a = corner(n_a, face), on_b = corner(n_b, face);
-  require(solution.line_plunge > 0 && face.dot(back) < 0 && n_b.dot(on_a) > 0 && n_a.dot(on_b) > 0,
-          "the slope face does not cut a finite wedge above both planes; make it steeper or turn it towards the line's "
-          "trend");
+  path_requires(
+      solution.line_plunge > 0 && face.dot(back) < 0 && n_b.dot(on_a) > 0 && n_a.dot(on_b) > 0,
+      "the slope face does not cut a finite wedge above both planes; make it steeper or turn it towards the line's "
+      "trend");
   return {0.5 * back.cross(on_a).norm(), 0.5 * back.cross(on_b).norm(), std::abs(back.dot(on_a.cross(on_b))) / 6};
 }
 
 WedgeUplift wedge_uplift(const WedgeFaces& faces, double height, double level, double unit_weight) {
-  require(level >= 0 && level <= height, "the water level must be between the wedge's lowest corner and its top");
-  require(std::isfinite(unit_weight) && unit_weight >= 0, "the unit weight of water must not be negative");
+  path_requires(level >= 0 && level <= height, "the water level must be between the wedge's lowest corner and its top");
+  path_requires(std::isfinite(unit_weight) && unit_weight >= 0, "the unit weight of water must not be negative");
   const double wet = level / height, mean_pressure = unit_weight * level / 3;
   return {faces.area_a * wet * wet * mean_pressure, faces.area_b * wet * wet * mean_pressure};
 }

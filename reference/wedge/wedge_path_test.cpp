@@ -9,10 +9,10 @@
 #include <numbers>
 #include <stdexcept>
 
-using namespace voussoir::reference;
 using Eigen::Vector3d;
 using voussoir::degree;
 
+namespace voussoir::reference::wedge_path_test {
 namespace {
 
 Wedge wedge(double dip_a, double direction_a, double dip_b, double direction_b) {
@@ -242,3 +242,4 @@ TEST(WedgePath, RefusesBadInput) {
 }
 
 }  // namespace
+}  // namespace voussoir::reference::wedge_path_test

@@ -10,11 +10,11 @@
 #include <limits>
 #include <stdexcept>
 
-using namespace voussoir::reference;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using voussoir::degree;
 
+namespace voussoir::reference::wedge_test {
 namespace {
 
 constexpr double rounding = 1e-11;  // a few hundred rounding units: sums of sines and one 3 x 3 solve
@@ -313,3 +313,4 @@ TEST(Wedge, RefusesBadInput) {
 }
 
 }  // namespace
+}  // namespace voussoir::reference::wedge_test
