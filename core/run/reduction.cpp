@@ -327,12 +327,18 @@ struct Search {
       return *level;
     const double below = progress.undecided - progress.stable, above = progress.failed - progress.undecided;
     progress.avoids = progress.avoids && levels.direction * below > 0 && levels.direction * above > 0;
+    if (const std::optional<double> level = level_for_fit(levels, ends(), progress.known); level && !progress.avoids)
+      return *level;
     if (!progress.avoids) return 0.5 * (progress.stable + progress.failed);
     return progress.undecided + 0.5 * (std::abs(below) > std::abs(above) ? -below : above);
   }
   std::string bisection_rule() const {
     std::string rule = "bisection from the last stable state; " + stable_and_failed_rule();
     if (report.by == CriticalBy::required_strength) rule += "; result: the strength required at no displacement";
+    if (report.by == CriticalBy::bracket_of_turning)
+      rule +=
+          "; result: the bracket; the bar contains what the stiffness of the faces on which blocks turn adds to the "
+          "strength of rigid blocks";
     if (report.by == CriticalBy::stable_fit)
       rule += "; result: the fit through the stable trials, s = s0 + b u^(-1/2) - a u, at no displacement";
     return rule;

@@ -12,6 +12,14 @@ namespace {
 // of the failure displacement: bodies that have moved less have not turned on a face yet
 constexpr double least_turned = 0.003;
 
+// of the failure displacement: trials beyond are left out of the fit, if so many are short of it
+constexpr double geometry_changes = 0.5;
+constexpr std::size_t enough = 5;
+
+// A third is added to the error of turning, whose estimates come from trials at displacements this factor apart, or
+// else this small one.
+constexpr double turning_margin = 4.0 / 3, well_apart = 2.25, hardly_apart = 1.1;
+
 // An estimate counts if its trial was at a strength within this fraction of it: if the normal force depends on the
 // strength, a trial far below gives a wrong one.
 constexpr double nearest_trial = 0.03;
@@ -19,15 +27,22 @@ constexpr double nearest_trial = 0.03;
 // of the change by the extrapolation to no displacement: the error of the line
 constexpr double error_of_line = 0.1;
 
+// Of the strength, of the last stable trial to the next one of bodies that turn; and of their displacements, which the
+// law of the fit predicts: states of the fit are to be spread over the displacements.
+constexpr double gentle_strength = 0.8, gentle_displacement = 4;
+
+// of the failure displacement: once bodies have moved so far, the fit has its states
+constexpr double spread_until = 0.3;
+
 // Beyond the estimate, as a fraction of it: levels of trials whose line is looked for.
 constexpr double beyond_estimate = 0.01;
 
-struct Line {
-  double critical, b;
+struct Law {
+  double critical, b, a;
 };
 
-// s0 and b of the least squares
-Line fit_of(std::span<const StableTrial> trials) {
+// s0, b and a of the least squares
+Law law_of(std::span<const StableTrial> trials) {
   const double scale = trials.back().displacement;
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
@@ -38,7 +53,21 @@ Line fit_of(std::span<const StableTrial> trials) {
     right += t.level * row;
   }
   const Eigen::Vector3d x = normal.inverse() * right;
-  return {x[0], x[1]};
+  return {x[0], x[1], x[2]};
+}
+
+// those whose faces have turned, by displacement; none of two that are hardly apart
+std::vector<StableTrial> turned_trials(const std::vector<StableTrial>& trials) {
+  std::vector<StableTrial> turned;
+  std::ranges::copy_if(trials, std::back_inserter(turned),
+                       [](const StableTrial& t) { return t.of_failure > least_turned; });
+  std::ranges::sort(turned, {}, &StableTrial::displacement);
+  turned.erase(std::unique(turned.begin(), turned.end(),
+                           [](const StableTrial& a, const StableTrial& b) {
+                             return b.displacement < hardly_apart * a.displacement;
+                           }),
+               turned.end());
+  return turned;
 }
 
 bool is_inside(const Levels& levels, const Bracket& bracket, double level, double margin) {
@@ -91,34 +120,72 @@ std::optional<double> level_by_estimate(const Levels& levels, const Bracket& bra
   return is_inside(levels, bracket, before, 0) ? std::optional(before) : std::nullopt;
 }
 
+std::optional<double> level_for_fit(const Levels& levels, const Bracket& bracket, const SearchEstimates& known) {
+  if (!known.turned || known.stable.empty()) return {};
+  const StableTrial& last = known.stable.back();
+  if (last.of_failure > spread_until) return {};
+  double strength = gentle_strength * last.level;
+  const bool has_law = known.stable.size() > 1 && known.stable[known.stable.size() - 2].displacement > 0;
+  if (has_law && last.of_failure > least_turned) {
+    const StableTrial& before = known.stable[known.stable.size() - 2];
+    const double now = 1 / std::sqrt(last.displacement), then = 1 / std::sqrt(before.displacement);
+    if (then > now)
+      strength = std::max(strength, last.level - (before.level - last.level) / (then - now) * now *
+                                                     (1 - 1 / std::sqrt(gentle_displacement)));
+  }
+  const double step = levels.direction * (levels.level_of(strength) - bracket.stable);
+  const double half = 0.5 * levels.direction * (bracket.failed - bracket.stable);
+  return step > 0.5 * levels.tolerance && step < half ? std::optional(levels.level_of(strength)) : std::nullopt;
+}
+
 CriticalLevel critical_level(const Levels& levels, const Bracket& bracket, const SearchEstimates& known) {
-  const CriticalLevel middle{0.5 * (bracket.stable + bracket.failed), 0.5 * std::abs(bracket.failed - bracket.stable)};
+  CriticalLevel middle{0.5 * (bracket.stable + bracket.failed), 0.5 * std::abs(bracket.failed - bracket.stable)};
   if (const std::optional<double> level = last_estimate(levels, bracket, known))
     return {*level, error_of_estimate(levels, bracket, known.failed), CriticalBy::required_strength};
-  const std::optional<StableFit> fit = known.turned ? fit_stable(known.stable) : std::nullopt;
-  if (!fit) return middle;
+  if (!known.turned) return middle;
+  const double stable = levels.strength(bracket.stable);
+  const double turning = std::abs(levels.level_of(stable + error_of_turning(known.stable)) - bracket.stable);
+  const std::optional<StableFit> fit = fit_stable(known.stable);
+  if (!fit) {
+    middle.error_bar += turning;
+    middle.by = turning > 0 ? CriticalBy::bracket_of_turning : CriticalBy::bracket;
+    return middle;
+  }
   const double level = levels.level_of(fit->critical), from_bracket = std::abs(level - middle.level);
-  if (fit->of_three) return {level, from_bracket, CriticalBy::stable_fit};
-  const double change = std::abs(level - levels.level_of(fit->critical + fit->change));
-  return change < from_bracket ? CriticalLevel{level, std::min(2 * change, from_bracket), CriticalBy::stable_fit}
-                               : middle;
+  const double change = std::abs(levels.level_of(fit->critical + fit->change) - level);
+  return {level, fit->of_three ? from_bracket + turning : 2 * change + error_of_line * from_bracket,
+          CriticalBy::stable_fit};
 }
 
 std::optional<StableFit> fit_stable(const std::vector<StableTrial>& trials) {
-  std::vector<StableTrial> turned;
-  std::ranges::copy_if(trials, std::back_inserter(turned),
-                       [](const StableTrial& t) { return t.of_failure > least_turned; });
-  std::ranges::sort(turned, {}, &StableTrial::displacement);
-  turned.erase(std::unique(turned.begin(), turned.end(),
-                           [](const StableTrial& a, const StableTrial& b) { return a.displacement == b.displacement; }),
-               turned.end());
+  std::vector<StableTrial> turned = turned_trials(trials);
+  const auto far = std::ranges::find_if(turned, [](const StableTrial& t) { return t.of_failure > geometry_changes; });
+  if (static_cast<std::size_t>(far - turned.begin()) >= enough) turned.erase(far, turned.end());
   if (turned.size() < 3) return {};
-  const Line all = fit_of(turned);
-  if (turned.size() == 3)
-    return all.b > 0 && std::isfinite(all.critical) ? std::optional(StableFit{all.critical, 0, true}) : std::nullopt;
-  const Line fewer = fit_of(std::span(turned).subspan(1));
-  if (!(fewer.b > 0) || !std::isfinite(fewer.critical)) return {};
-  return StableFit{fewer.critical, std::abs(fewer.critical - all.critical), false};
+  const std::span<const StableTrial> all(turned);
+  const Law law = law_of(all.last(3));
+  if (!(law.b > 0) || !(law.a > 0) || !(law.critical > 0)) return {};
+  if (turned.size() == 3) return StableFit{law.critical, 0, true};
+  return StableFit{law.critical, std::abs(law_of(all.last(4)).critical - law.critical), false};
+}
+
+double error_of_turning(const std::vector<StableTrial>& trials) {
+  const std::vector<StableTrial> turned = turned_trials(trials);
+  if (turned.size() < 2) return 0;
+  const StableTrial& last = turned.back();
+  // a u at the last displacement, by the trial before: those of far less displacement contain b u^(-1/2)
+  const StableTrial& before = turned[turned.size() - 2];
+  double most = (before.level - last.level) / (1 - before.displacement / last.displacement);
+  // 3/2 b u^(-1/2) at the last displacement, by one other trial
+  const auto elastic = [&](const StableTrial& t) {
+    const double x = std::sqrt(last.displacement / t.displacement);
+    return 1.5 * (t.level - last.level) / (x - 1.5 + 0.5 / (x * x));
+  };
+  const bool any_apart = last.displacement >= well_apart * turned.front().displacement;
+  for (const StableTrial& t : turned)
+    if (last.displacement >= (any_apart ? well_apart : hardly_apart) * t.displacement)
+      most = std::max(most, elastic(t));
+  return turning_margin * std::max(0.0, most);
 }
 
 }  // namespace voussoir

@@ -34,8 +34,9 @@ struct Bracket {
   double stable = 0, failed = 0;
 };
 
-// how the critical level follows from the trials
-enum class CriticalBy { bracket, required_strength, stable_fit };
+// how the critical level follows from the trials; of bodies that turn, the bar of a bracket contains the error of
+// turning
+enum class CriticalBy { bracket, bracket_of_turning, required_strength, stable_fit };
 
 struct CriticalLevel {
   double level = 0, error_bar = 0;  // rad or 1
@@ -50,24 +51,35 @@ bool is_certified(const Levels& levels, const Bracket& bracket, const SearchEsti
 // estimates agree, half a tolerance on the stable side. Nothing without an estimate inside the bracket.
 std::optional<double> level_by_estimate(const Levels& levels, const Bracket& bracket, const SearchEstimates& known);
 
+// The level of the next trial of bodies that turn, if half the bracket would be too long a step: displacements of
+// stable trials are to grow by small factors, since the fit needs some of different size, and bodies do not return.
+std::optional<double> level_for_fit(const Levels& levels, const Bracket& bracket, const SearchEstimates& known);
+
 // The critical level: the strength required at no displacement; of bodies that turn, the fit through the stable trials;
 // else the middle of the bracket. Error bar of the first: a tenth of what the extrapolation changed, and the difference
-// of the last two estimates (half the bracket if there is one only); of the fit: twice its change without the trial
-// that moved least, or of three trials its distance from the bracket; of the bracket: half of it.
+// of the last two estimates (half the bracket if there is one only); of the fit: twice its change by one trial more,
+// and a tenth of its distance from the bracket, or of three trials all of that and the error of turning; of the
+// bracket: half of it, and the error of turning.
 CriticalLevel critical_level(const Levels& levels, const Bracket& bracket, const SearchEstimates& known);
 
 // The strength at no displacement of bodies that turn.
 struct StableFit {
   double critical = 0;
-  double change = 0;  // by leaving out the trial that moved least; of three trials there is none
+  double change = 0;  // by one trial more; of three trials there is none
   bool of_three = false;
 };
 
 // A block that turns on a face of normal stiffness kn is pressed on a strip whose width falls with the root of its
 // turn, and with it the lever that the corner lacks: stable trials of strength s have moved by u with s = s0 + b
-// u^(-1/2) - a u, b in proportion to kn^(-1/2). Least squares through the trials that have moved by more than three
-// thousandths of their failure displacement, the least of four or more left out. Nothing of fewer than three, or if b
-// is not positive.
+// u^(-1/2) - a u, b in proportion to kn^(-1/2). Through the three trials that have moved most, of those beyond three
+// thousandths of their failure displacement, and short of half of it if these are enough: the law is that of a face
+// already turned, and of a geometry that has not changed. Nothing of fewer than three, or if b or a is not positive.
 std::optional<StableFit> fit_stable(const std::vector<StableTrial>& trials);
+
+// By how much the strength at which bodies that turn fail on elastic faces may differ from that of rigid ones at no
+// displacement; 0 of fewer than two trials. If the arm of the loads grows with the motion, a < 0, the last stable trial
+// is at the least strength of the law, at which b u^(-1/2) = -2 a u, and another trial tells b; else the bodies have
+// moved until a u is what counts, and another trial tells a. The larger of the two, and a third of it.
+double error_of_turning(const std::vector<StableTrial>& trials);
 
 }  // namespace voussoir

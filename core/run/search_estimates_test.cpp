@@ -53,6 +53,37 @@ TEST(SearchEstimates, TheFitRefusesTrialsThatTellNothing) {
   EXPECT_FALSE(fit_stable(turning(0.13, 0.002, 0.05, {1e-5, 2e-5, 1e-4, 0.02}))) << "bodies have not turned yet";
   EXPECT_FALSE(fit_stable(turning(0.13, 0.002, 0.05, {0.01, 0.01, 0.01, 0.02}))) << "the same displacement";
   EXPECT_FALSE(fit_stable(turning(0.13, -0.002, 0.05, {0.001, 0.004, 0.02, 0.05}))) << "of another law";
+  EXPECT_FALSE(fit_stable(turning(0.13, 0.002, -0.05, {0.001, 0.004, 0.02, 0.05}))) << "the arm of the loads grows";
+}
+
+TEST(SearchEstimates, TheFitLeavesOutTrialsOfAnotherGeometry) {
+  std::vector<StableTrial> trials = turning(0.13, 0.002, 0.05, {0.001, 0.002, 0.005, 0.01, 0.03});
+  for (StableTrial far : turning(0.13, 0.002, 0.05, {0.06, 0.08})) {
+    far.level -= 0.01;
+    trials.push_back(far);
+  }
+  const std::optional<StableFit> fit = fit_stable(trials);
+  ASSERT_TRUE(fit);
+  EXPECT_NEAR(fit->critical, 0.13, 1e-9);
+  EXPECT_NEAR(fit->change, 0, 1e-9);
+}
+
+// s = s0 + b u^(-1/2) + c u is least at u = (b/(2 c))^(2/3), where it is 3 c u above s0.
+TEST(SearchEstimates, BodiesThatToppleFailAboveTheStrengthOfRigidOnes) {
+  const double s0 = 0.5, b = 0.001, c = 0.4, least = std::pow(b / (2 * c), 2.0 / 3);
+  const std::vector<StableTrial> trials = turning(s0, b, -c, {0.1 * least, 0.4 * least, least});
+  ASSERT_GT(trials.front().of_failure, 0.003);
+  EXPECT_NEAR(error_of_turning(trials), 4.0 / 3 * 3 * c * least, 1e-9);
+  EXPECT_EQ(error_of_turning({trials.front()}), 0) << "one trial";
+
+  const Levels levels = friction_levels();
+  SearchEstimates known;
+  known.stable = trials;
+  known.turned = true;
+  const double stable = levels.level_of(trials.back().level);
+  const CriticalLevel critical = critical_level(levels, {stable, stable - 0.01 * degree}, known);
+  EXPECT_EQ(critical.by, CriticalBy::bracket_of_turning);
+  EXPECT_LT(std::abs(critical.level - levels.level_of(s0)), critical.error_bar);
 }
 
 TEST(SearchEstimates, TheNextTrialIsBesideTheEstimate) {
@@ -87,6 +118,25 @@ TEST(SearchEstimates, AnEstimateThatTheBracketContradictsDoesNotCount) {
   EXPECT_EQ(outside.by, CriticalBy::bracket);
   EXPECT_NEAR(outside.level, 1.425, 1e-12);
   EXPECT_NEAR(outside.error_bar, 0.005, 1e-12);
+}
+
+// The law predicts the level at four times the displacement: b u^(-1/2) falls by half.
+TEST(SearchEstimates, BodiesThatTurnAreLoweredGently) {
+  const Levels levels = friction_levels();
+  const Bracket wide{30 * degree, 5 * degree};
+  SearchEstimates known;
+  known.stable = {{std::tan(30 * degree), 1e-5, 1e-4}};
+  EXPECT_FALSE(level_for_fit(levels, wide, known)) << "nothing turned";
+  known.turned = true;
+  EXPECT_NEAR(std::tan(*level_for_fit(levels, wide, known)), 0.8 * std::tan(30 * degree), 1e-12) << "no law yet";
+  EXPECT_FALSE(level_for_fit(levels, {30 * degree, 26 * degree}, known)) << "half the bracket is a shorter step";
+
+  known.stable = turning(0.4, 0.003, 0, {0.001, 0.002});
+  const double here = levels.level_of(known.stable.back().level);
+  EXPECT_NEAR(std::tan(*level_for_fit(levels, {here, 5 * degree}, known)), 0.4 + 0.003 / std::sqrt(0.008), 1e-12);
+  known.stable = turning(0.4, 0.003, 0, {0.001, 0.05});
+  EXPECT_FALSE(level_for_fit(levels, {levels.level_of(known.stable.back().level), 5 * degree}, known))
+      << "they have moved far enough";
 }
 
 TEST(SearchEstimates, BodiesThatTurnAreJudgedByTheFit) {
