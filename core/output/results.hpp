@@ -71,6 +71,18 @@ struct StableState {
   std::optional<WholeBonds> bonds{};
 };
 
+// the end of a trial of a search: a row of search.csv (core/output/search_csv.hpp)
+struct TrialRow {
+  int stage = 1, trial = 1;
+  double level = 0;
+  std::string unit;                                  // of the level: "deg" of a friction angle, "1" of a factor
+  std::string outcome;                               // stable, failed, undecided, broken
+  int body = -1;                                     // that has moved most since the search began; -1: none has
+  double displacement = 0;                           // m, its
+  std::optional<double> elastic_displacements = {};  // the same over the elastic displacement of the bodies that move
+  std::optional<double> required = {};               // level that its motion required at its end, if it failed
+};
+
 // a body that a stage has moved by more than its own size while settling (core/run/settled.hpp)
 struct MovedBody {
   std::string stage;
@@ -124,6 +136,7 @@ struct Results {
   std::vector<StageResult> stages;
   std::vector<StableState> at_last_stable_state;  // by stage, those with something to report
   History history;
+  std::vector<TrialRow> trials;    // of searches, in the order of their trials
   std::vector<BoltRow> bolts;      // by stage, then by bolt
   std::vector<LiningRow> linings;  // by stage, then by lining and node
   Counters counters;

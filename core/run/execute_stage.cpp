@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "core/run/record.hpp"
+#include "core/run/trial_record.hpp"
 #include "core/step/free_fall.hpp"
 #include "text/angle.hpp"
 
@@ -138,6 +139,7 @@ std::optional<StageOutcome> execute(const ReducePlan& reduction, const StageInFo
   const SearchedQuantity sought = sought_by(reduction);
   const TrialHook<Dim> on_trial = [&](const State<Dim>& moved, double level, SearchTrial outcome) {
     if (outcome == SearchTrial::stable) note_stable(stage, moved, progress, sought.number(level), sought.unit);
+    note_trial(stage, moved, sought.number(level), sought.unit, outcome, progress);
     if (continuous) return;
     const State<Dim> now = with_forces(stage, moved, outcome == SearchTrial::broken);
     const int number = progress.reduction.trial + 1;

@@ -144,8 +144,11 @@ MovingBodies moving_bodies(const Model<Dim>& model, const std::vector<From>& fro
     return model.bodies[b].fixed ? 0 : (placed[b].displacement - displacement_of<Dim>(from[b])).norm();
   };
   MovingBodies moving;
-  for (std::size_t b = 0; b < placed.size(); ++b)
-    moving.farthest = std::max(moving.farthest, moved(b));
+  for (std::size_t b = 0; b < placed.size(); ++b) {
+    if (moved(b) <= moving.farthest) continue;
+    moving.farthest = moved(b);
+    moving.body = static_cast<int>(b);
+  }
   for (std::size_t b = 0; b < placed.size(); ++b)
     if (moved(b) >= moving_share * moving.farthest) moving.most_of = std::max(moving.most_of, values[b]);
   return moving;

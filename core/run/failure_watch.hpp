@@ -69,7 +69,8 @@ void look(const Model<Dim>& model, const State<Dim>& state, const std::vector<Pl
 // The bodies that move: those that have come at least half as far as the one that moved most since the displacements or
 // placements `from`; held ones do not count. `values` by body.
 struct MovingBodies {
-  double farthest = 0;  // m
+  int body = -1;        // that moved most; -1: none has moved
+  double farthest = 0;  // m, its
   double most_of = 0;   // the largest of their values
 };
 template <int Dim, class From>

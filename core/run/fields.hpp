@@ -166,16 +166,21 @@ void visit_fields(Just<StableState> auto& s, auto&& visit) {
   visit(Saved{}, stage, kind, level, unit, bonds);
 }
 
+void visit_fields(Just<TrialRow> auto& t, auto&& visit) {
+  auto& [stage, trial, level, unit, outcome, body, displacement, elastic_displacements, required] = t;
+  visit(Saved{}, stage, trial, level, unit, outcome, body, displacement, elastic_displacements, required);
+}
+
 void visit_fields(Just<MovedBody> auto& m, auto&& visit) {
   auto& [stage, body, name, distance, inscribed_radius, against, place, left_all] = m;
   visit(Saved{}, stage, body, name, distance, inscribed_radius, against, place, left_all);
 }
 
 void visit_fields(Just<Results> auto& r, auto&& visit) {
-  auto& [outcome, message, values, stages, at_last_stable_state, history, bolts_carried, linings_carried, counters,
-         bonds, moved, forces_remaining, energy, state_hash, warnings, seconds, budget_evaluations] = r;
-  visit(Saved{}, outcome, message, values, stages, at_last_stable_state, history, bolts_carried, linings_carried,
-        counters, bonds, moved, forces_remaining, energy, state_hash, warnings, seconds);
+  auto& [outcome, message, values, stages, at_last_stable_state, history, trials, bolts_carried, linings_carried,
+         counters, bonds, moved, forces_remaining, energy, state_hash, warnings, seconds, budget_evaluations] = r;
+  visit(Saved{}, outcome, message, values, stages, at_last_stable_state, history, trials, bolts_carried,
+        linings_carried, counters, bonds, moved, forces_remaining, energy, state_hash, warnings, seconds);
   visit(Found{}, budget_evaluations);
 }
 

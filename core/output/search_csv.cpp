@@ -1,0 +1,20 @@
+#include "core/output/search_csv.hpp"
+
+#include "text/csv_table.hpp"
+
+namespace voussoir {
+
+std::string search_csv(const std::vector<TrialRow>& trials) {
+  if (trials.empty()) return {};
+  std::string text = csv_line({"stage", "trial", "level", "unit", "outcome", "body", "displacement_m",
+                               "elastic_displacements", "required"}) +
+                     "\n";
+  for (const TrialRow& t : trials)
+    text += csv_line({std::to_string(t.stage), std::to_string(t.trial), csv_cell(t.level), t.unit, t.outcome,
+                      t.body < 0 ? "" : std::to_string(t.body), csv_cell(t.displacement),
+                      csv_cell(t.elastic_displacements), csv_cell(t.required)}) +
+            "\n";
+  return text;
+}
+
+}  // namespace voussoir
