@@ -4,8 +4,10 @@
 //   outcome                 stable, failed, undecided (neither within the step limit), broken (a numerical failure)
 //   body, displacement_m    the body that has moved most since the search began, and how far; no body has: empty
 //   elastic_displacements   that displacement over the elastic one of the bodies that move; empty if it is not known
-//   required                the level that the motion of a failed trial required at its end; empty if it was not
-//   watched
+//   required                the level that the motion of a failed trial required at its end, if it was watched
+//   bolts_turned_deg        the bolt that has turned most since its installation, against the block at its collar
+//   bolts_use               utilisation: the largest force of a bolt over its capacity
+//   water_lost              fraction of the water's force on that body, when the search began, that is gone
 #pragma once
 
 #include <string>

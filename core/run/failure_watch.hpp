@@ -46,8 +46,8 @@ struct TrialWatch {
   std::vector<RequiredStrength> required;   // at each look
   double elastic = 0;                       // m: of the bodies that move, at the last look
   bool lost = false;                        // equilibrium
-  bool straight = false, turns = false, broke = false;  // at the last look: the line is straight; bodies turn; bonds
-                                                        // have broken
+  // at the last look: the line is straight; bodies turn; bonds have broken; bolts load up
+  bool straight = false, turns = false, broke = false, loads = false;
 };
 
 template <int Dim>

@@ -8,7 +8,7 @@
 namespace voussoir {
 
 // The trial under way has ended in this state at this level, in the unit that the search's value has: a row of
-// search.csv.
+// search.csv, and of a stable or failed trial also part of Results::at_last_stable_state.
 template <int Dim>
 void note_trial(const StageInForce<Dim>& stage, const State<Dim>& state, double level, const char* unit,
                 SearchTrial outcome, Progress<Dim>& progress);
