@@ -108,7 +108,8 @@ std::vector<std::string> search_text(const StableState& at) {
                                      : "",
         stable.displacement));
   if (at.taken_out)
-    lines.push_back(fmt::format("the displacement took {} of strength, which is taken out", level_text(*at.taken_out)));
+    lines.push_back(fmt::format("the extrapolation to no displacement takes out {:.2g}{}", *at.taken_out,
+                                at.unit == "1" ? "" : " " + at.unit));
   if (!at.bracket_because.empty()) lines.push_back("the result is the middle of the bracket: " + at.bracket_because);
   if (stable.bolts_turned && at.unit == "1")
     lines.push_back("on joint strength; bolts not divided: " +
