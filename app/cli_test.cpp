@@ -52,6 +52,20 @@ TEST_F(Program, RunWritesResultsThatOpen) {
             "time_s,stage,top_displacement_x_m,top_displacement_y_m,top_displacement_z_m");
 }
 
+// docs/scenes.toml searches a factor of safety
+TEST_F(Program, ASearchWritesItsTrialsAsTableAndPicture) {
+  ASSERT_EQ(run("run " + std::string(VOUSSOIR_SOURCE_DIR "/docs/scenes.toml") + " --out out").code, 0);
+  const std::vector<std::string> lines = lines_of(read(folder_ / "out/search.csv"));
+  ASSERT_GT(lines.size(), 4u);
+  EXPECT_TRUE(lines.front().starts_with("stage,trial,level,unit,outcome,body,displacement_m,")) << lines.front();
+  const std::string picture = read(folder_ / "out/search.svg");
+  EXPECT_TRUE(picture.starts_with("<svg")) << picture;
+  for (const char* text : {">stable<", ">failed<", ">factor<", "<circle"})
+    EXPECT_NE(picture.find(text), std::string::npos) << text;
+  ASSERT_EQ(run("run " + cubes_ + "--out none").code, 0);
+  EXPECT_FALSE(fs::exists(folder_ / "none/search.csv")) << "no search";
+}
+
 TEST_F(Program, TheEffectiveSceneRunsAgain) {
   ASSERT_EQ(run("run " + cubes_ + "--out first --set joint_properties.rock.normal_stiffness=2e8").code, 0);
   EXPECT_NEAR(settlement("first"), -1e-4, 1e-8);

@@ -167,18 +167,19 @@ std::string map_legend(const MapFigure& figure, double low, double high) {
 
 std::string svg(const Diagram& diagram) {
   constexpr double none = std::numeric_limits<double>::infinity();
-  double low = none, high = -none, highest = 0;
+  double low = none, high = -none, lowest = diagram.from_zero ? 0 : none, highest = 0;
   for (const Curve& curve : diagram.curves)
     for (const auto& [px, py] : curve.points) {
       if (diagram.logarithmic_x && !(px > 0)) continue;
       low = std::min(low, px);
       high = std::max(high, px);
+      lowest = std::min(lowest, py);
       highest = std::max(highest, py);
     }
   if (!(low <= high)) low = high = 1;
   const Axis x = diagram.logarithmic_x ? logarithmic_axis(low, high, frame_left, frame_right)
                                        : linear_axis(low, high, frame_left, frame_right);
-  const Axis y = linear_axis(0, highest, frame_bottom, frame_top);
+  const Axis y = linear_axis(std::min(lowest, highest), highest, frame_bottom, frame_top);
 
   std::string text = head(diagram.title) + frame(diagram, x, y);
   const double fraction =

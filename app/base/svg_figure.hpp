@@ -21,9 +21,10 @@ struct Diagram {
   std::string title, x_label, y_label;
   bool logarithmic_x = false;  // points at or left of 0 are left out
   std::vector<Curve> curves;   // in the colours of Okabe & Ito (2008), in this order
+  bool from_zero = true;       // y; else from the lowest point
 };
 
-// axes with round numbers that include every point; y begins at 0
+// axes with round numbers that include every point
 std::string svg(const Diagram& diagram);
 
 enum class MapMark { none, cross, ring };

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "app/base/message.hpp"
+#include "app/run_folder/search_files.hpp"
 #include "app/view/page.hpp"
 #include "core/output/atomic_file.hpp"
 #include "core/output/history_csv.hpp"
@@ -32,6 +33,7 @@ template <int Dim>
 void write_tables(const fs::path& folder, const Progress<Dim>& progress) {
   write_history_csv(folder / "history.csv", history_so_far(progress));
   write_support_tables(folder, progress.results);
+  write_search(folder, progress.results);
 }
 
 template <int Dim>

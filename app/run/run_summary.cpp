@@ -71,8 +71,12 @@ void print_values(const std::vector<std::pair<std::string, Value>>& values, cons
 void print_stages(const std::vector<StageResult>& stages, const std::vector<StableState>& stable_states) {
   for (const StageResult& stage : stages) {
     fmt::print("  stage {}: {} after {} steps, {:.4g} s simulated\n", stage.name, stage.ended, stage.steps, stage.time);
-    for (const StableState& at : stable_states)
-      if (at.stage == stage.name && at.bonds) fmt::print("      {}: {}\n", moment_text(at), bonds_text(*at.bonds));
+    for (const StableState& at : stable_states) {
+      if (at.stage != stage.name) continue;
+      if (at.bonds) fmt::print("      {}: {}\n", moment_text(at), bonds_text(*at.bonds));
+      for (const std::string& line : search_text(at))
+        fmt::print("      {}\n", line);
+    }
   }
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "app/run_folder/search_files.hpp"
 #include "core/base/preset.hpp"
 #include "core/output/atomic_file.hpp"
 #include "core/output/support_table.hpp"
@@ -121,6 +122,7 @@ Outputs run_outputs() {
       true};
   for (const std::string& table : support_table_files())
     outputs.files.push_back(table);
+  outputs.files.insert(outputs.files.end(), {search_table, search_picture});
   return outputs;
 }
 

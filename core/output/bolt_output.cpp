@@ -72,6 +72,17 @@ void add_bolt_rows(const Model<Dim>& model, const State<Dim>& state, int stage, 
 }
 
 template <int Dim>
+std::optional<double> largest_bolt_use(const Model<Dim>& model, const State<Dim>& state) {
+  Results bolts;
+  add_bolt_rows(model, state, 1, bolts);
+  std::optional<double> largest;
+  for (const BoltRow& row : bolts.bolts)
+    if (row.use && !(model.bodies[row.body_a].fixed && model.bodies[row.body_b].fixed))
+      largest = std::max(largest.value_or(0), *row.use);
+  return largest;
+}
+
+template <int Dim>
 std::string find_bolts_again(const Model<Dim>& model, int stages, const Results& results, State<Dim>& state) {
   std::vector<const BoltRow*> last;
   for (const BoltRow& row : results.bolts)
@@ -221,6 +232,7 @@ void add_bolt_values(const Monitor& monitor, const Model<Dim>& model, const Stat
 
 #define VOUSSOIR_INSTANTIATE(Dim)                                                                  \
   template void add_bolt_rows<Dim>(const Model<Dim>&, const State<Dim>&, int, Results&);           \
+  template std::optional<double> largest_bolt_use<Dim>(const Model<Dim>&, const State<Dim>&);      \
   template std::string find_bolts_again<Dim>(const Model<Dim>&, int, const Results&, State<Dim>&); \
   template PolyData bolt_lines<Dim>(const Model<Dim>&, const State<Dim>&, double);                 \
   template void add_bolt_values<Dim>(const Monitor&, const Model<Dim>&, const State<Dim>&, std::vector<double>&);

@@ -31,6 +31,10 @@ std::string bolts_csv(const Results& results);
 template <int Dim>
 void add_bolt_rows(const Model<Dim>& model, const State<Dim>& state, int stage, Results& results);
 
+// of its yield: the largest force of a bolt on a free body; nothing if no such bolt has a yield
+template <int Dim>
+std::optional<double> largest_bolt_use(const Model<Dim>& model, const State<Dim>& state);
+
 // Bolts of other names may precede those that are installed: the springs are identified by name and number.
 template <int Dim>
 std::string find_bolts_again(const Model<Dim>& model, int stages, const Results& results, State<Dim>& state);

@@ -62,6 +62,23 @@ struct WholeBonds {
   std::vector<BondsOfJoint> by_joint{};
 };
 
+// the end of a trial of a search: a row of search.csv (core/output/search_csv.hpp)
+struct TrialRow {
+  int stage = 1, trial = 1;
+  double level = 0;
+  std::string unit;                                  // of the level: "deg" of a friction angle, "1" of a factor
+  std::string outcome;                               // stable, failed, undecided, broken
+  int body = -1;                                     // that has moved most since the search began; -1: none has
+  std::string name = {};                             // of the body; may be empty
+  double displacement = 0;                           // m, its
+  std::optional<double> elastic_displacements = {};  // the same over the elastic displacement of the bodies that move
+  std::optional<double> required = {};               // level that its motion required at its end, if it failed
+  std::optional<double> bolts_turned = {};           // deg: largest of a bolt since its installation; no bolt: nothing
+  std::optional<double> bolts_use = {};              // largest force of a bolt over its capacity, if any has one
+  std::optional<double> water_lost = {};  // fraction of the water's force on that body when the search began; may be
+                                          // negative
+};
+
 // The bonds and supports that held the blocks when a stage was last in equilibrium: at the end of a settle stage, or in
 // a search's last stable trial. Each row is empty if the scene has nothing of the kind.
 struct StableState {
@@ -69,6 +86,11 @@ struct StableState {
   std::optional<double> level;  // of a search, in its unit
   std::string unit;
   std::optional<WholeBonds> bonds{};
+  // of a search that seeks equilibrium
+  std::optional<TrialRow> trial{}, failed{};  // the last stable trial, the last that failed
+  std::optional<double> taken_out{};          // by an extrapolation to no displacement, in the unit of the level
+  std::string bracket_because{};  // of a result that is the middle of the bracket, though the scene asks for
+                                  // the required strength: the reason, as a clause
 };
 
 // a body that a stage has moved by more than its own size while settling (core/run/settled.hpp)
@@ -124,6 +146,7 @@ struct Results {
   std::vector<StageResult> stages;
   std::vector<StableState> at_last_stable_state;  // by stage, those with something to report
   History history;
+  std::vector<TrialRow> trials;    // of searches, in the order of their trials
   std::vector<BoltRow> bolts;      // by stage, then by bolt
   std::vector<LiningRow> linings;  // by stage, then by lining and node
   Counters counters;

@@ -95,6 +95,23 @@ Json bonds_json(const WholeBonds& bonds, NumberWriter& number) {
   return json;
 }
 
+void add_number(Json& entry, const char* key, const std::optional<double>& value, NumberWriter& number) {
+  if (value) entry[key] = number(*value, key);
+}
+
+Json trial_json(const TrialRow& trial, NumberWriter& number) {
+  Json entry = {{"trial", trial.trial}, {"level", number(trial.level, "level of a trial")}};
+  entry["body"] = trial.body < 0 ? Json() : Json(trial.body);
+  entry["name"] = trial.name;
+  entry["displacement_m"] = number(trial.displacement, "displacement_m of a trial");
+  add_number(entry, "elastic_displacements", trial.elastic_displacements, number);
+  add_number(entry, "required", trial.required, number);
+  add_number(entry, "bolts_turned_deg", trial.bolts_turned, number);
+  add_number(entry, "bolts_use", trial.bolts_use, number);
+  add_number(entry, "water_lost", trial.water_lost, number);
+  return entry;
+}
+
 // an entry for each stage, with a row for each kind of strength
 Json stable_states_json(const Results& results, NumberWriter& number) {
   Json states = Json::array();
@@ -104,6 +121,10 @@ Json stable_states_json(const Results& results, NumberWriter& number) {
     if (at.level) entry["level"] = number(*at.level, "level of stage " + at.stage);
     if (at.level) entry["unit"] = at.unit;
     if (at.bonds) entry["bonds"] = bonds_json(*at.bonds, number);
+    if (at.trial) entry["last_stable_trial"] = trial_json(*at.trial, number);
+    if (at.failed) entry["last_failed_trial"] = trial_json(*at.failed, number);
+    add_number(entry, "taken_out", at.taken_out, number);
+    if (!at.bracket_because.empty()) entry["bracket_because"] = at.bracket_because;
   }
   return states;
 }

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "core/run/record.hpp"
+#include "core/run/trial_record.hpp"
 #include "core/step/free_fall.hpp"
 #include "text/angle.hpp"
 
@@ -116,6 +117,11 @@ StageOutcome judge_search(const ReducePlan& reduction, const ReductionReport& re
     }
     if (reduction.searched == Searched::factor) value.divides = divided_by_factor(reduction.properties);
     results.values.emplace_back(name, std::move(value));
+    for (StableState& at : results.at_last_stable_state) {
+      if (at.stage != stage.plan().name) continue;
+      if (report.by != CriticalBy::bracket) at.taken_out = sought.number(report.taken_out);
+      at.bracket_because = report.bracket_because;
+    }
   }
   const bool found = report.message.empty();
   if (!found && results.outcome != Outcome::failed)
@@ -138,7 +144,7 @@ std::optional<StageOutcome> execute(const ReducePlan& reduction, const StageInFo
       return ended;
   const SearchedQuantity sought = sought_by(reduction);
   const TrialHook<Dim> on_trial = [&](const State<Dim>& moved, double level, SearchTrial outcome) {
-    if (outcome == SearchTrial::stable) note_stable(stage, moved, progress, sought.number(level), sought.unit);
+    note_trial(stage, moved, sought.number(level), sought.unit, outcome, progress);
     if (continuous) return;
     const State<Dim> now = with_forces(stage, moved, outcome == SearchTrial::broken);
     const int number = progress.reduction.trial + 1;

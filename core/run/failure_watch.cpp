@@ -29,7 +29,7 @@ constexpr double turning_share = 0.1;
 constexpr double moving_share = 0.5;
 
 // displacements of the two looks of a line, at least this factor apart
-constexpr double apart = 1.15;
+constexpr double looks_apart = 1.15;
 
 // the motion between two looks, its power, and the resistance of the joints along it
 struct Work {
@@ -110,20 +110,33 @@ void judge_line(const Model<Dim>& model, const Moved<Dim>& since_begin, const Wo
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
     turned = std::max(turned, since_begin.turned[b].norm() * model.bodies[b].radius);
   trial.turns = turned > turning_share * moved;
-  trial.straight = false;
+  trial.straight = trial.loads = false;
   const std::size_t n = trial.required.size();
   if (n < 3) return;
   const RequiredStrength &now = trial.required[n - 1], &before = trial.required[n - 2];
   const double first = slope(trial.required[n - 3], before), second = slope(before, now);
   const double flat = flat_fraction * tolerance, falls = second * moved;
   const bool keeps_on = first <= 0 || second >= straight_from * first;
-  const bool elastic = second * trial.elastic > elastic_fall * now.strength ||
-                       (second > 0 && loading > loading_share * (before.strength - now.strength) * work.resistance);
+  trial.loads = second > 0 && loading > loading_share * (before.strength - now.strength) * work.resistance;
+  const bool elastic = second * trial.elastic > elastic_fall * now.strength || trial.loads;
   const bool drives = work.power > 0 && now.strength > trial.target;
   trial.straight = !trial.turns && ((first > 0 && second >= straight_from * first && second <= first / straight_from) ||
                                     std::abs(falls) <= flat);
   trial.lost = !trial.turns && drives && !elastic && (keeps_on || falls <= flat) &&
                moved >= until_elastic_is_spent * trial.elastic;
+}
+
+template <int Dim>
+NoLine why_no_line(const TrialWatch<Dim>& trial) {
+  const std::size_t n = trial.required.size();
+  if (trial.turns) return NoLine::turned;
+  if (n == 0) return NoLine::no_slip;
+  if (trial.broke) return NoLine::broke;
+  if (trial.loads && !trial.straight) return NoLine::loads;
+  if (n < 3) return NoLine::too_short;
+  if (!trial.straight) return NoLine::not_straight;
+  return trial.required[n - 1].displacement > looks_apart * trial.required[n - 2].displacement ? NoLine::none
+                                                                                               : NoLine::too_short;
 }
 
 template <int Dim>
@@ -144,8 +157,11 @@ MovingBodies moving_bodies(const Model<Dim>& model, const std::vector<From>& fro
     return model.bodies[b].fixed ? 0 : (placed[b].displacement - displacement_of<Dim>(from[b])).norm();
   };
   MovingBodies moving;
-  for (std::size_t b = 0; b < placed.size(); ++b)
-    moving.farthest = std::max(moving.farthest, moved(b));
+  for (std::size_t b = 0; b < placed.size(); ++b) {
+    if (moved(b) <= moving.farthest) continue;
+    moving.farthest = moved(b);
+    moving.body = static_cast<int>(b);
+  }
   for (std::size_t b = 0; b < placed.size(); ++b)
     if (moved(b) >= moving_share * moving.farthest) moving.most_of = std::max(moving.most_of, values[b]);
   return moving;
@@ -251,14 +267,13 @@ void note_stable_trial(const Model<Dim>& model, const State<Dim>& state, const s
       {.level = strength, .displacement = moving.farthest, .of_failure = moving.farthest / moving.most_of});
 }
 
-// The line through the last two looks, unless they are too near each other.
+// The line through the last two looks.
 template <int Dim>
 void note_failed_trial(const TrialWatch<Dim>& trial, double strength, SearchEstimates& known) {
-  known.turned = trial.turns;
+  known.no_line = why_no_line(trial);
+  if (known.no_line != NoLine::none) return;
   const std::size_t n = trial.required.size();
-  if (n < 2 || !trial.straight || trial.broke) return;
   const RequiredStrength &first = trial.required[n - 2], &second = trial.required[n - 1];
-  if (!(second.displacement > apart * first.displacement)) return;
   const double critical = first.strength + slope(first, second) * first.displacement;
   known.failed.push_back({.level = strength, .critical = critical, .taken_out = std::abs(critical - second.strength)});
 }

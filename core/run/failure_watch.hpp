@@ -46,8 +46,8 @@ struct TrialWatch {
   std::vector<RequiredStrength> required;   // at each look
   double elastic = 0;                       // m: of the bodies that move, at the last look
   bool lost = false;                        // equilibrium
-  bool straight = false, turns = false, broke = false;  // at the last look: the line is straight; bodies turn; bonds
-                                                        // have broken
+  // at the last look: the line is straight; bodies turn; bonds have broken; bolts load up
+  bool straight = false, turns = false, broke = false, loads = false;
 };
 
 template <int Dim>
@@ -69,7 +69,8 @@ void look(const Model<Dim>& model, const State<Dim>& state, const std::vector<Pl
 // The bodies that move: those that have come at least half as far as the one that moved most since the displacements or
 // placements `from`; held ones do not count. `values` by body.
 struct MovingBodies {
-  double farthest = 0;  // m
+  int body = -1;        // that moved most; -1: none has moved
+  double farthest = 0;  // m, its
   double most_of = 0;   // the largest of their values
 };
 template <int Dim, class From>

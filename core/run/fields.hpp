@@ -85,8 +85,8 @@ void visit_fields(Just<RequiredStrength> auto& r, auto&& visit) {
 }
 
 void visit_fields(Either<TrialWatch> auto& t, auto&& visit) {
-  auto& [first, last, bolts, bonds, target, looks, required, elastic, lost, straight, turns, broke] = t;
-  visit(Saved{}, first, last, bolts, bonds, target, looks, required, elastic, lost, straight, turns, broke);
+  auto& [first, last, bolts, bonds, target, looks, required, elastic, lost, straight, turns, broke, loads] = t;
+  visit(Saved{}, first, last, bolts, bonds, target, looks, required, elastic, lost, straight, turns, broke, loads);
 }
 
 void visit_fields(Either<FailureWatch> auto& w, auto&& visit) {
@@ -105,15 +105,15 @@ void visit_fields(Just<StableTrial> auto& t, auto&& visit) {
 }
 
 void visit_fields(Just<SearchEstimates> auto& k, auto&& visit) {
-  auto& [failed, stable, turned] = k;
-  visit(Saved{}, failed, stable, turned);
+  auto& [failed, stable, no_line] = k;
+  visit(Saved{}, failed, stable, no_line);
 }
 
 void visit_fields(Either<ReductionProgress> auto& r, auto&& visit) {
   auto& [trial, target, level_from, level_rate, time_limit, stable, failed, failed_faster, unbalanced, true_motion,
-         trial_steps, avoids, undecided, run, begin, base, failed_from, watch, known] = r;
+         trial_steps, avoids, undecided, run, begin, water, base, failed_from, watch, known] = r;
   visit(Saved{}, trial, target, level_from, level_rate, time_limit, stable, failed, failed_faster, unbalanced,
-        true_motion, trial_steps, avoids, undecided, run, begin, base, failed_from, watch, known);
+        true_motion, trial_steps, avoids, undecided, run, begin, water, base, failed_from, watch, known);
 }
 
 void visit_fields(Just<StageRecord> auto& r, auto&& visit) {
@@ -161,9 +161,16 @@ void visit_fields(Just<WholeBonds> auto& b, auto&& visit) {
   visit(Saved{}, whole, made, by_joint);
 }
 
+void visit_fields(Just<TrialRow> auto& t, auto&& visit) {
+  auto& [stage, trial, level, unit, outcome, body, name, displacement, elastic_displacements, required, bolts_turned,
+         bolts_use, water_lost] = t;
+  visit(Saved{}, stage, trial, level, unit, outcome, body, name, displacement, elastic_displacements, required,
+        bolts_turned, bolts_use, water_lost);
+}
+
 void visit_fields(Just<StableState> auto& s, auto&& visit) {
-  auto& [stage, kind, level, unit, bonds] = s;
-  visit(Saved{}, stage, kind, level, unit, bonds);
+  auto& [stage, kind, level, unit, bonds, trial, failed, taken_out, bracket_because] = s;
+  visit(Saved{}, stage, kind, level, unit, bonds, trial, failed, taken_out, bracket_because);
 }
 
 void visit_fields(Just<MovedBody> auto& m, auto&& visit) {
@@ -172,10 +179,10 @@ void visit_fields(Just<MovedBody> auto& m, auto&& visit) {
 }
 
 void visit_fields(Just<Results> auto& r, auto&& visit) {
-  auto& [outcome, message, values, stages, at_last_stable_state, history, bolts_carried, linings_carried, counters,
-         bonds, moved, forces_remaining, energy, state_hash, warnings, seconds, budget_evaluations] = r;
-  visit(Saved{}, outcome, message, values, stages, at_last_stable_state, history, bolts_carried, linings_carried,
-        counters, bonds, moved, forces_remaining, energy, state_hash, warnings, seconds);
+  auto& [outcome, message, values, stages, at_last_stable_state, history, trials, bolts_carried, linings_carried,
+         counters, bonds, moved, forces_remaining, energy, state_hash, warnings, seconds, budget_evaluations] = r;
+  visit(Saved{}, outcome, message, values, stages, at_last_stable_state, history, trials, bolts_carried,
+        linings_carried, counters, bonds, moved, forces_remaining, energy, state_hash, warnings, seconds);
   visit(Found{}, budget_evaluations);
 }
 

@@ -133,10 +133,15 @@ void finish_rows(const StageInForce<Dim>& stage, const State<Dim>& state, Progre
 
 template <int Dim>
 void note_stable(const StageInForce<Dim>& stage, const State<Dim>& state, Progress<Dim>& progress,
-                 std::optional<double> level, const char* unit) {
+                 const std::optional<TrialRow>& trial) {
   remember_bonds(stage.model, state, progress.bonded);
-  note_stable_state(stage.scene, stage.model, state, progress.bonded,
-                    {stage.plan().name, kind_of(stage.plan()), level, unit}, progress.results.at_last_stable_state);
+  StableState at{stage.plan().name, kind_of(stage.plan()), {}, ""};
+  if (trial) {
+    at.level = trial->level;
+    at.unit = trial->unit;
+    at.trial = trial;
+  }
+  note_stable_state(stage.scene, stage.model, state, progress.bonded, at, progress.results.at_last_stable_state);
 }
 
 #define VOUSSOIR_INSTANTIATE(Dim)                                                                                     \
@@ -151,8 +156,8 @@ void note_stable(const StageInForce<Dim>& stage, const State<Dim>& state, Progre
                                          Progress<Dim>&);                                                             \
   template RunHooks<Dim> report_trials<Dim>(const StageInForce<Dim>&, const Watcher<Dim>&, Progress<Dim>&);           \
   template void finish_rows<Dim>(const StageInForce<Dim>&, const State<Dim>&, Progress<Dim>&);                        \
-  template void note_stable<Dim>(const StageInForce<Dim>&, const State<Dim>&, Progress<Dim>&, std::optional<double>,  \
-                                 const char*);
+  template void note_stable<Dim>(const StageInForce<Dim>&, const State<Dim>&, Progress<Dim>&,                         \
+                                 const std::optional<TrialRow>&);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)
 #undef VOUSSOIR_INSTANTIATE

@@ -43,10 +43,10 @@ RunHooks<Dim> report_trials(const StageInForce<Dim>& stage, const Watcher<Dim>& 
 template <int Dim>
 void finish_rows(const StageInForce<Dim>& stage, const State<Dim>& state, Progress<Dim>& progress);
 
-// Results::at_last_stable_state; of a search with the level, in the unit that its value has
+// Results::at_last_stable_state; of a search with its trial
 template <int Dim>
 void note_stable(const StageInForce<Dim>& stage, const State<Dim>& state, Progress<Dim>& progress,
-                 std::optional<double> level = {}, const char* unit = "");
+                 const std::optional<TrialRow>& trial = {});
 
 // a detail after others: "; …", or empty
 std::string and_more(const std::string& detail);

@@ -6,7 +6,10 @@
 #include <cmath>
 #include <optional>
 
+#include "core/output/bolt_output.hpp"
 #include "core/run/search_levels.hpp"
+#include "core/run/search_rules.hpp"
+#include "core/step/bolt_forces.hpp"
 #include "core/step/relaxation.hpp"
 #include "text/angle.hpp"
 
@@ -33,6 +36,9 @@ constexpr long long relaxation_round = 50, motion_round = 10;
 // so a quarter of the estimate bounds the error of the extrapolation
 constexpr double extrapolation_margin = 0.25;
 
+// Divides strength away: what is left of it is below rounding of the loads that it would balance.
+constexpr double factor_without_strength = 1e9;
+
 // Brackets between a failed level and the base that it was tried from, beyond which it is tried once more.
 constexpr double far_base = 4;
 
@@ -43,7 +49,8 @@ struct Attempt {
   double target = 0;       // level, rad or 1
   bool from_base = false;  // it begins at the last stable state, not at the end of the previous trial
   bool falls = false;
-  double rate = 0;  // rad/s, of a reduction
+  double rate = 0;      // rad/s, of a reduction
+  bool beside = false;  // a question beside the search: neither its bracket nor its records know the trial
 };
 
 // The search methods are at the end, each in one place. A method runs its trials by number, so that an interrupted
@@ -164,7 +171,7 @@ struct Search {
     while (takes_turn(attempt))
       outcome = run_turn(attempt);
     if (report.last.reason == StopReason::interrupted) return {};
-    if (on_trial) on_trial(state, level_of(attempt), outcome);
+    if (on_trial && !attempt.beside) on_trial(state, level_of(attempt), outcome);
     if (outcome != SearchTrial::broken) return outcome;
     report.message = report.last.detail;
     return {};
@@ -202,9 +209,11 @@ struct Search {
     progress.unbalanced = report.last.unbalanced;
     if (plan.method != ReductionMethod::rate) progress.base = state;
     if (attempt.number == 0 || level != levels.to) return outcome;
-    report.message =
-        fmt::format("still stable at to_{} = {:.6g}: end {}", levels.name, levels.to / levels.unit, levels.end);
+    report.message = still_stable();
     return {};
+  }
+  std::string still_stable() const {
+    return fmt::format("still stable at to_{} = {:.6g}: end {}", levels.name, levels.to / levels.unit, levels.end);
   }
 
   std::optional<SearchTrial> rest_at(int number, double level, bool from_base = false) {
@@ -232,6 +241,8 @@ struct Search {
     report.bracket = 0.5 * bracket();
     const CriticalLevel critical = critical_level(levels, ends(), progress.known);
     report.by = critical.by;
+    report.taken_out = critical.taken_out;
+    report.bracket_because = watches() ? critical.bracket_because : why_not_watched();
     close(critical.level, critical.error_bar);
   }
 
@@ -279,34 +290,32 @@ struct Search {
     close_bracket();
   }
 
-  std::string failed_rule() const {
-    if (watches())
-      return "failed: the strength that the motion requires falls in a straight line after ten elastic displacements, "
-             "or a "
-             "body moved by a tenth of its inscribed radius";
-    return failed_by_displacement() + not_watched_rule();
-  }
-  std::string not_watched_rule() const {
-    if (plan.criterion != FailureCriterion::required_strength) return "";
-    return fmt::format(" (not by the required strength: {})", not_watched(model, plan, state.supports));
-  }
-  std::string failed_by_displacement() const {
-    if (plan.failure_fraction == 0) return fmt::format("failed: a body moved more than {:.3g} m", failure_displacement);
-    return fmt::format("failed: bodies of {:g} of the free mass moved more than {:.3g} m", plan.failure_fraction,
-                       failure_displacement);
-  }
-  // errors outside the error bar, which is a bracket
-  std::string newton_rule() const {
-    if (settings.statics.method != Statics::newton) return "";
-    return fmt::format(
-        "; by Newton's method in {} increment{} per trial: the error due to slip integrated in large increments is not "
-        "in the error bar",
-        settings.statics.increments, settings.statics.increments == 1 ? "" : "s");
+  TrialCriteria criteria() const { return {plan, settings, failure_displacement, watches(), why_not_watched()}; }
+  std::string why_not_watched() const {
+    return plan.criterion == FailureCriterion::required_strength ? not_watched(model, plan, state.supports) : "";
   }
 
-  std::string stable_and_failed_rule() const {
-    return fmt::format("stable: unbalanced ratio below {:.0e}; ", settings.equilibrium.unbalanced) + failed_rule() +
-           newton_rule();
+  // ---- bolts that hold the blocks at any factor ---------------------------------------------------------------------
+
+  bool is_stable_at_end() const { return progress.trial > 0 && progress.stable == levels.to; }
+  bool bolts_act() const {
+    if (plan.searched != Searched::factor) return false;
+    for (std::size_t b = 0; b < model.bodies.size(); ++b)
+      if (!model.bodies[b].fixed && hangs_on_spring(progress.base.supports, static_cast<int>(b))) return true;
+    return false;
+  }
+
+  // A search that is stable to its end asks whether a greater end would find a factor: not if the blocks are in
+  // equilibrium without the strength that it divides.
+  void ask_bolts() {
+    if (!is_stable_at_end() || report.last.reason == StopReason::interrupted || !bolts_act()) return;
+    const std::optional<SearchTrial> outcome =
+        carry_out({.number = 2, .target = factor_without_strength, .from_base = true, .beside = true});
+    if (report.last.reason == StopReason::interrupted) return;
+    report.message = outcome == SearchTrial::stable ? hangs_on_bolts(largest_bolt_use(model, state)) : still_stable();
+    report.last = {.reason = StopReason::equilibrium};
+    report.unbalanced = progress.unbalanced;
+    go_back_to_base();
   }
 
   // ---- bisection: every trial starts from the last stable state -----------------------------------------------------
@@ -314,7 +323,8 @@ struct Search {
   void bisect() {
     if (progress.trial == 0 && !rest_at(0, levels.from)) return;
     if (progress.trial == 0) progress.watch.plan = watch_plan(model, settings, plan, levels, progress.base);
-    if (progress.trial <= 1 && !rest_at(1, levels.to, true)) return;
+    if (is_stable_at_end()) return ask_bolts();
+    if (progress.trial <= 1 && !rest_at(1, levels.to, true)) return ask_bolts();
     const int next = progress.run.under_way ? progress.trial : progress.trial + 1;
     for (int n = std::max(next, 2); !is_closed(); ++n)
       if (!rest_at(n, bracket() > levels.tolerance ? next_level() : progress.failed, true)) return;
@@ -333,7 +343,7 @@ struct Search {
     return progress.undecided + 0.5 * (std::abs(below) > std::abs(above) ? -below : above);
   }
   std::string bisection_rule() const {
-    std::string rule = "bisection from the last stable state; " + stable_and_failed_rule();
+    std::string rule = "bisection from the last stable state; " + stable_and_failed_rule(criteria());
     if (report.by == CriticalBy::required_strength) rule += "; result: the strength required at no displacement";
     if (report.by == CriticalBy::bracket_of_turning)
       rule +=
@@ -344,8 +354,7 @@ struct Search {
     return rule;
   }
 
-  // ---- steps: from equilibrium to equilibrium until one fails
-  // ---------------------------------------------------------------------
+  // ---- steps: from equilibrium to equilibrium until one fails -------------------------------------------------------
 
   void go_by_steps() {
     for (int n = progress.trial;; ++n) {
@@ -356,11 +365,11 @@ struct Search {
     }
   }
   std::string steps_rule() const {
-    return fmt::format("steps of {:.4g}{}; ", levels.step / levels.unit, levels.symbol) + stable_and_failed_rule();
+    return fmt::format("steps of {:.4g}{}; ", levels.step / levels.unit, levels.symbol) +
+           stable_and_failed_rule(criteria());
   }
 
-  // ---- rate: one reduction from equilibrium
-  // -------------------------------------------------------------------------------------
+  // ---- rate: one reduction from equilibrium -------------------------------------------------------------------------
 
   // bias of the angle found at a rate on a plane, rad; 0 if there is no gravity
   double largest_lag(double rate) const {
@@ -375,11 +384,10 @@ struct Search {
   std::string rate_rule() const {
     return fmt::format("constant rate {:.4g} deg/s, found too low by up to {:.2g} deg; ", plan.rate / degree,
                        report.error_bar / degree) +
-           failed_rule();
+           failed_rule(criteria());
   }
 
-  // ---- two rates: reduction, equilibrium closer to failure, second reduction from there
-  // -------------------
+  // ---- two rates: reduction, equilibrium closer to failure, second reduction from there -----------------------------
 
   void fall_at_two_rates() {
     if (progress.trial == 0 && !rest_at(0, plan.from)) return;
@@ -415,7 +423,7 @@ struct Search {
     return fmt::format("{:.6g} deg at {:.4g} deg/s, {:.6g} at {:.4g}, extrapolated by rate^(2/3); ",
                        progress.failed_faster / degree, plan.rate / degree, progress.failed / degree,
                        plan.slower_rate / degree) +
-           failed_rule();
+           failed_rule(criteria());
   }
 
   // -------------------------------------------------------------------------------------------------------------------

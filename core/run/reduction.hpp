@@ -18,10 +18,12 @@ struct ReductionReport {
   double error_bar = 0;           // same unit: of the search
   double bracket = 0;             // same unit: half of it; 0 of searches at a rate
   CriticalBy by = CriticalBy::bracket;
-  std::string rule;        // the criterion of failure
-  std::string message;     // why there is no result, or none within the tolerance; empty: the search is complete
-  RunReport last;          // the last run
-  double unbalanced = -1;  // the equilibrium measure of the final state; negative if no equilibrium was sought
+  double taken_out = 0;         // same unit: by the extrapolation to no displacement; by the fit, from the bracket
+  std::string bracket_because;  // of a result that is the bracket although the plan asks for the required strength
+  std::string rule;             // the criterion of failure
+  std::string message;          // why there is no result, or none within the tolerance; empty: the search is complete
+  RunReport last;               // the last run
+  double unbalanced = -1;       // the equilibrium measure of the final state; negative if no equilibrium was sought
 };
 
 // The progress of a search: with it an interrupted one continues as if nothing had happened.
@@ -40,6 +42,7 @@ struct ReductionProgress {
   double undecided = 0;                   // this one
   RunProgress<Dim> run;                   // of the trial under way
   std::vector<Vector<Dim>> begin;         // m: displacements when the search began
+  std::vector<double> water;              // N: the water's force on each body then; empty without water
   State<Dim> base;                        // the last stable state
   double failed_from = 0;                 // the stable level that the failed one was tried from
   FailureWatch<Dim> watch;                // of the trial under way

@@ -73,15 +73,6 @@ bool follow(const Model<Dim>& model, const RunSchedule& plan, Schedule& schedule
   return changing;
 }
 
-// where the bodies are; while the static solver is at work, at the last trial that it accepted
-template <int Dim>
-void note_accepted(const Model<Dim>& model, const State<Dim>& state, std::vector<Placement<Dim>>& placed) {
-  if (state.increment.under_way)
-    placed = accepted_placements(model, state.increment);
-  else
-    note_placements(state.bodies, placed);
-}
-
 // Whether enough bodies have moved away. If one body is not enough, those that have are left behind.
 template <int Dim>
 bool has_moved_away(const Model<Dim>& model, const RunGoal& goal, const std::vector<Vector<Dim>>& begin,
@@ -290,6 +281,14 @@ std::string describe(StopReason reason) {
 }
 
 template <int Dim>
+void note_accepted(const Model<Dim>& model, const State<Dim>& state, std::vector<Placement<Dim>>& placed) {
+  if (state.increment.under_way)
+    placed = accepted_placements(model, state.increment);
+  else
+    note_placements(state.bodies, placed);
+}
+
+template <int Dim>
 std::string label_of(const Model<Dim>& model, int body) {
   return fmt::format("body {} ({})", body, title_of(model, body));
 }
@@ -376,6 +375,8 @@ RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& 
   }
 }
 
+template void note_accepted<2>(const Model<2>&, const State<2>&, std::vector<Placement<2>>&);
+template void note_accepted<3>(const Model<3>&, const State<3>&, std::vector<Placement<3>>&);
 template std::string label_of<2>(const Model<2>&, int);
 template std::string label_of<3>(const Model<3>&, int);
 template RunReport run<2>(const Model<2>&, const Settings&, const RunGoal&, const RunSchedule&, State<2>&,

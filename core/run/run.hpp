@@ -97,6 +97,10 @@ RunReport run(const Model<Dim>& model, const Settings& settings, const RunGoal& 
   return run(model, settings, goal, schedule, state, progress);
 }
 
+// where the bodies are; while the static solver is at work, at the last trial that it accepted
+template <int Dim>
+void note_accepted(const Model<Dim>& model, const State<Dim>& state, std::vector<Placement<Dim>>& placed);
+
 // a sentence for messages
 std::string describe(StopReason reason);
 

@@ -1,5 +1,7 @@
 #include "core/run/search_estimates.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -92,14 +94,46 @@ bool last_two_agree(const Levels& levels, const std::vector<TrialEstimate>& esti
          0.5 * levels.tolerance + error_of_line * std::abs(last - levels.level_of(estimates[n - 1].level));
 }
 
+double taken_out_of(const Levels& levels, const TrialEstimate& last) {
+  return std::abs(levels.level_of(last.critical) - levels.level_of(last.critical - last.taken_out));
+}
+
 double error_of_estimate(const Levels& levels, const Bracket& bracket, const std::vector<TrialEstimate>& estimates) {
   const TrialEstimate& last = estimates.back();
   const std::size_t n = estimates.size();
-  const double level = levels.level_of(last.critical);
-  const double taken_out = std::abs(level - levels.level_of(last.critical - last.taken_out));
+  const double level = levels.level_of(last.critical), taken_out = taken_out_of(levels, last);
   const double other = n < 2 ? 0.5 * std::abs(bracket.failed - bracket.stable)
                              : std::abs(level - levels.level_of(estimates[n - 2].critical));
   return error_of_line * taken_out + other;
+}
+
+// why the trials give no strength at no displacement
+std::string why_bracket(const Levels& levels, const SearchEstimates& known) {
+  if (!known.failed.empty()) {
+    const TrialEstimate& last = known.failed.back();
+    if (!(last.critical > 0)) return "the motion of the last failed trial requires no strength at no displacement";
+    const std::string found = levels.text(levels.level_of(last.critical));
+    if (std::abs(last.level - last.critical) > nearest_trial * last.critical)
+      return fmt::format("the strength required at no displacement, {}, is more than {:g} % from that of its trial, {}",
+                         found, 100 * nearest_trial, levels.text(levels.level_of(last.level)));
+    return fmt::format("the strength required at no displacement, {}, is outside the bracket", found);
+  }
+  switch (known.no_line) {
+    case NoLine::turned:
+      return "bodies turn, and no fit through the stable trials is certain";
+    case NoLine::no_slip:
+      return "no joint whose strength is reduced slips";
+    case NoLine::broke:
+      return "bonds broke in the trial that failed";
+    case NoLine::loads:
+      return "bolts still took up load when bodies had moved away";
+    case NoLine::too_short:
+      return "bodies had moved away before their required strength had a line";
+    case NoLine::not_straight:
+    case NoLine::none:
+      break;
+  }
+  return "the required strength never fell in a straight line";
 }
 
 }  // namespace
@@ -121,7 +155,7 @@ std::optional<double> level_by_estimate(const Levels& levels, const Bracket& bra
 }
 
 std::optional<double> level_for_fit(const Levels& levels, const Bracket& bracket, const SearchEstimates& known) {
-  if (!known.turned || known.stable.empty()) return {};
+  if (known.no_line != NoLine::turned || known.stable.empty()) return {};
   const StableTrial& last = known.stable.back();
   if (last.of_failure > spread_until) return {};
   double strength = gentle_strength * last.level;
@@ -141,8 +175,10 @@ std::optional<double> level_for_fit(const Levels& levels, const Bracket& bracket
 CriticalLevel critical_level(const Levels& levels, const Bracket& bracket, const SearchEstimates& known) {
   CriticalLevel middle{0.5 * (bracket.stable + bracket.failed), 0.5 * std::abs(bracket.failed - bracket.stable)};
   if (const std::optional<double> level = last_estimate(levels, bracket, known))
-    return {*level, error_of_estimate(levels, bracket, known.failed), CriticalBy::required_strength};
-  if (!known.turned) return middle;
+    return {*level, error_of_estimate(levels, bracket, known.failed), CriticalBy::required_strength,
+            taken_out_of(levels, known.failed.back())};
+  middle.bracket_because = why_bracket(levels, known);
+  if (known.no_line != NoLine::turned) return middle;
   const double stable = levels.strength(bracket.stable);
   const double turning = std::abs(levels.level_of(stable + error_of_turning(known.stable)) - bracket.stable);
   const std::optional<StableFit> fit = fit_stable(known.stable);
@@ -154,7 +190,7 @@ CriticalLevel critical_level(const Levels& levels, const Bracket& bracket, const
   const double level = levels.level_of(fit->critical), from_bracket = std::abs(level - middle.level);
   const double change = std::abs(levels.level_of(fit->critical + fit->change) - level);
   return {level, fit->of_three ? from_bracket + turning : 2 * change + error_of_line * from_bracket,
-          CriticalBy::stable_fit};
+          CriticalBy::stable_fit, from_bracket};
 }
 
 std::optional<StableFit> fit_stable(const std::vector<StableTrial>& trials) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/run/search_levels.hpp"
@@ -23,10 +24,13 @@ struct StableTrial {
   double of_failure = 0;    // the same over the displacement at which these bodies have failed
 };
 
+// why the required strength of a failed trial has no line to be taken to no displacement
+enum class NoLine { none, turned, no_slip, broke, loads, too_short, not_straight };
+
 struct SearchEstimates {
   std::vector<TrialEstimate> failed;
   std::vector<StableTrial> stable;
-  bool turned = false;  // bodies of the last failed trial turned
+  NoLine no_line = NoLine::none;  // of the last failed trial
 };
 
 // levels, rad or 1
@@ -41,6 +45,8 @@ enum class CriticalBy { bracket, bracket_of_turning, required_strength, stable_f
 struct CriticalLevel {
   double level = 0, error_bar = 0;  // rad or 1
   CriticalBy by = CriticalBy::bracket;
+  double taken_out = 0;           // rad or 1: by the extrapolation to no displacement; by the fit, from the bracket
+  std::string bracket_because{};  // why it is the bracket, as a clause; else empty
 };
 
 // Whether the last two estimates are equal within half the tolerance and a trial is stable within half the tolerance of

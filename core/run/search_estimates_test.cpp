@@ -113,6 +113,8 @@ TEST(SearchEstimates, AnEstimateThatTheBracketContradictsDoesNotCount) {
   EXPECT_EQ(inside.by, CriticalBy::required_strength);
   EXPECT_NEAR(inside.level, 1.4001, 1e-12);
   EXPECT_NEAR(inside.error_bar, 1e-4 + 0.1 * 1e-4 * 1.4 * 1.4, 1e-6);
+  EXPECT_NEAR(inside.taken_out, 1e-4 * 1.4 * 1.4, 1e-6);
+  EXPECT_EQ(inside.bracket_because, "");
 
   const CriticalLevel outside = critical_level(levels, {1.42, 1.43}, known);
   EXPECT_EQ(outside.by, CriticalBy::bracket);
@@ -145,10 +147,30 @@ TEST(SearchEstimates, BodiesThatTurnAreJudgedByTheFit) {
   known.stable = turning(std::tan(9.47 * degree), 0.001, 0.02, {0.001, 0.004, 0.02, 0.05});
   const Bracket bracket{10.2 * degree, 10.1 * degree};
   EXPECT_EQ(critical_level(levels, bracket, known).by, CriticalBy::bracket) << "they did not turn";
-  known.turned = true;
+  known.no_line = NoLine::turned;
   const CriticalLevel critical = critical_level(levels, bracket, known);
   EXPECT_EQ(critical.by, CriticalBy::stable_fit);
   EXPECT_NEAR(critical.level / degree, 9.47, 1e-6);
+}
+
+TEST(SearchEstimates, AResultThatIsTheBracketSaysWhy) {
+  const Levels levels = factor_levels();
+  const Bracket bracket{1.4, 1.5};
+  const auto why = [&](const SearchEstimates& known) {
+    const CriticalLevel critical = critical_level(levels, bracket, known);
+    EXPECT_EQ(critical.by, CriticalBy::bracket);
+    EXPECT_EQ(critical.taken_out, 0);
+    return critical.bracket_because;
+  };
+  const std::pair<NoLine, const char*> reasons[] = {
+      {NoLine::turned, "bodies turn"},   {NoLine::no_slip, "slips"},
+      {NoLine::broke, "bonds broke"},    {NoLine::loads, "bolts still took up load"},
+      {NoLine::too_short, "had a line"}, {NoLine::not_straight, "never fell in a straight line"}};
+  for (const auto& [reason, words] : reasons)
+    EXPECT_NE(why({.no_line = reason}).find(words), std::string::npos) << words;
+  EXPECT_NE(why({.failed = {estimate(levels, 1.5, 1.42)}}).find("1.42, is more than 3 % from that of its trial, 1.5"),
+            std::string::npos);
+  EXPECT_NE(why({.failed = {estimate(levels, 1.6, 1.59)}}).find("1.59, is outside the bracket"), std::string::npos);
 }
 
 }  // namespace

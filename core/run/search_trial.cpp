@@ -17,4 +17,9 @@ SearchTrial trial_of(StopReason reason) {
   }
 }
 
+const char* outcome_of(SearchTrial trial) {
+  constexpr const char* names[] = {"stable", "failed", "undecided", "broken"};  // in the order of the enumeration
+  return names[static_cast<int>(trial)];
+}
+
 }  // namespace voussoir

@@ -9,4 +9,7 @@ enum class SearchTrial { stable, failed, undecided, broken };  // broken: a nume
 
 SearchTrial trial_of(StopReason reason);
 
+// in tables: "stable", …
+const char* outcome_of(SearchTrial trial);
+
 }  // namespace voussoir

@@ -13,6 +13,9 @@ namespace {
 // number of joints named in a line; results.json has all
 constexpr std::size_t most_named = 4;
 
+// of its force: less water than this that a block has left is not worth a line
+constexpr double least_water_lost = 0.001;
+
 template <int Dim>
 std::string name_of_joint(const Prepared<Dim>& scene, const Model<Dim>& model, int joint) {
   if (joint == no_joint) return "";
@@ -51,10 +54,12 @@ std::string moment_text(const StableState& at) {
 template <int Dim>
 void note_stable_state(const Prepared<Dim>& scene, const Model<Dim>& model, const State<Dim>& state,
                        const BondedContacts& bonded, const StableState& at, std::vector<StableState>& noted) {
-  std::erase_if(noted, [&](const StableState& before) { return before.stage == at.stage; });
   StableState now = at;
+  const auto is_of_stage = [&](const StableState& before) { return before.stage == at.stage; };
+  if (const auto before = std::ranges::find_if(noted, is_of_stage); before != noted.end()) now.failed = before->failed;
+  std::erase_if(noted, is_of_stage);
   now.bonds = whole_bonds_of(scene, model, state, bonded);
-  if (now.bonds) noted.push_back(std::move(now));
+  if (now.bonds || now.trial) noted.push_back(std::move(now));
 }
 
 std::vector<std::string> doubts_about(const std::vector<StableState>& noted, const std::string& stage) {
@@ -86,6 +91,39 @@ std::string bonds_text(const WholeBonds& bonds) {
   }
   if (bonds.by_joint.size() > most_named) joints += fmt::format("; {} more", bonds.by_joint.size() - most_named);
   return fmt::format("{} of {} bonds intact ({})", bonds.whole, bonds.made, joints);
+}
+
+std::vector<std::string> search_text(const StableState& at) {
+  std::vector<std::string> lines;
+  if (!at.trial || !at.failed) return lines;
+  const TrialRow &stable = *at.trial, &failed = *at.failed;
+  const auto level_text = [&](double level) {
+    return fmt::format("{:.6g}{}", level, at.unit == "1" ? "" : " " + at.unit);
+  };
+  if (failed.body >= 0)
+    lines.push_back(fmt::format(
+        "failed at {}: body {}{} had moved by {:.3g} m{}, and by {:.3g} m in the last stable trial",
+        level_text(failed.level), failed.body, failed.name.empty() ? "" : " (" + failed.name + ")", failed.displacement,
+        failed.elastic_displacements ? fmt::format(", {:.3g} elastic displacements", *failed.elastic_displacements)
+                                     : "",
+        stable.displacement));
+  if (at.taken_out)
+    lines.push_back(fmt::format("the extrapolation to no displacement takes out {:.2g}{}", *at.taken_out,
+                                at.unit == "1" ? "" : " " + at.unit));
+  if (!at.bracket_because.empty()) lines.push_back("the result is the middle of the bracket: " + at.bracket_because);
+  if (stable.bolts_turned && at.unit == "1")
+    lines.push_back("on joint strength; bolts not divided: " +
+                    (stable.bolts_use
+                         ? fmt::format("their largest force is {:.3g} % of their capacity", 100 * *stable.bolts_use)
+                         : "they have no yield"));
+  if (stable.bolts_turned && failed.bolts_turned)
+    lines.push_back(fmt::format("bolts had turned by up to {:.2g} deg, in the failed trial by {:.2g} deg",
+                                *stable.bolts_turned, *failed.bolts_turned));
+  const double lost = std::max(std::abs(stable.water_lost.value_or(0)), std::abs(failed.water_lost.value_or(0)));
+  if (lost >= least_water_lost)
+    lines.push_back(fmt::format("the water's force on it had fallen by {:.2g} %, in the failed trial by {:.2g} %",
+                                100 * stable.water_lost.value_or(0), 100 * failed.water_lost.value_or(0)));
+  return lines;
 }
 
 template void note_stable_state<2>(const Prepared<2>&, const Model<2>&, const State<2>&, const BondedContacts&,

@@ -11,7 +11,8 @@
 namespace voussoir {
 
 // Records them for the present state, the last stable one of the stage so far, in place of the stage's earlier record.
-// Nothing if there are none.
+// Nothing if there are none and
+// the stage is no search.
 template <int Dim>
 void note_stable_state(const Prepared<Dim>& scene, const Model<Dim>& model, const State<Dim>& state,
                        const BondedContacts& bonded, const StableState& at, std::vector<StableState>& noted);
@@ -25,6 +26,9 @@ void count_all_bonds(const Prepared<Dim>& scene, const State<Dim>& state, Result
 
 // "in equilibrium", "at the last stable state, a factor of 1.2"
 std::string moment_text(const StableState& at);
+
+// Of a search: how far its trials moved and turned, what an extrapolation took out, why it was not used; a line each.
+std::vector<std::string> search_text(const StableState& at);
 
 // "2 of 3 bonds intact (rock: 2 of 3, 66.7 % of the bonded area)"
 std::string bonds_text(const WholeBonds& bonds);

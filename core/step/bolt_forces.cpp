@@ -234,6 +234,20 @@ void tie_bars(const Model<Dim>&, const SupportsState<Dim>& supports, const TwoBo
 }
 
 template <int Dim>
+std::optional<double> most_turned(const Model<Dim>& model, const BodiesState<Dim>& bodies,
+                                  const SupportsState<Dim>& supports) {
+  std::optional<double> most;
+  for (const BoltSpring<Dim>& spring : supports.bolt_springs) {
+    if (spring.broken || (model.bodies[spring.body_a].fixed && model.bodies[spring.body_b].fixed)) continue;
+    const Vector<Dim> axis = bodies.poses[spring.body_a].axes * spring.axis;
+    const double along = direction_of(bodies, spring, Stretched<Dim>(bodies, spring)).dot(axis);
+    const Vector<Dim> across = direction_of(bodies, spring, Stretched<Dim>(bodies, spring)) - along * axis;
+    most = std::max(most.value_or(0), std::atan2(across.norm(), along));
+  }
+  return most;
+}
+
+template <int Dim>
 bool hangs_on_spring(const SupportsState<Dim>& supports, int body) {
   return std::ranges::any_of(supports.bolt_springs, [&](const BoltSpring<Dim>& spring) {
     return !spring.broken && (spring.body_a == body || spring.body_b == body);
@@ -257,6 +271,8 @@ bool hangs_on_spring(const SupportsState<Dim>& supports, int body) {
   template void add_spring_forces<Dim>(const SupportsState<Dim>&, ForcesAtRest&);                                      \
   template void tie_springs<Dim>(const Model<Dim>&, const SupportsState<Dim>&, const TwoBodies&);                      \
   template void tie_bars<Dim>(const Model<Dim>&, const SupportsState<Dim>&, const TwoBodies&);                         \
+  template std::optional<double> most_turned<Dim>(const Model<Dim>&, const BodiesState<Dim>&,                          \
+                                                  const SupportsState<Dim>&);                                          \
   template bool hangs_on_spring<Dim>(const SupportsState<Dim>&, int);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)

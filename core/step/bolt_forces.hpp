@@ -2,6 +2,7 @@
 // support_table.hpp.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/base/settings.hpp"
@@ -48,6 +49,13 @@ void add_spring_pairs(const Model<Dim>& model, const Settings& settings, const S
 template <int Dim>
 void add_bar_pairs(const Model<Dim>& model, const Settings& settings, const State<Dim>& state,
                    std::vector<PairStiffness<Dim>>& pairs);
+
+// rad: the largest angle of an unbroken spring that acts on a free body with its direction at installation, against the
+// block nearer to its collar; nothing without such springs. Of those with both anchors at the joint: 0, as their force
+// keeps its direction.
+template <int Dim>
+std::optional<double> most_turned(const Model<Dim>& model, const BodiesState<Dim>& bodies,
+                                  const SupportsState<Dim>& supports);
 
 // of all unbroken springs
 template <int Dim>

@@ -1,0 +1,47 @@
+#include "core/run/search_rules.hpp"
+
+#include <fmt/format.h>
+
+namespace voussoir {
+namespace {
+
+std::string failed_by_displacement(const TrialCriteria& c) {
+  if (c.plan.failure_fraction == 0)
+    return fmt::format("failed: a body moved more than {:.3g} m", c.failure_displacement);
+  return fmt::format("failed: bodies of {:g} of the free mass moved more than {:.3g} m", c.plan.failure_fraction,
+                     c.failure_displacement);
+}
+
+// an error outside the error bar
+std::string newton_rule(const Settings& settings) {
+  if (settings.statics.method != Statics::newton) return "";
+  return fmt::format(
+      "; by Newton's method in {} increment{} per trial: the error due to slip integrated in large increments is not "
+      "in the error bar",
+      settings.statics.increments, settings.statics.increments == 1 ? "" : "s");
+}
+
+}  // namespace
+
+std::string failed_rule(const TrialCriteria& c) {
+  if (c.watches)
+    return "failed: the strength that the motion requires falls in a straight line after ten elastic displacements, "
+           "or a body moved by a tenth of its inscribed radius";
+  const std::string why =
+      c.not_watched.empty() ? "" : fmt::format(" (not by the required strength: {})", c.not_watched);
+  return failed_by_displacement(c) + why;
+}
+
+std::string stable_and_failed_rule(const TrialCriteria& c) {
+  return fmt::format("stable: unbalanced ratio below {:.0e}; ", c.settings.equilibrium.unbalanced) + failed_rule(c) +
+         newton_rule(c.settings);
+}
+
+std::string hangs_on_bolts(const std::optional<double>& use) {
+  return fmt::format(
+      "the blocks hang on their bolts at any factor: they are in equilibrium without the strength that it divides; the "
+      "bolts' own reserve, capacity over force, is then {}",
+      use && *use > 0 ? fmt::format("{:.4g}", 1 / *use) : "not limited: they have no yield");
+}
+
+}  // namespace voussoir

@@ -1,0 +1,26 @@
+// The criteria by which a search judges its trials, as clauses of its rule, and its verdict on bolts.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/base/settings.hpp"
+
+namespace voussoir {
+
+struct TrialCriteria {
+  const ReducePlan& plan;
+  const Settings& settings;
+  double failure_displacement;  // m
+  bool watches;                 // by the strength that the motion requires
+  std::string not_watched;      // why not, if the plan asks for it
+};
+
+std::string failed_rule(const TrialCriteria& criteria);
+std::string stable_and_failed_rule(const TrialCriteria& criteria);
+
+// of a search that is stable to its end, and without the strength that its factor divides; `use`: the largest force of
+// a bolt there over its capacity, if any has one
+std::string hangs_on_bolts(const std::optional<double>& use);
+
+}  // namespace voussoir
