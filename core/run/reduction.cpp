@@ -480,6 +480,8 @@ ReductionReport reduce(const Model<Dim>& model, const Settings& settings, const 
     report.failed = progress.failed;
   }
   report.rule = search.rule();
+  report.watched = search.watches();
+  report.turned = progress.known.turned;
   if (report.bracketed && !report.message.empty()) report.rule += "; the search ended early: " + report.message;
   return report;
 }

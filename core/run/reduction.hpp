@@ -18,6 +18,8 @@ struct ReductionReport {
   double error_bar = 0;           // same unit: of the search
   double bracket = 0;             // same unit: half of it; 0 of searches at a rate
   CriticalBy by = CriticalBy::bracket;
+  bool watched = false;    // trials are judged by the strength that their motion requires
+  bool turned = false;     // bodies of the last failed trial turned
   std::string rule;        // the criterion of failure
   std::string message;     // why there is no result, or none within the tolerance; empty: the search is complete
   RunReport last;          // the last run
