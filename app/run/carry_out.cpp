@@ -83,17 +83,22 @@ bool continue_run(const Prepared<Dim>& prepared, const std::string& scene_hash, 
 // round. False: a signal stopped it.
 bool judge_accuracy(const LoadedScene& stated, const LoadedScene& scene, RunJob& job, Results& results,
                     std::optional<Refinement>& next) {
-  if (!wants_budget(scene) || results.outcome == Outcome::failed) return true;
+  if (results.outcome == Outcome::failed) return true;
   const int round = static_cast<int>(job.options.rounds.size());
+  if (wants_stiffness_bar(scene) && job.options.until.empty())
+    return add_stiffness_bar(scene, budget_runs(stated, round, job.options.settings), job.folder, job.options.threads,
+                             job.quiet, results);
+  if (!wants_budget(scene)) return true;
   const std::optional<AccuracyTarget> target = wanted_accuracy(scene);
   if (!(target && brackets_too_wide(scene, *target, results) && round + 1 < most_rounds) &&
       !add_budget(scene, budget_runs(stated, round, job.options.settings), job.folder, job.options.threads, job.quiet,
                   results))
     return false;
   if (!target) return true;
-  next = refinement(scene, *target, round + 1, results);
+  next = refinement(scene, *target, job.options.rounds, results);
   const long long evaluations = results.counters.contact_evaluations + results.budget_evaluations;
-  job.options.rounds.push_back({job.options.settings, next ? next->summary : "as asked", evaluations});
+  job.options.rounds.push_back(
+      {job.options.settings, next ? next->summary : "as asked", evaluations, parts_of_bars(scene, results)});
   if (!next) {
     if (results.outcome != Outcome::done) job.options.rounds.back().told = results.message;
     return true;

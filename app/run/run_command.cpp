@@ -93,12 +93,13 @@ ExitCode run_command(const RunArguments& arguments) {
   std::vector<fs::path> inputs = scene.files;
   std::optional<AnyProgress> begun = begun_at(arguments.begin, scene, inputs, options);
   add_origin(options.origins, this_origin());
-  if (!wants_budget(scene)) scene.stated.reset();
+  const bool repeats = wants_budget(scene) || wants_stiffness_bar(scene);
+  if (!repeats) scene.stated.reset();
 
   // the folder is locked, and records the run before the first step
   const fs::path folder = results_folder(arguments);
   Outputs outputs = run_outputs();
-  if (wants_budget(scene)) outputs.folders = budget_folders(scene);
+  if (repeats) outputs.folders = budget_folders(scene);
   const ClaimedFolder claim(folder, outputs, inputs, arguments.overwrite);
   if (begun) begin_in(folder, scene.hash, *begun);
   begun.reset();

@@ -14,6 +14,29 @@
 namespace voussoir {
 namespace {
 
+// The parts of a bar, the largest of the budget's first: "bracket 0.003, criterion 0.05, stiffness 0.11".
+std::string parts_text(const Value& value, const ShownUnit& shown) {
+  constexpr double least_printed = 0.05;  // of the bar; results.json has all
+  std::vector<std::string> parts;
+  const auto add = [&](const std::string& name, double size) {
+    if (size > least_printed * *value.error_bar) parts.push_back(fmt::format("{} {:.2g}", name, size / shown.size));
+  };
+  if (value.is_middle() && value.bracket) add("bracket", *value.bracket);
+  if (value.criterion) add("criterion", *value.criterion);
+  for (const BudgetLine& line : value.budget)
+    add(line.varied, line.part);
+  if (!value.not_varied.empty()) parts.push_back(fmt::format("without {}", fmt::join(value.not_varied, ", ")));
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+std::string covers_text(const Value& value, const ShownUnit& shown) {
+  if (value.covers == "bracket") return "search bracket only; --budget adds the model's errors";
+  const std::string parts = parts_text(value, shown);
+  const std::string kind =
+      value.covers == "criterion" ? "--budget adds the model's errors; numerical error only" : "numerical error only";
+  return parts + (parts.empty() ? "" : "; ") + kind;
+}
+
 // an error bar needs two digits, and its value as many places
 std::string value_text(const Value& value, const ShownUnit& shown) {
   const std::string unit = after_value(shown);
@@ -21,12 +44,8 @@ std::string value_text(const Value& value, const ShownUnit& shown) {
   if (!value.error_bar || *value.error_bar <= 0) return fmt::format("{:.6g}{}", value.value / shown.size, unit);
   const double error_bar = *value.error_bar / shown.size;
   const int places = std::clamp(1 - static_cast<int>(std::floor(std::log10(error_bar))), 0, 15);
-  std::string covers = "search bracket and budget";
-  if (value.covers == "bracket") covers = "search bracket only; --budget adds the model's errors";
-  if (value.covers == "criterion")
-    covers = fmt::format("failure criterion only, search bracket ± {:.2g}; --budget adds the model's errors",
-                         value.bracket.value_or(0));
-  return fmt::format("{:.{}f} ± {:.{}f}{} ({})", value.value / shown.size, places, error_bar, places, unit, covers);
+  return fmt::format("{:.{}f} ± {:.{}f}{} ({})", value.value / shown.size, places, error_bar, places, unit,
+                     covers_text(value, shown));
 }
 
 void print_budget(const Value& value, const ShownUnit& shown) {
@@ -34,10 +53,13 @@ void print_budget(const Value& value, const ShownUnit& shown) {
   for (const BudgetLine& line : value.budget) {
     if (!line.sensitivity && !(std::abs(line.left) >= least_printed * value.error_bar.value_or(0) && line.left != 0))
       continue;
+    std::string remains = fmt::format("remaining error {:+.2g}", line.left / shown.size);
+    // of known sign: it falls in proportion to the stiffness
+    if (line.varied == "stiffness" && !value.found_by.empty())
+      remains += fmt::format(": rigid joints would give {:.6g}", (value.value + line.left) / shown.size);
+    if (line.sensitivity) remains = "measured: a sensitivity, no error";
     fmt::print("      {:+.2g}{} with {}, {}: {}\n", line.shift / shown.size, after_value(shown), line.varied,
-               line.change,
-               line.sensitivity ? "measured: a sensitivity, no error"
-                                : fmt::format("remaining error {:+.2g}", line.left / shown.size));
+               line.change, remains);
   }
 }
 
@@ -66,6 +88,9 @@ void print_values(const std::vector<std::pair<std::string, Value>>& values, cons
     print_budget(value, shown);
     if (!value.divides.empty()) fmt::print("      it {}\n", value.divides);
   }
+  const auto has_bar = [](const auto& named) { return named.second.error_bar.value_or(0) > 0; };
+  if (std::ranges::any_of(values, has_bar))
+    fmt::print("  (±: numerical error; it says nothing of strengths, geometry or water)\n");
 }
 
 void print_stages(const std::vector<StageResult>& stages, const std::vector<StableState>& stable_states) {

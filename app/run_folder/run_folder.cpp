@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "app/run_folder/search_files.hpp"
@@ -63,7 +64,8 @@ void remark_build(const fs::path& path, const std::string& bytes, std::vector<st
 std::vector<AccuracyRound> rounds_of(const nlohmann::json& list) {
   std::vector<AccuracyRound> rounds;
   for (const nlohmann::json& round : list)
-    rounds.push_back({round.at("settings"), round.at("told"), round.at("contact_evaluations")});
+    rounds.push_back({round.at("settings"), round.at("told"), round.at("contact_evaluations"),
+                      round.value("parts", std::map<std::string, double>())});
   return rounds;
 }
 

@@ -59,6 +59,9 @@ std::optional<Value> value_of(const nlohmann::json& values, const std::string& n
   if (entry.contains("error_bar") && entry.at("error_bar").is_number())
     value.error_bar = entry.at("error_bar").get<double>();
   value.divides = entry.value("divides", "");
+  value.found_by = entry.value("found_by", "");
+  for (auto& [key, number] : {std::pair{"bracket", &value.bracket}, {"bracket_middle", &value.bracket_middle}})
+    if (entry.contains(key) && entry.at(key).is_number()) *number = entry.at(key).get<double>();
   return value;
 }
 

@@ -19,8 +19,14 @@ struct BudgetLine {
   std::string varied, change;  // "stiffness", "4 times"
   double shift = 0;            // the value then, minus the value
   double left = 0;             // the error estimated from it: extrapolated if an order is known
+  double part = 0;             // of the error bar, half width: its square is added to the square of the bar
   bool sensitivity = false;    // the scene states that it was measured: reported, but not an error
 };
+
+// How the result of a search follows from its trials: the middle of a bracket whose trials failed by displacement, or
+// by the strength that their motion requires; this strength at no displacement; the fit through the stable trials.
+inline constexpr const char *found_by_displacement = "displacement", *found_by_bracket = "bracket",
+                            *found_by_strength = "required strength", *found_by_fit = "stable fit";
 
 struct Value {
   double value = 0;
@@ -28,10 +34,18 @@ struct Value {
   std::optional<double> error_bar;     // same unit: half width of the error from the sources that it `covers`
   std::string rule;                    // how it was determined; may be empty
   std::string covers = "bracket";      // only the search's; "criterion": the extrapolation of the required strength, or
-                                       // the fit; "budget": everything that the budget varied
-  std::optional<double> bracket = {};  // of a criterion or a budget: half of the search's
+                                       // the fit; "stiffness", "budget": these, and the lines of `budget`
+  std::optional<double> bracket = {};  // half of the search's
   std::vector<BudgetLine> budget = {};  // by size
-  std::string divides = {};  // of a factor of safety: the strengths that it divides, and those that it does not
+  std::string divides = {};   // of a factor of safety: the strengths that it divides, and those that it does not
+  std::string found_by = {};  // of a search that brackets
+  std::optional<double> bracket_middle = {};
+  std::optional<double> criterion = {};      // part of the error bar: of the extrapolation, or the fit
+  bool turned = false;                       // bodies of the last failed trial turned
+  std::vector<std::string> not_varied = {};  // by the budget: parts of the error that the bar does not cover
+
+  // whether the middle of its bracket is the result, so that half of the bracket is part of the bar
+  bool is_middle() const { return error_bar && found_by != found_by_strength && found_by != found_by_fit; }
 };
 
 // The strengths that a factor of safety divides, as a sentence: tan φ and, if it is included, cohesion of joint

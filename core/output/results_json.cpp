@@ -1,5 +1,6 @@
 #include "core/output/results_json.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -22,6 +23,14 @@ struct NumberWriter {
   }
 };
 
+// the key of a line's part of the bar beside "bracket" and "criterion"
+std::string key_of(const BudgetLine& line) {
+  if (line.varied.find(',') != std::string::npos) return "others";
+  std::string key = line.varied;
+  std::ranges::replace(key, ' ', '_');
+  return key;
+}
+
 Json values_json(const Results& results, NumberWriter& number) {
   Json values = Json::object();
   for (const auto& [name, value] : results.values) {
@@ -31,14 +40,23 @@ Json values_json(const Results& results, NumberWriter& number) {
     if (value.error_bar) {
       entry["error_bar"] = number(*value.error_bar, name + ".error_bar");
       entry["covers"] = value.covers;
+      entry["error_bar_excludes"] = {"strengths", "geometry", "water"};
     }
     if (value.bracket) entry["bracket"] = number(*value.bracket, name + ".bracket");
-    for (const BudgetLine& line : value.budget)
+    if (value.bracket_middle) entry["bracket_middle"] = number(*value.bracket_middle, name + ".bracket_middle");
+    if (value.criterion) entry["criterion"] = number(*value.criterion, name + ".criterion");
+    for (const BudgetLine& line : value.budget) {
+      if (!line.sensitivity) entry[key_of(line)] = number(line.part, name + "." + key_of(line));
       entry["budget"].push_back({{"varied", line.varied},
                                  {"change", line.change},
                                  {"shift", number(line.shift, name + ".shift")},
                                  {"left", number(line.left, name + ".left")},
+                                 {"part", number(line.part, name + ".part")},
                                  {"sensitivity", line.sensitivity}});
+    }
+    if (!value.not_varied.empty()) entry["not_varied"] = value.not_varied;
+    if (!value.found_by.empty()) entry["found_by"] = value.found_by;
+    if (value.turned) entry["turned"] = true;
     if (!value.rule.empty()) entry["rule"] = value.rule;
     if (!value.divides.empty()) entry["divides"] = value.divides;
   }
@@ -238,8 +256,10 @@ std::string results_json(const Results& results, const RunRecord& record) {
 Json rounds_json(const std::vector<AccuracyRound>& rounds) {
   Json json = Json::array();
   for (const AccuracyRound& round : rounds)
-    json.push_back(
-        {{"settings", round.settings}, {"told", round.told}, {"contact_evaluations", round.contact_evaluations}});
+    json.push_back({{"settings", round.settings},
+                    {"told", round.told},
+                    {"contact_evaluations", round.contact_evaluations},
+                    {"parts", round.parts}});
   return json;
 }
 

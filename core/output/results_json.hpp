@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <utility>
@@ -16,9 +17,10 @@ inline constexpr int results_schema_version = 1;
 
 // One round of `[accuracy] error`; the last one is accurate enough.
 struct AccuracyRound {
-  std::vector<std::string> settings;  // overrides of the scene in this round
-  std::string told;                   // the accuracy of its values, and the settings refined afterwards
-  long long contact_evaluations = 0;  // including those of its budget
+  std::vector<std::string> settings;         // overrides of the scene in this round
+  std::string told;                          // the accuracy of its values, and the settings refined afterwards
+  long long contact_evaluations = 0;         // including those of its budget
+  std::map<std::string, double> parts = {};  // of error bars: "critical_friction: stiffness"
 };
 nlohmann::ordered_json rounds_json(const std::vector<AccuracyRound>& rounds);
 

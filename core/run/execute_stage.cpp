@@ -101,6 +101,12 @@ std::optional<StageOutcome> execute(const RunPlan& timed, const StageInForce<Dim
   return run_to(stage, goal, timed.gravity, StopReason::end_time, watcher, progress);
 }
 
+std::string found_by(const ReductionReport& report) {
+  if (report.by == CriticalBy::required_strength) return found_by_strength;
+  if (report.by == CriticalBy::stable_fit) return found_by_fit;
+  return report.watched ? found_by_bracket : found_by_displacement;
+}
+
 // the value that a search has found, if any, and its message
 template <int Dim>
 StageOutcome judge_search(const ReducePlan& reduction, const ReductionReport& report, const StageInForce<Dim>& stage,
@@ -111,15 +117,22 @@ StageOutcome judge_search(const ReducePlan& reduction, const ReductionReport& re
     const bool unique = !results.find(sought.name);
     const std::string name = unique ? sought.name : stage.plan().name + "_" + sought.name;
     Value value{sought.number(report.critical), sought.unit, sought.number(report.error_bar), report.rule};
+    if (report.bracket > 0) {
+      value.bracket = sought.number(report.bracket);
+      value.found_by = found_by(report);
+      value.bracket_middle = sought.number(0.5 * (report.stable + report.failed));
+      value.turned = report.turned;
+    }
     if (report.by != CriticalBy::bracket) {
       value.covers = "criterion";
-      value.bracket = sought.number(report.bracket);
+      value.criterion = *value.error_bar - (report.by == CriticalBy::bracket_of_turning ? *value.bracket : 0);
     }
     if (reduction.searched == Searched::factor) value.divides = divided_by_factor(reduction.properties);
     results.values.emplace_back(name, std::move(value));
     for (StableState& at : results.at_last_stable_state) {
       if (at.stage != stage.plan().name) continue;
-      if (report.by != CriticalBy::bracket) at.taken_out = sought.number(report.taken_out);
+      if (report.by == CriticalBy::required_strength || report.by == CriticalBy::stable_fit)
+        at.taken_out = sought.number(report.taken_out);
       at.bracket_because = report.bracket_because;
     }
   }

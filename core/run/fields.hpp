@@ -123,9 +123,10 @@ void visit_fields(Just<StageRecord> auto& r, auto&& visit) {
 
 void visit_fields(Just<Value> auto& v, auto&& visit) {
   // a budget is made after the last checkpoint
-  auto& [value, unit, error_bar, rule, covers, bracket, budget, divides] = v;
-  visit(Saved{}, value, unit, error_bar, rule, covers, bracket, divides);
-  visit(Found{}, budget);
+  auto& [value, unit, error_bar, rule, covers, bracket, budget, divides, found_by, bracket_middle, criterion, turned,
+         not_varied] = v;
+  visit(Saved{}, value, unit, error_bar, rule, covers, bracket, divides, found_by, bracket_middle, criterion, turned);
+  visit(Found{}, budget, not_varied);
 }
 
 void visit_fields(Just<StageResult> auto& s, auto&& visit) {

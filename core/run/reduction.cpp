@@ -22,9 +22,6 @@ constexpr double bias_power = 2.0 / 3;
 // two rates: the slower reduction starts this many lags of the faster above its failure; one would be enough on a plane
 constexpr double nearer_by_lags = 1.5;
 
-// two rates: the trials after the one to equilibrium
-constexpr int faster_fall = 1, coming_nearer = 2, slower_fall = 3;
-
 // A trial's steps are divided into rounds, as fractions of the step limit: relaxation has 20,000 steps by default,
 // enough for the equilibrium of a column of 1,000 blocks, then true motion 100,000, then relaxation again. Relaxation
 // is slow if a slope slides far before equilibrium, because the damping of vibrations slows the slide; true motion is
@@ -463,19 +460,6 @@ bool of_rates(ReductionMethod method) {
 
 }  // namespace
 
-bool is_detour(ReductionMethod method, int trial, SearchTrial outcome) {
-  switch (method) {
-    case ReductionMethod::bisection:
-    case ReductionMethod::steps:
-      return outcome != SearchTrial::stable;
-    case ReductionMethod::rate:
-      return false;
-    case ReductionMethod::two_rates:
-      return trial == faster_fall || (trial == coming_nearer && outcome != SearchTrial::stable);
-  }
-  return false;
-}
-
 template <int Dim>
 ReductionReport reduce(const Model<Dim>& model, const Settings& settings, const ReducePlan& plan, State<Dim>& state,
                        ReductionProgress<Dim>& progress, const RunHooks<Dim>& hooks, const TrialHook<Dim>& on_trial) {
@@ -494,6 +478,8 @@ ReductionReport reduce(const Model<Dim>& model, const Settings& settings, const 
     report.failed = progress.failed;
   }
   report.rule = search.rule();
+  report.watched = search.watches();
+  report.turned = progress.known.no_line == NoLine::turned;
   if (report.bracketed && !report.message.empty()) report.rule += "; the search ended early: " + report.message;
   return report;
 }

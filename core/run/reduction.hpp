@@ -20,6 +20,8 @@ struct ReductionReport {
   CriticalBy by = CriticalBy::bracket;
   double taken_out = 0;         // same unit: by the extrapolation to no displacement; by the fit, from the bracket
   std::string bracket_because;  // of a result that is the bracket although the plan asks for the required strength
+  bool watched = false;         // trials are judged by the strength that their motion requires
+  bool turned = false;          // bodies of the last failed trial turned
   std::string rule;             // the criterion of failure
   std::string message;          // why there is no result, or none within the tolerance; empty: the search is complete
   RunReport last;               // the last run
@@ -48,10 +50,6 @@ struct ReductionProgress {
   FailureWatch<Dim> watch;                // of the trial under way
   SearchEstimates known;                  // of its trials
 };
-
-// Whether a trial, counted from 0, is a detour: its effects are undone, or it only shows failure. The others are the
-// path to the result, whose time never goes back.
-bool is_detour(ReductionMethod method, int trial, SearchTrial outcome);
 
 // the outcome at a level; called at the end of each trial, with its final state
 template <int Dim>

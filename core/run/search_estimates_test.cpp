@@ -79,7 +79,7 @@ TEST(SearchEstimates, BodiesThatToppleFailAboveTheStrengthOfRigidOnes) {
   const Levels levels = friction_levels();
   SearchEstimates known;
   known.stable = trials;
-  known.turned = true;
+  known.no_line = NoLine::turned;
   const double stable = levels.level_of(trials.back().level);
   const CriticalLevel critical = critical_level(levels, {stable, stable - 0.01 * degree}, known);
   EXPECT_EQ(critical.by, CriticalBy::bracket_of_turning);
@@ -129,7 +129,7 @@ TEST(SearchEstimates, BodiesThatTurnAreLoweredGently) {
   SearchEstimates known;
   known.stable = {{std::tan(30 * degree), 1e-5, 1e-4}};
   EXPECT_FALSE(level_for_fit(levels, wide, known)) << "nothing turned";
-  known.turned = true;
+  known.no_line = NoLine::turned;
   EXPECT_NEAR(std::tan(*level_for_fit(levels, wide, known)), 0.8 * std::tan(30 * degree), 1e-12) << "no law yet";
   EXPECT_FALSE(level_for_fit(levels, {30 * degree, 26 * degree}, known)) << "half the bracket is a shorter step";
 

@@ -22,4 +22,17 @@ const char* outcome_of(SearchTrial trial) {
   return names[static_cast<int>(trial)];
 }
 
+bool is_detour(ReductionMethod method, int trial, SearchTrial outcome) {
+  switch (method) {
+    case ReductionMethod::bisection:
+    case ReductionMethod::steps:
+      return outcome != SearchTrial::stable;
+    case ReductionMethod::rate:
+      return false;
+    case ReductionMethod::two_rates:
+      return trial == faster_fall || (trial == coming_nearer && outcome != SearchTrial::stable);
+  }
+  return false;
+}
+
 }  // namespace voussoir

@@ -338,7 +338,8 @@ struct Newton {
     progress.tries = 0;
     if (rests()) return end_increment();
     if (progress.iteration >= iteration_limit) return give_up();
-    if (forced || ++progress.since_commit >= most_since_commit || has_slipped_far(model, unknowns, increment) ||
+    if (forced || ++progress.since_commit >= most_since_commit ||
+        has_slipped_far(model, settings.statics.slip, unknowns, increment) ||
         fraction_in_new_contacts() > most_in_new_contacts)
       commit();
     const double reached = static_cast<double>(system.stiffness.size());

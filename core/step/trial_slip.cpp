@@ -6,7 +6,7 @@
 namespace voussoir {
 namespace {
 
-constexpr double longest_in_trial = 2, most_since_base = 0.5;  // elastic displacements
+constexpr double longest_in_trial = 2;  // elastic displacements
 
 // of the farthest: bodies that come so far are those that move
 constexpr double moving_fraction = 0.5;
@@ -49,7 +49,8 @@ double shorten_in_trial(const Unknowns<Dim>& unknowns, const StaticIncrement<Dim
 }
 
 template <int Dim>
-bool has_slipped_far(const Model<Dim>& model, const Unknowns<Dim>& unknowns, const StaticIncrement<Dim>& increment) {
+bool has_slipped_far(const Model<Dim>& model, double slip, const Unknowns<Dim>& unknowns,
+                     const StaticIncrement<Dim>& increment) {
   if (increment.elastic.empty()) return false;
   double most = 0, turned = 0;
   bool far = false;
@@ -57,7 +58,7 @@ bool has_slipped_far(const Model<Dim>& model, const Unknowns<Dim>& unknowns, con
     const int b = unknowns.bodies[i];
     const double moved = accepted_of<Dim>(increment, i).norm();
     const Eigen::Map<const Spin<Dim>> turn(increment.progress.accepted.data() + freedoms<Dim> * i + Dim);
-    far = far || moved > most_since_base * increment.elastic[b];
+    far = far || moved > slip * increment.elastic[b];
     most = std::max(most, moved);
     turned = std::max(turned, turn.norm() * model.bodies[b].radius);
   }
@@ -66,7 +67,7 @@ bool has_slipped_far(const Model<Dim>& model, const Unknowns<Dim>& unknowns, con
 
 #define VOUSSOIR_INSTANTIATE(Dim)                                                                             \
   template double shorten_in_trial<Dim>(const Unknowns<Dim>&, const StaticIncrement<Dim>&, Eigen::VectorXd&); \
-  template bool has_slipped_far<Dim>(const Model<Dim>&, const Unknowns<Dim>&, const StaticIncrement<Dim>&);
+  template bool has_slipped_far<Dim>(const Model<Dim>&, double, const Unknowns<Dim>&, const StaticIncrement<Dim>&);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)
 #undef VOUSSOIR_INSTANTIATE

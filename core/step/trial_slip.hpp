@@ -14,10 +14,10 @@ namespace voussoir {
 template <int Dim>
 double shorten_in_trial(const Unknowns<Dim>& unknowns, const StaticIncrement<Dim>& increment, Eigen::VectorXd& dq);
 
-// Whether a body has moved by half an elastic displacement since the base, and the bodies slide rather than turn: where
-// they turn, a base that moves along would cost a thousand times the evaluations. Half of one errs by 0.002° in a
-// wedge, one by 0.004°, two by 0.008°; a quarter costs 8 to 30 % more for 0.0013°.
+// Whether a body has moved by `slip` elastic displacements since the base (StaticsSettings::slip), and the bodies slide
+// rather than turn: if they turn, a base that moves along would cost a thousand times the evaluations.
 template <int Dim>
-bool has_slipped_far(const Model<Dim>& model, const Unknowns<Dim>& unknowns, const StaticIncrement<Dim>& increment);
+bool has_slipped_far(const Model<Dim>& model, double slip, const Unknowns<Dim>& unknowns,
+                     const StaticIncrement<Dim>& increment);
 
 }  // namespace voussoir

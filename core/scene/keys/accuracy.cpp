@@ -14,6 +14,11 @@ KeyTable accuracy_keys() {
     {.key = "budget", .type = boolean, .example = "true", .meaning = "after the result, further runs vary the numerical choices "
         "(stiffness, ramp, time step, equilibrium criterion, damping, points per face, …) one at a time: each value is reported with its "
         "sensitivities, and its error bar covers them, not only the search's bracket", .breaks = "costs several times the run itself"},
+    {.key = "error_bar", .type = choice, .example = "\"stiffness\"", .choices = {"bracket", "stiffness"},
+     .meaning = "bracket: the error bar of a search covers its bracket or its criterion of failure; stiffness: searches that the required "
+         "strength judges, and in which blocks slide, are repeated once with joints four times as stiff and increments a fifth as long, "
+         "and their bars cover the effect as well. A budget covers more, and takes its place",
+     .breaks = "costs one more evaluation of the result"},
     {.key = "error", .type = text, .example = "\"1 %\"",
      .meaning = "largest error bar of the result of a search, relative (\"1 %\") or as an angle (\"0.1 deg\"): an error budget is made, "
          "and its largest contribution is refined until the error bar is small enough. Settings that the scene does not state are those of "

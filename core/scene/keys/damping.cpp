@@ -34,6 +34,11 @@ std::vector<KeyRow> statics_rows() {
      .meaning = "newton: increments in which a ramp of gravity, or a fall of friction in a search, is applied; a joint that "
          "slips within one slips along its chord",
      .breaks = "the cost grows with them"},
+    {.key = "static_slip", .members = {in(&StaticsSettings::slip)}, .unit = "1", .range = {1e-3, 10},
+     .plausible = {0.05, 2}, .example = "0.1",
+     .meaning = "newton, searches that the required strength judges: slip of a body, in elastic displacements of its joints, "
+         "after which a trial's reference state is updated; --budget takes a fifth of it",
+     .breaks = "large: shear locked in by settling dies away too slowly along the chord, and the critical angle is too high"},
   };
 }
 
