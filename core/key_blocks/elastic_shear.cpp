@@ -3,7 +3,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace voussoir {
 namespace {
@@ -39,19 +38,21 @@ std::vector<int> closed_by_elastic_shear(const Assembly<Dim>& assembly, const Bl
 }
 
 template <int Dim>
-double opening_angle(const Block<Dim>& block, const Verdict<Dim>& verdict) {
-  double least = std::numeric_limits<double>::infinity();
+Opening opening_angle(const Block<Dim>& block, const Verdict<Dim>& verdict) {
+  Opening least;
   if (!moves(verdict.kind)) return least;
   const Vector<Dim> along = verdict.direction();
-  for (int f = 0; f < static_cast<int>(block.faces.size()); ++f)
-    if (!carries(verdict, f))
-      least = std::min(least, std::asin(std::clamp(block.faces[f].normal.dot(along), 0.0, 1.0)));
+  for (int f = 0; f < static_cast<int>(block.faces.size()); ++f) {
+    if (carries(verdict, f)) continue;
+    const double angle = std::asin(std::clamp(block.faces[f].normal.dot(along), 0.0, 1.0));
+    if (least.face < 0 || angle < least.angle) least = {f, angle};
+  }
   return least;
 }
 
 template std::vector<int> closed_by_elastic_shear<2>(const Assembly<2>&, const Block<2>&, const BoltedVerdict<2>&);
 template std::vector<int> closed_by_elastic_shear<3>(const Assembly<3>&, const Block<3>&, const BoltedVerdict<3>&);
-template double opening_angle<2>(const Block<2>&, const Verdict<2>&);
-template double opening_angle<3>(const Block<3>&, const Verdict<3>&);
+template Opening opening_angle<2>(const Block<2>&, const Verdict<2>&);
+template Opening opening_angle<3>(const Block<3>&, const Verdict<3>&);
 
 }  // namespace voussoir

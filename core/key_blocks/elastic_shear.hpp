@@ -13,8 +13,12 @@ template <int Dim>
 std::vector<int> closed_by_elastic_shear(const Assembly<Dim>& assembly, const Block<Dim>& block,
                                          const BoltedVerdict<Dim>& bolted);
 
-// rad: the least angle by which the motion opens an unloaded face; infinite if there is none
+// the unloaded face that the motion opens least
+struct Opening {
+  int face = -1;     // in Block::faces; -1: there is none
+  double angle = 0;  // rad
+};
 template <int Dim>
-double opening_angle(const Block<Dim>& block, const Verdict<Dim>& verdict);
+Opening opening_angle(const Block<Dim>& block, const Verdict<Dim>& verdict);
 
 }  // namespace voussoir

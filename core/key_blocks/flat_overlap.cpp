@@ -7,6 +7,8 @@
 namespace voussoir {
 namespace {
 
+constexpr double most_oblique = 0.3;  // sine of the angle between two axes: coordinates round by its inverse
+
 double turn(const FlatPoint& o, const FlatPoint& a, const FlatPoint& b) {
   return (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0]);
 }
@@ -124,6 +126,26 @@ class Clipper {
 };
 
 }  // namespace
+
+template <int Dim>
+PlaneFrame<Dim>::PlaneFrame(const Vector<Dim>& normal, const Vector<Dim>& edge, const Vector<Dim>& next_edge)
+    : normal_(normal), first_(perpendicular(normal)), first_coordinate_(first_) {
+  if constexpr (Dim == 3) {
+    const auto within = [&](const Vector<3>& v) -> Vector<3> { return v - normal.dot(v) * normal; };
+    const Vector<3> along = within(edge);
+    if (along.norm() > 0) first_ = along.normalized();
+    second_ = normal.cross(first_);
+    const Vector<3> oblique = within(next_edge).normalized();
+    if (std::abs(second_.dot(oblique)) > most_oblique) second_ = oblique;
+    unit_area_ = std::abs(normal.dot(first_.cross(second_)));
+    const Vector<3> across_second = second_.cross(normal), across_first = normal.cross(first_);
+    first_coordinate_ = across_second / first_.dot(across_second);
+    second_coordinate_ = across_first / second_.dot(across_first);
+  }
+}
+
+template class PlaneFrame<2>;
+template class PlaneFrame<3>;
 
 double FlatFaces::end_face(int body, int part, int face) {
   const int first = faces_.empty() ? 0 : faces_.back().first + faces_.back().corners;

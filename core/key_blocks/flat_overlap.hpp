@@ -11,20 +11,25 @@ namespace voussoir {
 
 using FlatPoint = std::array<double, 2>;  // m; of a line the first coordinate alone
 
-// coordinates within a plane
+// Coordinates within a plane, in space along two edges of a face if they are not too oblique: faces of regular joint
+// sets then fill their boxes, so that few pairs of boxes overlap in vain.
 template <int Dim>
 class PlaneFrame {
  public:
-  explicit PlaneFrame(const Vector<Dim>& normal) : normal_(normal), first_(perpendicular(normal)) {
-    if constexpr (Dim == 3) second_ = normal.cross(first_);
+  PlaneFrame(const Vector<Dim>& normal, const Vector<Dim>& edge, const Vector<Dim>& next_edge);
+
+  FlatPoint flat(const Vector<Dim>& point) const {
+    return {first_coordinate_.dot(point), Dim == 3 ? second_coordinate_.dot(point) : 0};
   }
-  FlatPoint flat(const Vector<Dim>& point) const { return {first_.dot(point), Dim == 3 ? second_.dot(point) : 0}; }
   Vector<Dim> place(const FlatPoint& point, double height) const {
     return height * normal_ + point[0] * first_ + point[1] * second_;
   }
+  double unit_area() const { return unit_area_; }  // m² (2-D: m)
 
  private:
   Vector<Dim> normal_, first_, second_ = Vector<Dim>::Zero();
+  Vector<Dim> first_coordinate_, second_coordinate_ = Vector<Dim>::Zero();  // the dual axes
+  double unit_area_ = 1;
 };
 
 // the faces on one side of a plane

@@ -83,7 +83,7 @@ TEST(KeyBlocks, TheTutorialsWedgeIsTwoBlocks) {
               1e-2);
   EXPECT_NEAR(*pressure_eccentricity(assembly, pair, clusters.lower[0].verdict), 0.16, 0.005);
   gather<3>(assembly, std::array{2}, {}, pair);
-  EXPECT_NEAR(opening_angle(pair, verdicts[2].verdict) / degree, 20.2, 0.05);
+  EXPECT_NEAR(opening_angle(pair, verdicts[2].verdict).angle / degree, 20.2, 0.05);
 }
 
 TEST(KeyBlocks, RockMassInABox) {

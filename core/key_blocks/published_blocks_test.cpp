@@ -5,44 +5,13 @@
 #include <numbers>
 
 #include "core/key_blocks/block_forces.hpp"
-#include "core/key_blocks/elastic_shear.hpp"
+#include "core/testing/stated_block.hpp"
 #include "text/angle.hpp"
 
 namespace voussoir {
 namespace {
 
 const Vector<3> down(0, 0, -9.81), nothing(0, 0, 0);
-
-Vector<3> above(double dip, double dip_direction) {
-  return upward_normal_3d(dip * degree, dip_direction * degree);
-}
-
-struct Face {
-  Vector<3> normal;  // into the block
-  double area = 1;
-  double friction = 30;  // deg
-  double cohesion = 0;   // Pa
-};
-
-Block<3> block_of(const std::vector<Face>& faces, double weight) {
-  Block<3> block;
-  for (const Face& stated : faces) {
-    RockFace<3> face;
-    face.normal = stated.normal;
-    face.joint = static_cast<int>(block.faces.size());
-    face.area = stated.area;
-    face.tan_friction = std::tan(stated.friction * degree);
-    face.cohesion = stated.area * stated.cohesion;
-    block.faces.push_back(face);
-    block.normals.push_back(face.normal);
-    block.contact_area += face.area;
-  }
-  block.surface = 2 * block.contact_area + 1;
-  block.volume = 1;
-  block.weight = weight;
-  block.stated.force = {0, 0, -weight};
-  return block;
-}
 
 double plunge(const Vector<3>& v) {
   return -std::asin(v.normalized()[2]) / degree;
@@ -157,7 +126,7 @@ TEST(PublishedBlocks, RemovablePyramidsOfGoodman) {
   EXPECT_EQ(removable({0, 1, 0}), "011");
   EXPECT_EQ(removable({0, 0, -1}), "010");
   const auto judged = [&](const char* code) {
-    std::vector<Face> faces;
+    std::vector<StatedFace> faces;
     for (int s = 0; s < 3; ++s)
       faces.push_back({code[s] == '1' ? Vector<3>(-sets[s]) : sets[s]});
     const Block<3> block = block_of(faces, 1);
@@ -211,9 +180,9 @@ TEST(PublishedBlocks, ABlockThatFallsStaysThatUnderBolts) {
 }
 
 TEST(PublishedBlocks, AFactorMayRiseWhenAFaceIsRemoved) {
-  const std::vector<Face> faces{{Vector<3>(2, 3, -1).normalized(), 1, 35},
-                                {Vector<3>(4, -6, 8).normalized(), 1, 35},
-                                {Vector<3>(2, -8, 8).normalized(), 1, 35}};
+  const std::vector<StatedFace> faces{{Vector<3>(2, 3, -1).normalized(), 1, 35},
+                                      {Vector<3>(4, -6, 8).normalized(), 1, 35},
+                                      {Vector<3>(2, -8, 8).normalized(), 1, 35}};
   const Block<3> all = block_of(faces, 1), without = block_of({faces[0], faces[2]}, 1);
   EXPECT_NEAR(*judge(all, all.stated.force, down).factor(), 0.903995, 1e-6);
   EXPECT_NEAR(*judge(without, without.stated.force, down).factor(), 1.277553, 1e-6);
@@ -223,7 +192,7 @@ TEST(PublishedBlocks, ALineThatThreeFacesShareIsIndeterminate) {
   // a prism on three faces along y, which dips: the least resistance leaves out the rough one in between
   const double fall = 30 * degree;
   const Vector<3> along(0, std::cos(fall), -std::sin(fall)), up(0, std::sin(fall), std::cos(fall)), side(1, 0, 0);
-  std::vector<Face> faces;
+  std::vector<StatedFace> faces;
   for (const double angle : {-50.0, 0.0, 50.0})
     faces.push_back(
         {Vector<3>(std::cos(angle * degree) * up + std::sin(angle * degree) * side), 1, angle == 0 ? 60.0 : 10.0});

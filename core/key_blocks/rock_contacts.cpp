@@ -106,7 +106,7 @@ class ContactFinder {
 
   // the contacts between the faces on the two sides of a plane
   void find(const PlaneOfFaces<Dim>& plane) {
-    const PlaneFrame<Dim> frame(plane.plane.normal);
+    const PlaneFrame<Dim> frame = frame_along(plane);
     below_.clear();
     above_.clear();
     for (const FaceId& id : plane.faces) {
@@ -115,13 +115,13 @@ class ContactFinder {
       FlatFaces& side = part.faces[id.face].normal.dot(plane.plane.normal) > 0 ? below_ : above_;
       for (const int vertex : part.loops[id.face])
         side.add(frame.flat(Vector<Dim>(part.vertices[vertex] + body.reference)));
-      found_.surface[id.body] += side.end_face(id.body, id.part, id.face);
+      found_.surface[id.body] += frame.unit_area() * side.end_face(id.body, id.part, id.face);
     }
     const double height = plane.plane.offset;
     for_overlaps(below_, above_, negligible,
                  [&](const FlatFaces::Face& a, const FlatFaces::Face& b, const FlatOverlap& overlap) {
                    if (a.body == b.body) {
-                     found_.surface[a.body] -= 2 * overlap.area;
+                     found_.surface[a.body] -= 2 * frame.unit_area() * overlap.area;
                      return;
                    }
                    if (model_.bodies[a.body].fixed && model_.bodies[b.body].fixed) return;
@@ -147,6 +147,15 @@ class ContactFinder {
   }
 
  private:
+  // along two edges of the first face
+  PlaneFrame<Dim> frame_along(const PlaneOfFaces<Dim>& plane) const {
+    const FaceId& id = plane.faces.front();
+    const Polytope<Dim>& part = model_.bodies[id.body].parts[id.part];
+    const std::vector<int>& loop = part.loops[id.face];
+    const Vector<Dim> edge = part.vertices[loop[1]] - part.vertices[loop[0]];
+    return {plane.plane.normal, edge, Vector<Dim>(part.vertices[loop.back()] - part.vertices[loop[0]])};
+  }
+
   int joint_of(const FlatFaces::Face& face) const {
     return model_.bodies[face.body].parts[face.part].joints[face.face];
   }
@@ -160,7 +169,7 @@ class ContactFinder {
     contact.one_joint = joint_a == joint_b;
     contact.properties =
         contact.joint == no_joint ? model_.default_properties : model_.joints[contact.joint].properties;
-    contact.area = overlap.area;
+    contact.area = frame.unit_area() * overlap.area;
     contact.centroid = frame.place(overlap.centroid, height);
     contact.first_corner = static_cast<int>(found_.corners.size());
     contact.corners = static_cast<int>(overlap.corners.size());

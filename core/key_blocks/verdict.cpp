@@ -19,7 +19,7 @@ void take_least_resistance(const Block<Dim>& block, const Vector<Dim>& load, Ver
   for (int f = 0; f < static_cast<int>(block.faces.size()); ++f)
     if (slides_along(block.faces[f], along)) sharing.push_back(f);
   if (static_cast<int>(sharing.size()) <= verdict.loaded) return;
-  const double rounding = no_force * load.norm();
+  const double smallest = no_force * load.norm();
   int carrying = 0;
   double least = std::numeric_limits<double>::infinity();
   const auto attempt = [&](std::array<int, Dim> faces, int count) {
@@ -28,11 +28,11 @@ void take_least_resistance(const Block<Dim>& block, const Vector<Dim>& load, Ver
     Vector<Dim> left = load - verdict.motion;
     double resistance = 0;
     for (int k = 0; k < count; ++k) {
-      if (forces[k] <= rounding) return;
+      if (forces[k] <= smallest) return;
       left += forces[k] * block.normals[faces[k]];
       resistance += forces[k] * block.faces[faces[k]].tan_friction;
     }
-    if (left.norm() > rounding) return;
+    if (left.norm() > smallest) return;
     ++carrying;
     if (resistance >= least) return;
     least = resistance;
