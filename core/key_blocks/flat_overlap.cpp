@@ -164,11 +164,6 @@ double FlatFaces::end_face(int body, int part, int face) {
   return added.segment() ? added.high[0] - added.low[0] : std::abs(twice) / 2;
 }
 
-void FlatFaces::clear() {
-  corners_.clear();
-  faces_.clear();
-}
-
 void for_overlaps(
     const FlatFaces& below, const FlatFaces& above, double negligible,
     const std::function<void(const FlatFaces::Face& below, const FlatFaces::Face& above, const FlatOverlap&)>& act) {

@@ -47,7 +47,6 @@ class FlatFaces {
   void add(const FlatPoint& corner) { corners_.push_back(corner); }
   // of the corners since the last face; returns its area (of a segment its length)
   double end_face(int body, int part, int face);
-  void clear();
 
   const std::vector<Face>& faces() const { return faces_; }
   const FlatPoint* corners(const Face& face) const { return corners_.data() + face.first; }
