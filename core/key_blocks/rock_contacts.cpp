@@ -136,6 +136,11 @@ class ContactFinder {
 
   // the contacts between the faces on the two sides of each plane
   void find() {
+    std::size_t faces = 0;
+    for (const Sides& sides : planes_)
+      faces += sides.below.faces().size() + sides.above.faces().size();
+    found_.list.reserve(faces / 2);  // most faces lie on one other
+    found_.corners.reserve(5 * faces / 2);
     for (const Sides& sides : planes_)
       for_overlaps(sides.below, sides.above, negligible,
                    [&](const FlatFaces::Face& a, const FlatFaces::Face& b, const FlatOverlap& overlap) {
