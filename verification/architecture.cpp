@@ -32,7 +32,7 @@ const std::vector<std::vector<std::string_view>> floors{
     {"exchange/", "joint_laws/", "joint_sets/", "load/", "potential/", "solvers/"},
     {"contact/", "slicing/", "support/"},
     {"model/"},
-    {"limit/", "stage/"},
+    {"key_blocks/", "limit/", "stage/"},
     {"output/", "scene/", "step/"},
     {"step"},  // step.hpp and step.cpp: one screen
     {"run/"},

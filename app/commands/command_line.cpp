@@ -16,6 +16,7 @@
 #include "app/base/interruption.hpp"
 #include "app/base/message.hpp"
 #include "app/base/run_scene.hpp"
+#include "app/blocks/blocks_command.hpp"
 #include "app/check/check_command.hpp"
 #include "app/docs/docs_command.hpp"
 #include "app/export/export_command.hpp"
@@ -38,8 +39,8 @@ namespace voussoir {
 namespace {
 
 // in the order of the help text
-constexpr AddCommand* commands[] = {add_run,        add_resume, add_view,   add_check, add_slice, add_limit,
-                                    add_joint_test, add_import, add_export, add_study, add_docs};
+constexpr AddCommand* commands[] = {add_run,   add_resume,     add_view,   add_check,  add_slice, add_blocks,
+                                    add_limit, add_joint_test, add_import, add_export, add_study, add_docs};
 
 // an allocation has failed: this must not allocate again
 int not_enough_memory() {

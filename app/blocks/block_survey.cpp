@@ -1,0 +1,326 @@
+#include "app/blocks/block_survey.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "app/base/bad_input.hpp"
+#include "core/key_blocks/elastic_shear.hpp"
+#include "core/key_blocks/pressure_eccentricity.hpp"
+#include "core/model/water_surfaces.hpp"
+#include "text/angle.hpp"
+
+namespace voussoir {
+namespace {
+
+int place_of_stage(const std::vector<StagePlan>& stages, const std::string& name, const char* option) {
+  std::string names;
+  for (std::size_t s = 0; s < stages.size(); ++s) {
+    if (stages[s].name == name) return static_cast<int>(s);
+    names += (s ? ", " : "") + stages[s].name;
+  }
+  throw BadInput(fmt::format("{} {}: no stage has this name; there are: {}", option, name,
+                             names.empty() ? "none, the scene has no stage" : names));
+}
+
+// the first search of a factor; a search of the friction itself states no strength
+int stage_of_search(const std::vector<StagePlan>& stages) {
+  for (std::size_t s = 0; s < stages.size(); ++s) {
+    const auto* plan = std::get_if<ReducePlan>(&stages[s].plan);
+    if (plan && plan->searched == Searched::factor) return static_cast<int>(s);
+  }
+  return -1;
+}
+
+template <int Dim>
+void refuse_other_models(const Model<Dim>& model) {
+  if (model.particles)
+    throw BadInput(
+        "the scene has potential particles: block theory has blocks of half-spaces only; leave out shape = "
+        "\"potential\", or use 'voussoir run'");
+  for (const JointProperties& joint : model.properties)
+    if (joint.laws.friction == FrictionLaw::hardening)
+      throw BadInput(
+          fmt::format("joint_properties '{}': friction that hardens with slip is zero at the start, where block theory "
+                      "judges; state "
+                      "friction_deg without hardening, or use 'voussoir run'",
+                      joint.name));
+  const auto is_free = [](const Body<Dim>& body) { return body.present && !body.fixed && !body.parts.empty(); };
+  if (std::none_of(model.bodies.begin(), model.bodies.end(), is_free))
+    throw BadInput("every block is fixed, so there is nothing to judge; choose fewer blocks in fix");
+}
+
+template <int Dim>
+std::vector<std::string> notes_on(const Prepared<Dim>& prepared, const Model<Dim>& model) {
+  std::vector<std::string> notes;
+  bool stressed = !model.boundary.empty();
+  for (const StagePlan& stage : prepared.stages)
+    stressed |= !stage.change.boundary.empty();
+  if (stressed)
+    notes.push_back(
+        "in-situ stress is not counted: roof and wall blocks are judged as if the rock around were unstressed");
+  if (!model.linings.empty()) notes.push_back("linings are not counted");
+  bool several = false, restrained = false, softens = false, fixed = false;
+  for (const Body<Dim>& body : model.bodies) {
+    if (!body.present) continue;
+    fixed |= body.fixed;
+    if (body.fixed) continue;
+    several |= body.parts.size() > 1;
+    for (const bool free : body.free_translation)
+      restrained |= !free;
+  }
+  for (const JointProperties& joint : model.properties)
+    softens |= joint.laws.friction == FrictionLaw::softening;
+  if (restrained) notes.push_back("restrained translations are not counted: such a block is judged as if it were free");
+  if (softens) notes.push_back("friction that softens with slip is that before any slip");
+  if (!fixed)
+    notes.push_back("no block is fixed: each is judged with its neighbours held; the mass as a whole is not judged");
+  if (several)
+    notes.push_back(
+        "blocks of several convex parts are judged as one by their outer faces, for the first motion: "
+        "they "
+        "hold only while no part breaks off");
+  if (Dim == 2) notes.push_back("in the plane 'voussoir limit' judges the complete assembly, with rotation");
+  return notes;
+}
+
+struct Stages {
+  int strength = -1, loads = -1, geometry = -1;  // -1: before the first
+};
+
+Stages choose_stages(const std::vector<StagePlan>& stages, const SurveyRequest& request) {
+  Stages chosen;
+  chosen.strength = request.strength_of.empty() ? stage_of_search(stages)
+                                                : place_of_stage(stages, request.strength_of, "--strength-of");
+  if (!request.after.empty()) chosen.geometry = place_of_stage(stages, request.after, "--after");
+  chosen.loads = chosen.geometry >= 0   ? chosen.geometry
+                 : chosen.strength >= 0 ? chosen.strength
+                                        : static_cast<int>(stages.size()) - 1;
+  return chosen;
+}
+
+template <int Dim>
+Assembly<Dim> assembly_at(const Prepared<Dim>& prepared, const Stages& stages) {
+  Model<Dim> model = prepared.model;
+  WaterValues water = initial_water(model);
+  std::set<std::string> installed;
+  for (int s = 0; s < static_cast<int>(prepared.stages.size()); ++s) {
+    const StagePlan& stage = prepared.stages[s];
+    Change change;
+    if (s <= stages.geometry) {
+      change.fix = stage.change.fix;
+      change.release = stage.change.release;
+      change.remove = stage.change.remove;
+      change.excavate = stage.change.excavate;
+    }
+    if (s <= stages.strength) {
+      change.friction = stage.change.friction;
+      change.friction_of = stage.change.friction_of;
+    }
+    if (s <= stages.loads) {
+      change.force = stage.change.force;
+      for (const WaterPlan& plan : stage.water)
+        water[plan.water] = plan.to;
+      installed.insert(stage.change.install.begin(), stage.change.install.end());
+    }
+    model = apply(std::move(model), change);
+  }
+  std::vector<bool> bolts;
+  for (const Bolt<Dim>& bolt : model.bolts)
+    bolts.push_back(installed.contains(model.bolt_properties[bolt.properties].name));
+  return make_assembly(std::move(model), water, bolts);
+}
+
+template <int Dim>
+Vector<Dim> horizontal(double trend) {
+  if constexpr (Dim == 2)
+    return {std::sin(trend) < 0 ? -1.0 : 1.0, 0};
+  else
+    return {std::sin(trend), std::cos(trend), 0};
+}
+
+template <int Dim>
+FurtherLoad<Dim> further_load(const SurveyRequest& request, const Vector<Dim>& gravity) {
+  if (!request.seismic || !(request.seismic->trend || request.seismic->vertical > 0)) return {};
+  const SeismicRequest seismic = *request.seismic;
+  return [seismic, gravity](const Block<Dim>& block) {
+    Vector<Dim> force = Vector<Dim>::Zero();
+    if (seismic.trend) force = seismic.coefficient * block.weight * horizontal<Dim>(*seismic.trend);
+    if (!(seismic.vertical > 0)) return force;
+    const Vector<Dim> up = seismic.vertical * block.weight * Vector<Dim>::Unit(Dim - 1), raised = force + up,
+                      lowered = force - up;
+    const auto factor = [&](const Vector<Dim>& more) {
+      return judge_bolted(block, more, gravity).factor.value_or(std::numeric_limits<double>::infinity());
+    };
+    return factor(raised) < factor(lowered) ? raised : lowered;
+  };
+}
+
+template <int Dim>
+void add_seismic(const SurveyRequest& request, const Block<Dim>& block, const Vector<Dim>& gravity,
+                 SurveyRow<Dim>& row) {
+  if (!request.seismic || request.seismic->trend || row.kind() == BlockKind::tapered) return;
+  const double size = request.seismic->coefficient * block.weight;
+  row.worst = worst_direction<Dim>(block, row.bolted.load, size, gravity);
+  row.critical_coefficient = critical_coefficient<Dim>(block, row.bolted.load, Vector<Dim>::Zero(), gravity);
+  Vector<Dim> own = row.bolted.verdict.motion;
+  own[Dim - 1] = 0;
+  if (!moves(row.kind()) || !(own.norm() > 0)) return;
+  own.normalize();
+  row.factor_own_trend = judge<Dim>(block, row.bolted.load + size * own, gravity).factor();
+  row.critical_own_trend = critical_coefficient<Dim>(block, row.bolted.load, own, gravity);
+}
+
+template <int Dim>
+Vector<Dim> direction_of(double plunge, double trend) {
+  Vector<Dim> direction = std::cos(plunge) * horizontal<Dim>(trend);
+  direction[Dim - 1] = -std::sin(plunge);
+  return direction;
+}
+
+template <int Dim>
+SurveyRow<Dim> describe(const Survey<Dim>& survey, const std::vector<int>& bodies, const BoltedVerdict<Dim>& bolted,
+                        Block<Dim>& block) {
+  const Assembly<Dim>& assembly = survey.assembly;
+  const Vector<Dim>& gravity = assembly.model.gravity;
+  const SurveyRequest& request = survey.request;
+  gather<Dim>(assembly, bodies, {}, block);
+  SurveyRow<Dim> row;
+  row.bodies = bodies;
+  row.volume = block.volume;
+  row.weight = block.weight;
+  row.contact_area = block.contact_area;
+  row.surface = block.surface;
+  row.free_area = block.enclosed() ? 0 : block.surface - block.contact_area;
+  row.bolted = bolted;
+  if (row.kind() == BlockKind::enclosed) return row;
+  row.faces = block.faces;
+  for (const BlockBolt<Dim>& bolt : block.bolts) {
+    const Bolt<Dim>& stated = assembly.model.bolts[bolt.bolt];
+    row.bolts.push_back(fmt::format("{}-{}", assembly.model.bolt_properties[stated.properties].name, stated.number));
+  }
+  if (!moves(row.kind())) row.removability = find_removability(block.normals);
+  if (row.kind() == BlockKind::tapered) row.taper = find_taper(block.normals);
+  add_seismic(request, block, gravity, row);
+  row.critical_water = critical_water<Dim>(block, bolted.load - block.water.force, gravity);
+  if (!moves(row.kind())) return row;
+  row.force = least_force(block, bolted, request.required, gravity);
+  if (request.bolt)
+    row.bolt_force = force_along<Dim>(block, bolted, request.required,
+                                      direction_of<Dim>(request.bolt->first, request.bolt->second), gravity);
+  const Opening opening = opening_angle(block, bolted.verdict);
+  if (opening.face >= 0) row.opening = opening.angle;
+  row.opening_face = opening.face;
+  row.closed_faces = closed_by_elastic_shear(assembly, block, bolted);
+  row.eccentricity = pressure_eccentricity(assembly, block, bolted);
+  return row;
+}
+
+}  // namespace
+
+template <int Dim>
+std::string Survey<Dim>::joint_name(const RockFace<Dim>& face) const {
+  return face.joint == no_joint ? "(no joint)" : assembly.model.joints[face.joint].name;
+}
+
+template <int Dim>
+std::string Survey<Dim>::body_names(const SurveyRow<Dim>& row) const {
+  return fmt::format("{}", fmt::join(row.bodies, "+"));
+}
+
+template <int Dim>
+Survey<Dim> survey_blocks(const LoadedScene& scene, const SurveyRequest& request) {
+  const Prepared<Dim>& prepared = std::get<Prepared<Dim>>(scene.prepared);
+  const Stages stages = choose_stages(prepared.stages, request);
+  refuse_other_models(prepared.model);
+  Survey<Dim> survey;
+  survey.request = request;
+  survey.assembly = assembly_at(prepared, stages);
+  const Model<Dim>& model = survey.assembly.model;
+  refuse_other_models(model);
+  survey.sets = prepared.joint_sets;
+  survey.strength =
+      stages.strength < 0 ? "joint_properties" : fmt::format("stage \"{}\"", prepared.stages[stages.strength].name);
+  survey.loads = stages.loads < 0 ? "the scene" : fmt::format("stage \"{}\"", prepared.stages[stages.loads].name);
+  survey.notes = notes_on(prepared, model);
+  for (const Body<Dim>& body : model.bodies)
+    survey.fixed += body.present && body.fixed;
+
+  const FurtherLoad<Dim> more = further_load<Dim>(request, model.gravity);
+  const std::vector<BoltedVerdict<Dim>> single = judge_all(survey.assembly, more);
+  Block<Dim> block;
+  for (int b = 0; b < static_cast<int>(single.size()); ++b)
+    if (model.bodies[b].present && !model.bodies[b].fixed && !model.bodies[b].parts.empty())
+      survey.rows.push_back(describe(survey, {b}, single[b], block));
+  ClusterSearch<Dim> clusters = find_clusters(survey.assembly, single, more);
+  survey.pairs = clusters.pairs;
+  survey.moving_pairs = clusters.moving_pairs;
+  survey.largest_cluster = clusters.largest;
+  for (const Cluster<Dim>& cluster : clusters.lower) {
+    survey.clusters.push_back(describe(survey, cluster.bodies, cluster.verdict, block));
+    survey.clusters.back().cluster = static_cast<int>(survey.clusters.size());
+  }
+  survey.below_one = fail_in_rounds(survey.assembly, FailureRule::below_factor, 1, more);
+  if (request.frictionless) survey.frictionless = fail_in_rounds(survey.assembly, FailureRule::moves, 1, more);
+  return survey;
+}
+
+const char* word_of(BlockKind kind) {
+  switch (kind) {
+    case BlockKind::enclosed:
+      return "enclosed";
+    case BlockKind::tapered:
+      return "tapered";
+    case BlockKind::no_load:
+      return "no load";
+    case BlockKind::stable:
+      return "stable";
+    case BlockKind::slides:
+      return "slides";
+    case BlockKind::falls:
+      return "falls";
+    case BlockKind::lifts:
+      return "lifts";
+    case BlockKind::undecided:
+      break;
+  }
+  return "undecided";
+}
+
+template <int Dim>
+const char* type_of(const SurveyRow<Dim>& row, double required) {
+  if (row.kind() == BlockKind::tapered) return "IV";
+  if (row.kind() == BlockKind::stable) return "III";
+  if (!moves(row.kind())) return "";
+  return *row.bolted.factor < required ? "I" : "II";
+}
+
+template <int Dim>
+const char* motion_of(const SurveyRow<Dim>& row) {
+  if (!row.eccentricity) return row.kind() == BlockKind::slides ? "slides" : "";
+  if (*row.eccentricity <= 1) return "slides";
+  return *row.bolted.factor < 1 ? "slides and turns" : "turns";
+}
+
+template <int Dim>
+std::pair<double, double> plunge_and_trend(const Vector<Dim>& v) {
+  const double east = v[0], north = Dim == 3 ? v[1] : 0, up = v[Dim - 1];
+  const double trend = to_degrees(std::atan2(east, north));
+  return {to_degrees(std::atan2(-up, std::hypot(east, north))), trend < 0 ? trend + 360 : trend};
+}
+
+#define VOUSSOIR_INSTANTIATE(Dim)                                                    \
+  template struct Survey<Dim>;                                                       \
+  template Survey<Dim> survey_blocks<Dim>(const LoadedScene&, const SurveyRequest&); \
+  template const char* type_of<Dim>(const SurveyRow<Dim>&, double);                  \
+  template const char* motion_of<Dim>(const SurveyRow<Dim>&);                        \
+  template std::pair<double, double> plunge_and_trend<Dim>(const Vector<Dim>&);
+VOUSSOIR_INSTANTIATE(2)
+VOUSSOIR_INSTANTIATE(3)
+#undef VOUSSOIR_INSTANTIATE
+
+}  // namespace voussoir

@@ -1,0 +1,116 @@
+// `voussoir blocks`: the table, the files, loads and refusals.
+#include <cmath>
+
+#include "app/testing/program.hpp"
+#include "text/csv_table.hpp"
+
+namespace voussoir {
+namespace {
+
+using namespace program;
+
+std::string quoted(const char* scene) {
+  return "'" + (fs::path(VOUSSOIR_SOURCE_DIR) / scene).string() + "' ";
+}
+
+// cells of a column by rows
+std::vector<std::string> column(const fs::path& file, const std::string& name) {
+  const std::string text = read(file);
+  CsvReader reader(text);
+  const std::size_t place = reader.find(name).value();
+  std::vector<std::string> cells;
+  for (CsvRow row; reader.next(row);)
+    cells.push_back(row.cells[place].text);
+  return cells;
+}
+
+TEST_F(Program, BlocksFindsThePairOfTheTutorial) {
+  const Ended ended = run("blocks " + quoted("examples/tutorial/slope.toml") + "--out out --required 1.3");
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  for (const char* part : {"stage \"safety\": clay 29 deg, rough 41 deg", "38.0/169.1   1.0694  68.4 (-5.1/003.1)",
+                           "lower than its blocks", "least factor 1.0694 (cluster 2+5)", "elastic shear closes B1"})
+    EXPECT_NE(ended.out.find(part), std::string::npos) << part << "\n" << ended.out;
+  EXPECT_TRUE(fs::exists(folder_ / "out/blocks.vtp"));
+  const fs::path table = folder_ / "out/blocks_verdicts.csv";
+  EXPECT_EQ(column(table, "blocks"), (std::vector<std::string>{"2", "5", "2 5"}));
+  EXPECT_EQ(column(table, "joints"), (std::vector<std::string>{"A1;A2", "A2;B1", "A1;B1"}));
+  EXPECT_NEAR(std::stod(column(table, "factor").at(2)), 1.069448089900, 1e-11);
+  EXPECT_EQ(column(table, "type"), (std::vector<std::string>{"II", "I", "I"}));
+  expect_one_line(run("blocks " + quoted("examples/tutorial/slope.toml") + "--out out"), 2, "--overwrite");
+  // a goal, another strength, and a factor that it reaches
+  const std::string again = "blocks " + quoted("examples/tutorial/slope.toml") + "--out out --overwrite ";
+  EXPECT_EQ(run(again + "--fail-below 1.1").code, 1);
+  EXPECT_EQ(run(again + "--fail-below 1.05").code, 0);
+  EXPECT_EQ(run(again + "--strength-of weight").code, 0);
+  EXPECT_GT(std::stod(column(table, "factor").at(1)), 4);
+  EXPECT_EQ(column(table, "factor").size(), 2u) << "with equal friction no pair is lower than its blocks";
+}
+
+TEST_F(Program, BlocksInAnEarthquakeAndWithABolt) {
+  const std::string scene = "blocks " + quoted("examples/tutorial/slope.toml") + "--overwrite --out out ";
+  const fs::path table = folder_ / "out/blocks_verdicts.csv";
+  ASSERT_EQ(run(scene + "--seismic 0.1 --bolt 10/3 --required 1.3").code, 0);
+  const double worst = std::stod(column(table, "factor_worst").at(2)),
+               along = std::stod(column(table, "factor_own_trend").at(2));
+  EXPECT_LE(worst, along);
+  EXPECT_LT(along, 1.069448);
+  EXPECT_NEAR(std::stod(column(table, "factor").at(2)), 1.069448089900, 1e-11) << "verdicts are those without it";
+  const double critical = std::stod(column(table, "critical_coefficient").at(2));
+  EXPECT_GT(std::stod(column(table, "bolt_force_N").at(2)), 68401.198);
+  // in the worst direction, as part of every verdict
+  const std::string trend = column(table, "worst_trend_deg").at(2);
+  ASSERT_EQ(run(scene + "--seismic 0.1/" + trend).code, 0);
+  EXPECT_NEAR(std::stod(column(table, "factor").at(2)), worst, 1e-9);
+  EXPECT_EQ(run(scene + "--fail-below 1 --seismic " + std::to_string(1.01 * critical)).code, 0);
+  EXPECT_EQ(run(scene + "--seismic 0.1/150 --seismic-vertical 0.05").code, 0);
+  expect_one_line(run(scene + "--seismic 0.1/"), 2, "for example 0.12 or 0.12/180");
+  expect_one_line(run(scene + "--seismic 0.1/400"), 2, "from 0 to 360");
+  expect_one_line(run(scene + "--bolt 10"), 2, "plunge/trend");
+}
+
+// closed form 0.841: cohesion counts, and water on both faces
+TEST_F(Program, BlocksInThePlane) {
+  const Ended ended = run("blocks " + quoted("examples/wet_slope.toml") + "--out out");
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_NE(ended.out.find("joint 38 deg and 20 kPa"), std::string::npos) << ended.out;
+  EXPECT_NEAR(std::stod(column(folder_ / "out/blocks_verdicts.csv", "factor").at(0)), 0.841, 5e-4);
+  EXPECT_LT(std::stod(column(folder_ / "out/blocks_verdicts.csv", "critical_water").at(0)), 1);
+}
+
+TEST_F(Program, BlocksOfABench) {
+  const Ended ended = run("blocks " + quoted("cases/slicing/bench.toml") + "--out out --frictionless");
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  for (const char* part :
+       {"1543", "6 blocks", "8 blocks, 0.702957 m3, in 3 rounds of 6, 1, 1", "446 blocks, 85.8596 m3", "27 blocks",
+        "6886 pairs of free neighbours, 55 move as one, none lower"})
+    EXPECT_NE(ended.out.find(part), std::string::npos) << part << "\n" << ended.out;
+}
+
+// the tunnel opens its roof: the wedge falls, and two bolts of 150 kN hold 48.15 kN
+TEST_F(Program, BlocksAfterAStageWithBolts) {
+  const std::string scene = "blocks " + quoted("examples/bolted_roof.toml") + "--overwrite --out out ";
+  const fs::path table = folder_ / "out/blocks_verdicts.csv";
+  ASSERT_EQ(run(scene + "--after tunnel").code, 0);
+  EXPECT_EQ(column(table, "verdict").at(0), "falls");
+  EXPECT_EQ(column(table, "bolts").at(0), "roof-1;roof-2");
+  EXPECT_NEAR(std::stod(column(table, "factor").at(0)), 300 / 48.15, 1e-2);
+  EXPECT_NEAR(std::stod(column(table, "factor_passive").at(0)), 300 / 48.15, 1e-2);
+  ASSERT_EQ(run(scene + "--after rock").code, 0);
+  EXPECT_EQ(column(table, "verdict").at(0), "enclosed") << "by the rock of the tunnel";
+}
+
+TEST_F(Program, BlocksRefusesWhatItCannotJudge) {
+  expect_one_line(run("blocks " + quoted("examples/tutorial/slope.toml") + "--out out --strength-of wait"), 2,
+                  "there are: weight, safety");
+  expect_one_line(run("blocks " + quoted("examples/tutorial/slope.toml") + "--out out --after wait"), 2,
+                  "--after wait");
+  write("fixed.toml",
+        "dimension = 3\ngravity = [0, 0, -10]\ndensity = 2000\n"
+        "blocks = [{ name = \"base\", box = { min = [0, 0, -1], max = [1, 1, 0] }, fixed = true }]\n"
+        "joint_properties = [{ name = \"r\", normal_stiffness = 1e9, shear_stiffness = 1e8, friction_deg = 30 }]\n");
+  expect_one_line(run("blocks fixed.toml --out out"), 2, "no block is free to move");
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+}
+
+}  // namespace
+}  // namespace voussoir
