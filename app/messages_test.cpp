@@ -203,7 +203,7 @@ TEST_F(Messages, LiningsCostTheSquareOfTheirNodes) {
   const std::string scene = rock + held + shell + lined_opening::stage("weight", "gravity_ramp_s = 0.01") +
                             lined_opening::stage("line", "excavate = [\"tunnel\"]\ninstall = [\"shell\"]");
   for (const int nodes : {48, 200, 600}) {
-    const std::string out = check(scene, fmt::format("--set linings.shell.nodes={}", nodes));
+    const std::string out = check(scene, fmt::format("--set statics=adaptive --set linings.shell.nodes={}", nodes));
     // printed with one digit: 1.5 as 1
     EXPECT_GE(1.5 * steps_of(out, "line"), nodes * nodes) << out;
   }

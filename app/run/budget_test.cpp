@@ -9,7 +9,8 @@
 namespace voussoir {
 namespace {
 
-const std::string incline = R"(dimension = 2
+const std::string incline = R"(preset = "thesis"
+dimension = 2
 density = 2000
 gravity = [0, -10]
 [domain]

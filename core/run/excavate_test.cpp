@@ -100,11 +100,11 @@ TEST(Excavation, SmallPiecesAreExcavated) {
 
 // A splinter that an outline cuts off and a body holds does not determine the steps of Newton's method.
 TEST(Excavation, SplintersThatAreHeldDoNotShortenNewtonSteps) {
-  const std::vector<std::string> newton{"statics=newton"};
+  const std::vector<std::string> newton{"preset=thesis", "statics=newton"};
   const Progress<2> plain = whole_run(scene_of(wall + settle, newton));
-  const Progress<2> outlined =
-      whole_run(scene_of(wall + top + settle + dig("top", "settle", ""),
-                         {"statics=newton", "excavations.top.box.min=[-1, 2.9999]", "stage.dig.excavate=[\"top\"]"}));
+  const Progress<2> outlined = whole_run(scene_of(
+      wall + top + settle + dig("top", "settle", ""),
+      {"preset=thesis", "statics=newton", "excavations.top.box.min=[-1, 2.9999]", "stage.dig.excavate=[\"top\"]"}));
   EXPECT_GT(plain.state.counters.static_iterations, 0);
   // the same number again after the splinter has been removed
   EXPECT_LE(outlined.state.counters.static_iterations, 2 * plain.state.counters.static_iterations + 2);

@@ -156,7 +156,9 @@ TEST(StableState, BondsAreCountedByJointWithTheirArea) {
 // it has only friction, tan 40 / tan 20, and the result states the reason.
 std::string slab(bool pulled_off, const std::string& search) {
   std::string text =
-      "dimension = 2\ngravity = [0, -9.81]\ndensity = 2600\ndomain = { box = { min = [-2, -2], max = [2, 2] } }\n"
+      "preset = \"thesis\"\ndimension = 2\ngravity = [0, -9.81]\ndensity = 2600\ndomain = { box = { min = [-2, -2], "
+      "max = "
+      "[2, 2] } }\n"
       "joints = [{ name = \"plane\", dip = 20, dip_direction = 270, point = [0, 0] }]\n"
       "joint_properties = [{ name = \"rock\", normal_stiffness = 1e9, shear_stiffness = 1e8, friction_deg = 40, "
       "cohesion = 8e3, tension = 1e3 }]\n"

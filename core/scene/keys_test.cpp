@@ -17,7 +17,9 @@ using every_key::address;
 using every_key::everything;
 using every_key::scene_of;
 
-Scene parse(const std::string& text, const std::vector<std::string>& overrides = {}) {
+// with the default of every key
+Scene parse(const std::string& text, std::vector<std::string> overrides = {}) {
+  overrides.insert(overrides.begin(), "preset=thesis");
   return parse_scene(text, "scene.toml", overrides);
 }
 

@@ -90,7 +90,7 @@ TEST(WaterOfAScene, GivesTheSameBitsForThreadsAndAfterAPause) {
     while (!simulate<2>(
         scene, progress,
         {.progress = {}, .frame = {}, .trial_frame = {}, .pause = [&, steps = 0](const Progress<2>&) mutable {
-           return ++steps > 23;
+           return ++steps > 5;
          }})) {
       progress = read_checkpoint<2>(checkpoint_bytes(progress, "hash"), "hash");
       ++pauses;

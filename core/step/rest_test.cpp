@@ -219,6 +219,7 @@ TEST(Rest, IsNotExpectedOfALiningThatHasLeftItsRock) {
 // Unfinished work at a limit of steps is reported: each ramp with its progress, else the duration of equilibrium.
 TEST(Rest, UnfinishedWorkAtALimitOfStepsIsReported) {
   const std::string scene = R"(
+preset = "thesis"
 dimension = 2
 gravity = [0, -10]
 density = 2000

@@ -97,7 +97,8 @@ move = [{ bodies = ["block"], velocity = [0, 0.01] }]
 // a column of two blocks on a slope of 20 degrees, which local damping holds up: its balance is not closed, and not
 // because of the time step
 TEST(EnergyBalance, NamesTheCauseWhenItDoesNotClose) {
-  const std::string text = R"(dimension = 2
+  const std::string text = R"(preset = "thesis"
+dimension = 2
 gravity = [3.35521761, -9.21838466]
 density = 2500
 joint_properties = [{ name = "rock", normal_stiffness = 1e10, shear_stiffness = 1e9, friction_deg = 40 }]
