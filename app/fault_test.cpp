@@ -188,6 +188,7 @@ TEST_F(Faults, AnIgnoredHangupStaysIgnored) {
 
 TEST_F(Faults, ASearchStopsAndContinuesToo) {
   const std::string scene = write("scene.toml", R"(title = "A block on a plane"
+preset = "thesis"
 dimension = 3
 gravity = [0, 0, -10]
 density = 2000

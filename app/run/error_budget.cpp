@@ -278,8 +278,8 @@ BudgetedRuns runs_of(const BudgetRuns& of, const fs::path& folder, int threads, 
   return runs;
 }
 
-// A variation's line of a value's budget; `other`: the largest half bracket of results of its kind. Results of two
-// kinds, an estimate and the middle of a bracket, are no shift: their brackets are compared, whose halves are added.
+// A variation's line of a value's budget; `other`: the largest half bracket of results of its kind. Between results of
+// two kinds, an estimate and the middle of a bracket, the errors of both are added to the shift.
 void add_line(const BudgetedRuns& runs, std::size_t k, const std::string& name, Value& value, double& other,
               std::vector<std::string>& warnings) {
   const Variation& v = runs.variations[k];
@@ -293,11 +293,9 @@ void add_line(const BudgetedRuns& runs, std::size_t k, const std::string& name, 
   BudgetLine line{v.name, v.change, then.result->value - runs.unvaried(runs.names[k], name, value),
                   0,      0,        v.sensitivity};
   double halves = 0;
-  if (!same && value.bracket_middle && then.result->bracket_middle) {
-    line.shift = *then.result->bracket_middle - *value.bracket_middle;
-    halves = std::hypot(*value.bracket, *then.result->bracket);
-    warnings.push_back(fmt::format("{} follows from the {}, with {}, {}, from the {}: their brackets are compared",
-                                   name, value.found_by, v.name, v.change, then.result->found_by));
+  if (!same && !v.sensitivity) {
+    const double own = value.is_middle() ? value.bracket.value_or(0) : value.criterion.value_or(0);
+    halves = std::hypot(own, then.result->error_bar.value_or(0));
   } else if (!v.sensitivity && value.is_middle()) {
     other = std::max(other, then.result->bracket.value_or(then.result->error_bar.value_or(0)));
   }

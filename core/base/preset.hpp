@@ -18,6 +18,7 @@ enum class PresetScope {
   integrable_faces,   // a joint has constant stiffness per area and constant friction, and contacts are not stated
   faces_by_points,    // joint_properties that cannot be integrated, in such a scene
   watched_searches,   // bisections without a stated failure displacement
+  scenes_with_these,  // scenes with such a search
   searches_by_steps,  // searches that the required strength does not judge
   motions             // searches at a rate
 };
@@ -40,6 +41,8 @@ inline constexpr PresetSetting standard_settings[] = {
     {"joint_properties", "sub_contacts", 4, PresetScope::faces_by_points},
     // the loss of equilibrium itself, not a displacement
     {"stage", "failure_criterion", "required_strength", PresetScope::watched_searches},
+    // one more search, with stiffer joints: what is left of the error of sliding blocks is in proportion to 1/kn
+    {"accuracy", "error_bar", "stiffness", PresetScope::scenes_with_these},
 };
 
 }  // namespace voussoir

@@ -12,9 +12,10 @@ std::string failed_by_displacement(const TrialCriteria& c) {
                      c.failure_displacement);
 }
 
-// an error outside the error bar
-std::string newton_rule(const Settings& settings) {
+// of equal increments, the error is outside the error bar
+std::string newton_rule(const Settings& settings, bool follows_slip) {
   if (settings.statics.method != Statics::newton) return "";
+  if (follows_slip) return "; by Newton's method, in increments that follow the slip";
   return fmt::format(
       "; by Newton's method in {} increment{} per trial: the error due to slip integrated in large increments is not "
       "in the error bar",
@@ -34,7 +35,7 @@ std::string failed_rule(const TrialCriteria& c) {
 
 std::string stable_and_failed_rule(const TrialCriteria& c) {
   return fmt::format("stable: unbalanced ratio below {:.0e}; ", c.settings.equilibrium.unbalanced) + failed_rule(c) +
-         newton_rule(c.settings);
+         newton_rule(c.settings, c.watches);
 }
 
 std::string hangs_on_bolts(const std::optional<double>& use) {

@@ -123,6 +123,8 @@ std::string_view scope_text(PresetScope scope) {
       return " for joints that cannot be integrated";
     case PresetScope::watched_searches:
       return " for bisections that state no displacement or fraction";
+    case PresetScope::scenes_with_these:
+      return " with such a bisection";
     case PresetScope::searches_by_steps:
       return " for other searches";
     case PresetScope::motions:

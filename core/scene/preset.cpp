@@ -28,6 +28,7 @@ bool leaves_contacts_open(const Node& scene) {
 
 // what decides in which tables a setting applies
 struct PresetTarget {
+  const Node& scene;
   bool open_contacts;
   const std::vector<PropertiesSpec>& properties;
 
@@ -50,6 +51,12 @@ struct PresetTarget {
         return open_contacts && !can_be_integrated(properties[index].properties);
       case PresetScope::watched_searches:
         return search && method == "bisection" && !displacement;
+      case PresetScope::scenes_with_these: {
+        const Node* stages = scene.find("stage");
+        return stages && std::ranges::any_of(stages->items, [&](const Node& stage) {
+                 return applies(PresetScope::watched_searches, stage, 0);
+               });
+      }
       case PresetScope::searches_by_steps:
         return search && !rate && (method == "steps" || displacement);
       case PresetScope::motions:
@@ -77,7 +84,7 @@ Node value_of(const PresetSetting& setting, const Place& place) {
 std::vector<std::string> apply_preset(Node& scene, const std::vector<PropertiesSpec>& properties) {
   std::vector<std::string> done;
   if (text_of(scene, "preset", standard_preset) != standard_preset) return done;
-  const PresetTarget target{leaves_contacts_open(scene), properties};
+  const PresetTarget target{scene, leaves_contacts_open(scene), properties};
   const auto set = [&](Node& table, const std::string& path, const PresetSetting& setting, std::size_t index) {
     if (table.find(setting.key) || !target.applies(setting.scope, table, index)) return;
     table.set(setting.key, value_of(setting, table.place));
@@ -91,7 +98,8 @@ std::vector<std::string> apply_preset(Node& scene, const std::vector<PropertiesS
     }
     const std::string name(setting.table);
     Node* table = scene.find(name);
-    if (!table && setting.scope == PresetScope::integrable_faces) {
+    const bool of_scene = setting.table == "contact" || setting.table == "accuracy";
+    if (!table && of_scene && target.applies(setting.scope, scene, 0)) {
       Node empty;
       empty.place = scene.place;
       table = &scene.set(name, empty);

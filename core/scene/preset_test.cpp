@@ -40,8 +40,9 @@ std::vector<std::string> set_in(const std::string& text, const std::vector<std::
 }
 
 TEST(Preset, StandardSetsWhatIsNotStated) {
-  EXPECT_EQ(set_in(bisected), (Lines{"statics = \"newton\"", "contact.face = \"integrated\"",
-                                     "stage.critical.failure_criterion = \"required_strength\""}));
+  EXPECT_EQ(set_in(bisected),
+            (Lines{"statics = \"newton\"", "contact.face = \"integrated\"",
+                   "stage.critical.failure_criterion = \"required_strength\"", "accuracy.error_bar = \"stiffness\""}));
   const Scene scene = parse_scene(bisected, "scene.toml");
   EXPECT_EQ(scene.settings.statics.method, Statics::newton);
   EXPECT_EQ(scene.settings.contact.face, ContactFace::integrated);
@@ -64,19 +65,21 @@ TEST(Preset, StatedKeysStay) {
             (Lines{"statics = \"newton\"", "stage.critical.static_increments = 16", "contact.face = \"integrated\""}));
   // whoever chooses how contacts act keeps them
   EXPECT_EQ(set_in(bisected, {"contact.point=\"centroid\""}),
-            (Lines{"statics = \"newton\"", "stage.critical.failure_criterion = \"required_strength\""}));
+            (Lines{"statics = \"newton\"", "stage.critical.failure_criterion = \"required_strength\"",
+                   "accuracy.error_bar = \"stiffness\""}));
 }
 
 TEST(Preset, FacesThatCannotBeIntegratedGetPoints) {
   const std::vector<std::string> bonded{"joint_properties.rock.cohesion=1e5"};
-  EXPECT_EQ(set_in(bisected, bonded), (Lines{"statics = \"newton\"", "joint_properties.rock.sub_contacts = 4",
-                                             "stage.critical.failure_criterion = \"required_strength\""}));
+  EXPECT_EQ(set_in(bisected, bonded),
+            (Lines{"statics = \"newton\"", "joint_properties.rock.sub_contacts = 4",
+                   "stage.critical.failure_criterion = \"required_strength\"", "accuracy.error_bar = \"stiffness\""}));
   const std::string soil =
       "[[joint_properties]]\nname = \"soil\"\nnormal_stiffness = 1e8\nshear_stiffness = 1e7\n"
       "friction_deg = 20\ntension = 1e3\n";
   EXPECT_EQ(set_in(bisected + soil),
             (Lines{"statics = \"newton\"", "contact.face = \"integrated\"", "joint_properties.soil.sub_contacts = 4",
-                   "stage.critical.failure_criterion = \"required_strength\""}));
+                   "stage.critical.failure_criterion = \"required_strength\"", "accuracy.error_bar = \"stiffness\""}));
 }
 
 TEST(Preset, SearchesAtARateFollowTheMotion) {
@@ -89,7 +92,8 @@ TEST(Preset, SearchesAtARateFollowTheMotion) {
 // a folder of an earlier version has the hash of its scene with the defaults of then
 TEST(Preset, InputHashDependsOnWhatItSetsAlone) {
   const std::vector<std::string> spelled{"statics=\"newton\"", "contact.face=\"integrated\"",
-                                         "stage.critical.failure_criterion=\"required_strength\""};
+                                         "stage.critical.failure_criterion=\"required_strength\"",
+                                         "accuracy.error_bar=\"stiffness\""};
   const std::string standard = input_hash(parse_scene(bisected, "scene.toml"));
   EXPECT_EQ(input_hash(parse_scene("preset = \"standard\"\n" + bisected, "scene.toml")), standard);
   EXPECT_EQ(input_hash(parse_scene("preset = \"thesis\"\n" + bisected, "scene.toml", spelled)), standard);

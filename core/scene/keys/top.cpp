@@ -65,7 +65,7 @@ KeyTable top_keys() {
      .meaning = "blocks that move when the first stage begins"},
     {.key = "preset", .type = choice, .example = "\"thesis\"", .choices = {presets.begin(), presets.end()},
      .meaning = "numerical choices that the scene does not state; standard (taken without this key): Newton's method, integrated faces, "
-         "4 sub_contacts in joints that cannot be integrated, failure by the required strength; thesis: none of these, the "
+         "4 sub_contacts in joints that cannot be integrated, failure by the required strength, error bars with the joints' stiffness; thesis: none of these, the "
          "defaults of each key, with which the cases are verified. `voussoir check` lists what it sets",
      .breaks = "thesis: one contact point a face resists neither spin nor rocking"},
     {.key = "accuracy", .type = table, .holds = {"accuracy"},
