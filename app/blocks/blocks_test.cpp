@@ -4,7 +4,7 @@
 #include "app/testing/program.hpp"
 #include "text/csv_table.hpp"
 
-namespace voussoir {
+namespace voussoir::blocks_test {
 namespace {
 
 using namespace program;
@@ -113,4 +113,4 @@ TEST_F(Program, BlocksRefusesWhatItCannotJudge) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::blocks_test

@@ -10,7 +10,7 @@
 #include "core/key_blocks/direction_cone.hpp"
 #include "text/angle.hpp"
 
-namespace voussoir {
+namespace voussoir::cone_test {
 namespace {
 
 using Whole = std::array<long long, 3>;
@@ -177,4 +177,4 @@ TEST(DirectionCone, InThePlaneTwoFacesHold) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::cone_test

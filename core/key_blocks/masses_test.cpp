@@ -16,7 +16,7 @@
 #include "core/scene/scene.hpp"
 #include "text/angle.hpp"
 
-namespace voussoir {
+namespace voussoir::masses_test {
 namespace {
 
 const std::filesystem::path root = VOUSSOIR_SOURCE_DIR;
@@ -258,4 +258,4 @@ TEST(KeyBlocks, ContactsInThePlane) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::masses_test

@@ -8,7 +8,7 @@
 #include "core/testing/stated_block.hpp"
 #include "text/angle.hpp"
 
-namespace voussoir {
+namespace voussoir::published_blocks_test {
 namespace {
 
 const Vector<3> down(0, 0, -9.81), nothing(0, 0, 0);
@@ -205,4 +205,4 @@ TEST(PublishedBlocks, ALineThatThreeFacesShareIsIndeterminate) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::published_blocks_test

@@ -8,7 +8,7 @@
 #include "core/slicing/block.hpp"
 #include "core/testing/stated_block.hpp"
 
-namespace voussoir {
+namespace voussoir::published_wedges_test {
 namespace {
 
 constexpr double foot = 0.3048, psf = 47.88025898, pcf = 157.087463863;  // m, Pa, N/m³
@@ -187,4 +187,4 @@ TEST(PublishedWedges, PlaneFailureInTheSection) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::published_wedges_test

@@ -13,7 +13,7 @@
 #include "core/testing/whole_runs.hpp"
 #include "text/angle.hpp"
 
-namespace voussoir {
+namespace voussoir::trial_record_test {
 namespace {
 
 constexpr double plane_dip = 35;  // deg
@@ -187,4 +187,4 @@ TEST(TrialRecord, AnInterruptedSearchKeepsItsRows) {
 }
 
 }  // namespace
-}  // namespace voussoir
+}  // namespace voussoir::trial_record_test
