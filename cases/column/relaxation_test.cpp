@@ -23,6 +23,7 @@ constexpr double density = 2000, stiffness = 2e8, gravity = 10;
 // a column in the plane under weight applied suddenly; rows of the top's displacement every `interval` s
 std::string scene_text(int blocks, const std::string& statics, double interval) {
   std::string text = fmt::format(R"(title = "Column of {0} squares, to rest"
+preset = "thesis"
 dimension = 2
 gravity = [0, -{1}]
 density = {2}

@@ -23,7 +23,8 @@ std::string resting_scene(const Model<3>& model, const State<3>& state, const Ro
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
     if (!model.bodies[b].fixed) free += fmt::format("{}\"{}\"", free.empty() ? "" : ", ", model.bodies[b].name);
   const double stiffness = carried / (most_pressed * radius);
-  return fmt::format(R"(dimension = 3
+  return fmt::format(R"(preset = "thesis"
+dimension = 3
 gravity = [0, 0, -9.81]
 density = 2500
 {}

@@ -50,7 +50,8 @@ Trial sliding_wedge(const RelativeRounding& rounding) {
     if (!model.bodies[b].fixed) wedge = fmt::format("block_{}", b), weight = model.bodies[b].mass * 9.81;
   const double stiffness = stiffness_for(weight, radius_of(rounding, sharp.size), pressed);
   return ask("study_wedge",
-             fmt::format(R"(dimension = 3
+             fmt::format(R"(preset = "thesis"
+dimension = 3
 gravity = [0, 0, -9.81]
 density = 2000
 {}
@@ -82,7 +83,8 @@ Trial push_beam(const RelativeRounding& rounding, double rotation, double viscou
   const auto turning = [&](double side) { return fmt::format("angular_velocity = {}", side * rate * first); };
   const std::string ramped = fmt::format("times_s = [0, {}], factors = [{}, 1]", ramp, first);
   return ask("study_beam",
-             fmt::format(R"(dimension = 2
+             fmt::format(R"(preset = "thesis"
+dimension = 2
 density = 2000
 {}
 joint_properties = [{{ name = "rock", normal_stiffness = 100e6, shear_stiffness = 1e9, friction_deg = 50, constant_stiffness = true }}]
@@ -140,7 +142,7 @@ constexpr double block_weight = 20e3;  // N/m
 std::string column_scene(const RelativeRounding& rounding, const std::string& rest) {
   constexpr double inscribed = 0.5;  // m
   const double stiffness = stiffness_for(column_blocks * block_weight, radius_of(rounding, inscribed), pressed);
-  const std::string head = "dimension = 2\ngravity = [0, -10]\ndensity = 2000\n";
+  const std::string head = "preset = \"thesis\"\ndimension = 2\ngravity = [0, -10]\ndensity = 2000\n";
   const std::string properties = fmt::format(
       "joint_properties = [{{ name = \"rock\", normal_stiffness = {0}, shear_stiffness = {0}, friction_deg = 40, "
       "constant_stiffness = true }}]\n",

@@ -156,6 +156,7 @@ TEST(SlicingTrade, TheTimeStepGrowsWithTheRootOfTheSize) {
 // A square of 10 m: a joint that cuts off a small corner, one within that corner, three across the diagonal.
 Prepared<2> corner(const std::vector<std::string>& overrides) {
   std::string text = R"(
+preset = "thesis"
 dimension = 2
 density = 2600
 domain = { box = { min = [0, 0], max = [10, 10] } }

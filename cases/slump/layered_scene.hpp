@@ -31,8 +31,8 @@ inline void write_layered_scene(const reference::LayeredSlope& slope, const std:
   const double dip = slope.dip / degree, base_dip = slope.base_dip / degree;
   const double layer = slope.thickness / std::sin(slope.dip), row = slope.spacing / std::cos(slope.base_dip);
   const double right = slope.height / std::tan(slope.dip) + slope.layers * layer + 10;
-  out << fmt::format("title = \"{}\"\ndimension = 2\ngravity = [0, -{}]\ndensity = {}\n", title, slope.gravity,
-                     slope.density);
+  out << fmt::format("title = \"{}\"\npreset = \"thesis\"\ndimension = 2\ngravity = [0, -{}]\ndensity = {}\n", title,
+                     slope.gravity, slope.density);
   out << fmt::format("[domain]\nbox = {{ min = [-5, -20], max = [{:.17g}, {:.17g}] }}\n", right, slope.height);
   write_plane(out, "[[domain.planes]]", "face", dip, 270, 0, 0);
   out << "keep = \"below\"\n";

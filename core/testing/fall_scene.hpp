@@ -117,6 +117,7 @@ inline std::string fall_blocks(const FallPlan& plan) {
 inline std::string fall_scene(const FallPlan& plan, const std::string& title) {
   return fmt::format(R"(# Made by core/testing/fall_scene.hpp, which a test compares with this file.
 title = "{}"
+preset = "thesis"
 dimension = 3
 gravity = [0, 0, -9.81]        # m/s2
 density = 2500                 # kg/m3
