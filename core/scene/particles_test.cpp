@@ -60,8 +60,10 @@ Vector<Dim> place(const Ran<Dim>& run, const std::string& name) {
 const std::string properties =
     "joint_properties = [{ name = \"rock\", normal_stiffness = 1e7, shear_stiffness = 5e6, constant_stiffness = true, "
     "friction_deg = 30 }]\n";
-const std::string in_space = "dimension = 3\ngravity = [0, 0, -9.81]\ndensity = 2600\n" + properties;
-const std::string in_the_plane = "dimension = 2\ngravity = [0, -9.81]\ndensity = 2600\n" + properties;
+const std::string in_space =
+    "preset = \"thesis\"\ndimension = 3\ngravity = [0, 0, -9.81]\ndensity = 2600\n" + properties;
+const std::string in_the_plane =
+    "preset = \"thesis\"\ndimension = 2\ngravity = [0, -9.81]\ndensity = 2600\n" + properties;
 
 // ---- closed forms ---------------------------------------------------------------------------------------------------
 

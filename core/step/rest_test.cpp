@@ -210,7 +210,9 @@ TEST(Rest, IsNotExpectedOfALiningThatHasLeftItsRock) {
   for (Body<2>& body : model.bodies)
     if (!body.parts.empty()) body.present = false;
   model.gravity.setZero();
-  const RunReport report = run<2>(model, prepared.settings, {.rest = true, .step_limit = 1000}, {}, state);
+  Settings relaxed = prepared.settings;  // Newton's method ends once its increment has been left to relaxation
+  relaxed.statics.method = Statics::adaptive;
+  const RunReport report = run<2>(model, relaxed, {.rest = true, .step_limit = 1000}, {}, state);
   EXPECT_EQ(report.reason, StopReason::lining_loose) << describe(report.reason);
   EXPECT_LE(report.steps, 2);
   EXPECT_NE(report.detail.find("'shell'"), std::string::npos) << report.detail;
