@@ -52,9 +52,9 @@ TEST_F(Program, RunWritesResultsThatOpen) {
             "time_s,stage,top_displacement_x_m,top_displacement_y_m,top_displacement_z_m");
 }
 
-// docs/scenes.toml searches a factor of safety
+// the example searches a factor of safety
 TEST_F(Program, ASearchWritesItsTrialsAsTableAndPicture) {
-  ASSERT_EQ(run("run " + std::string(VOUSSOIR_SOURCE_DIR "/docs/scenes.toml") + " --out out").code, 0);
+  ASSERT_EQ(run("run " + std::string(VOUSSOIR_SOURCE_DIR "/examples/wedge.toml") + " --out out").code, 0);
   const std::vector<std::string> lines = lines_of(read(folder_ / "out/search.csv"));
   ASSERT_GT(lines.size(), 4u);
   EXPECT_TRUE(lines.front().starts_with("stage,trial,level,unit,outcome,body,displacement_m,")) << lines.front();

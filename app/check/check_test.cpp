@@ -9,8 +9,8 @@ namespace {
 
 using namespace program;
 
-const std::string ground =
-    head_in_plane + "[[blocks]]\nname = \"ground\"\nbox = { min = [-5, -1], max = [15, 0] }\nfixed = true\n";
+const std::string ground = "preset = \"thesis\"\n" + head_in_plane +
+                           "[[blocks]]\nname = \"ground\"\nbox = { min = [-5, -1], max = [15, 0] }\nfixed = true\n";
 
 class Check : public CheckedScene {
  protected:
