@@ -103,9 +103,10 @@ TEST(RenamedKeys, GiveTheSameSceneAndHash) {
 
 // what the program printed as input_hash before it knew the present names
 TEST(RenamedKeys, KeepTheHashOfEarlierRuns) {
-  const Parts earlier{.head = "preset = \"thesis\"\ndamping = { statics = \"newton\", increments = 4, viscous_ratio = 0.1 }",
-                      .side = "whole = \"below\"",
-                      .dig = "let_off = { share = 0.4, duration_s = 1 }\ndamping = { statics = \"adaptive\" }"};
+  const Parts earlier{
+      .head = "preset = \"thesis\"\ndamping = { statics = \"newton\", increments = 4, viscous_ratio = 0.1 }",
+      .side = "whole = \"below\"",
+      .dig = "let_off = { share = 0.4, duration_s = 1 }\ndamping = { statics = \"adaptive\" }"};
   EXPECT_EQ(input_hash(parse(scene_of(earlier))), "fnv1a64:8b6a01df2055afd4");
 }
 

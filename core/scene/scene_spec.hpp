@@ -275,7 +275,7 @@ struct Scene {
   OutputPlan output;
   std::vector<std::string> from_level;   // what accuracy.level set: "key = value"
   std::vector<std::string> from_preset;  // what the preset set
-  std::vector<std::string> renamed;     // keys under an earlier name: "scene.toml:7: … is now …"
+  std::vector<std::string> renamed;      // keys under an earlier name: "scene.toml:7: … is now …"
   std::vector<std::filesystem::path>
       files;                         // that were read: the scene's own, if it is a file, and those that it names
   std::vector<std::string> remarks;  // remarks on these files for the user, one line each
