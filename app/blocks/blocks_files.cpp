@@ -13,10 +13,6 @@
 namespace voussoir {
 namespace {
 
-std::string text(const std::optional<double>& value) {
-  return csv_cell(value);
-}
-
 std::string degrees(const std::optional<double>& angle) {
   return angle ? csv_cell(to_degrees(*angle)) : "";
 }
@@ -72,26 +68,26 @@ std::string csv_row(const Survey<Dim>& survey, const SurveyRow<Dim>& row) {
   add(csv_cell(fmt::format("{}", fmt::join(forces, ";"))));
   add(moving ? csv_cell(verdict.driving()) : "");
   add(moving ? csv_cell(verdict.friction + verdict.cohesion) : "");
-  add(text(row.bolted.factor));
-  add(text(verdict.factor_friction_only()));
-  add(text(row.bolted.factor_passive));
+  add(csv_cell(row.bolted.factor));
+  add(csv_cell(verdict.factor_friction_only()));
+  add(csv_cell(row.bolted.factor_passive));
   add(csv_cell(fmt::format("{}", fmt::join(row.bolts, ";"))));
   add(moving ? csv_cell(required) : "");
   add(row.force ? csv_cell(row.force->force.norm()) : "");
   add_direction<Dim>(row.force ? row.force->force : Vector<Dim>::Zero(), row.force && row.force->force.norm() > 0,
                      cells);
   add(row.force ? (row.force->least ? "1" : "0") : "");
-  add(text(row.bolt_force));
+  add(csv_cell(row.bolt_force));
   cells.push_back(row.worst.factor ? csv_cell(plunge_and_trend(row.worst.direction).second) : "");
-  add(text(row.worst.factor));
-  add(text(row.factor_own_trend));
-  add(text(row.critical_coefficient));
-  add(text(row.critical_own_trend));
-  add(text(row.critical_water));
+  add(csv_cell(row.worst.factor));
+  add(csv_cell(row.factor_own_trend));
+  add(csv_cell(row.critical_coefficient));
+  add(csv_cell(row.critical_own_trend));
+  add(csv_cell(row.critical_water));
   add(degrees(row.opening));
   add(row.opening ? csv_cell(survey.joint_name(row.faces[row.opening_face])) : "");
   add(csv_cell(fmt::format("{}", fmt::join(closed, ";"))));
-  add(row.eccentricity && std::isinf(*row.eccentricity) ? "inf" : text(row.eccentricity));
+  add(row.eccentricity && std::isinf(*row.eccentricity) ? "inf" : csv_cell(row.eccentricity));
   add(degrees(row.taper));
   add(round_cell(survey.below_one.round_of, row.bodies));
   add(round_cell(survey.frictionless.round_of, row.bodies));

@@ -33,9 +33,6 @@ constexpr int brackets_below = 1, brackets_above = 2;
 // of a half bracket: a change within rounding is no shift
 constexpr double rounding = 1e-6;
 
-// of a scene that does not state accuracy.error_bar
-constexpr std::string_view usual_error_bar = "bracket";
-
 constexpr const char* from_afar = "_wide";  // of a search over the range of the original one
 
 // overrides that let the searches of a scene look near the result
@@ -123,7 +120,7 @@ bool wants_stiffness_bar(const LoadedScene& scene) {
   if (!scene.stated || wants_budget(scene)) return false;
   const Node* accuracy = scene.stated->tree->find("accuracy");
   const Node* stated = accuracy ? accuracy->find("error_bar") : nullptr;
-  return (stated ? std::string_view(stated->text) : usual_error_bar) == "stiffness";
+  return stated && stated->text == "stiffness";
 }
 
 std::vector<std::string> budget_folders(const LoadedScene& scene) {

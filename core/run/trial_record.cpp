@@ -84,7 +84,9 @@ void note_trial(const StageInForce<Dim>& stage, const State<Dim>& state, double 
   if (moving.most_of > 0) row.elastic_displacements = moving.farthest / moving.most_of;
   if (watched && outcome == SearchTrial::failed)
     row.required = required_level(std::get<ReducePlan>(stage.plan().plan), search.watch.trial);
-  if (outcome != SearchTrial::broken) note_supports_and_water(stage, forces_at(stage, placed, state), search, row);
+  const bool held_or_wet = !state.supports.bolt_springs.empty() || !stage.model.waters.empty();
+  if (outcome != SearchTrial::broken && held_or_wet)
+    note_supports_and_water(stage, forces_at(stage, placed, state), search, row);
   if (outcome == SearchTrial::stable) note_stable(stage, state, progress, row);
   if (outcome == SearchTrial::failed)
     for (StableState& at : progress.results.at_last_stable_state)

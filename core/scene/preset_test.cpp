@@ -63,7 +63,7 @@ TEST(Preset, StatedKeysStay) {
             (Lines{"stage.critical.static_increments = 16"}));
   EXPECT_EQ(set_in(bisected, {"stage.critical.failure_displacement=0.01"}),
             (Lines{"statics = \"newton\"", "stage.critical.static_increments = 16", "contact.face = \"integrated\""}));
-  // whoever chooses how contacts act keeps them
+  // a scene that states its contact point keeps one contact point per face
   EXPECT_EQ(set_in(bisected, {"contact.point=\"centroid\""}),
             (Lines{"statics = \"newton\"", "stage.critical.failure_criterion = \"required_strength\"",
                    "accuracy.error_bar = \"stiffness\""}));

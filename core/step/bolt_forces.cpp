@@ -240,8 +240,9 @@ std::optional<double> most_turned(const Model<Dim>& model, const BodiesState<Dim
   for (const BoltSpring<Dim>& spring : supports.bolt_springs) {
     if (spring.broken || (model.bodies[spring.body_a].fixed && model.bodies[spring.body_b].fixed)) continue;
     const Vector<Dim> axis = bodies.poses[spring.body_a].axes * spring.axis;
-    const double along = direction_of(bodies, spring, Stretched<Dim>(bodies, spring)).dot(axis);
-    const Vector<Dim> across = direction_of(bodies, spring, Stretched<Dim>(bodies, spring)) - along * axis;
+    const Vector<Dim> direction = direction_of(bodies, spring, Stretched<Dim>(bodies, spring));
+    const double along = direction.dot(axis);
+    const Vector<Dim> across = direction - along * axis;
     most = std::max(most.value_or(0), std::atan2(across.norm(), along));
   }
   return most;

@@ -184,6 +184,8 @@ void difference(const Model<Dim>& model, const Settings& settings, const Schedul
       const PairMotion<Dim> motion{now.between + way, now.drift + way, a.spin, spin, now.inverse_mass};
       return joint_wrench<Dim>(model, schedule, joint_step, then, subs, face, motion, history, sub_histories);
     };
+    Pair<Dim> here;
+    if (whole) here = pair_of(model, bodies, c.part_a, c.part_b, QueryLevel::area);
     const auto press = [&](const Pair<Dim>& pair, int f, double step) {
       Contact<Dim> then = c;
       find_nearest_faces<Dim>(pair, then, planes);
@@ -194,7 +196,6 @@ void difference(const Model<Dim>& model, const Settings& settings, const Schedul
       Contact<Dim>& then_contact = after.contacts[i * F + f];
       const double step = after.steps[i * F + f];
       if (whole) {
-        const Pair<Dim> here = pair_of(model, bodies, c.part_a, c.part_b, QueryLevel::area);
         const PairWrench<Dim> near = press(after.pairs[i * F + f], f, step),
                               far = press(moved(here, b, f, 2 * step), f, 2 * step);
         p.stiffness.col(f) = (3 * p.wrench - 4 * near + far) / (2 * step);
