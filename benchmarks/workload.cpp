@@ -139,7 +139,7 @@ Vector<3> face_middle(const Polytope<3>& part, int face) {
 void lay_face_on_face(Pair<3>& pair, Shape shape, double unit, Random& random) {
   const int on_a = contact_face(*pair.a, shape, random), on_b = contact_face(*pair.b, shape, random);
   const Vector<3> n = pair.a->faces[on_a].normal;
-  const Matrix<3> against = Eigen::Quaterniond::FromTwoVectors(pair.b->faces[on_b].normal, -n).toRotationMatrix();
+  const Matrix<3> against = matrix(rotation_onto(pair.b->faces[on_b].normal, -n));
   const Matrix<3> spin = Eigen::AngleAxisd(uniform(random, 0, 6), n).toRotationMatrix();
   const double angle = uniform(random, 0, 6);
   const Vector<3> t1 = perpendicular(n), t2 = n.cross(t1), sideways = std::cos(angle) * t1 + std::sin(angle) * t2;

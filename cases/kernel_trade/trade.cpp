@@ -30,7 +30,7 @@ double reach(const TouchingPair& pair) {
 
 void place(TouchingPair& pair, bool face_on_face, double tilt, double overlap, Random& random) {
   const auto facing = [](const Polytope<3>& part, const Vector<3>& up) {
-    return Eigen::Quaterniond::FromTwoVectors(part.faces.front().normal, up).toRotationMatrix();
+    return matrix(rotation_onto(part.faces.front().normal, up));
   };
   const Vector<3> up = Vector<3>::UnitZ();
   Matrix<3> turn_a = matrix(shapes::orientation<3>(random)), turn_b = matrix(shapes::orientation<3>(random));

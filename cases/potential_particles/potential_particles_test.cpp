@@ -102,9 +102,7 @@ struct Stack {
         reach(half * std::sqrt(edges ? 2.0 : 3.0)) {
     if (edges) lower = turn({-1, 0, -1});
   }
-  static Matrix<3> turn(const Vector<3>& down) {
-    return Eigen::Quaterniond::FromTwoVectors(down, Vector<3>(0, 0, -1)).toRotationMatrix();
-  }
+  static Matrix<3> turn(const Vector<3>& down) { return matrix(rotation_onto(down, Vector<3>(0, 0, -1))); }
   Vector<3> above(double depth) const { return {0.1, 0.05, top + reach - depth}; }
 };
 

@@ -44,8 +44,7 @@ Example spheres(double a, double b, double distance) {
 }
 
 Example corner_on_face(double r_a, double r_b, double depth) {
-  const Matrix<3> corner_down =
-      Eigen::Quaterniond::FromTwoVectors(Vector<3>(1, 1, 1), Vector<3>(0, 0, -1)).toRotationMatrix();
+  const Matrix<3> corner_down = matrix(rotation_onto(Vector<3>(1, 1, 1), Vector<3>(0, 0, -1)));
   return {fmt::format("corner, r = {:g} m, on a face, r = {:g} m", r_b, r_a),
           {shapes::box<3>({-2, -2, -1}, {2, 2, 0}), r_a, 0, 10, {0, 0, -0.5}},
           {shapes::cube<3>(0.5), r_b, 0, 10, Vector<3>::Zero()},

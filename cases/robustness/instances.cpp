@@ -184,8 +184,8 @@ Meeting meet(const Polytope<3>& a, const Polytope<3>& b, const Place& place, int
       place.axis == Axis::angle ? tilted_face_of(own_b, place.value, random) : features.b(own_b, random);
 
   // b is rotated so that its feature faces that of a, and about the common direction at random
-  const Eigen::Quaterniond facing = Eigen::Quaterniond::FromTwoVectors(at_b.direction, -at_a.direction);
-  const Eigen::Quaterniond spin(Eigen::AngleAxisd(shapes::uniform(random, -3, 3), at_a.direction));
+  const Quaternion facing = rotation_onto(at_b.direction, -at_a.direction).quaternion;
+  const Quaternion spin(Eigen::AngleAxisd(shapes::uniform(random, -3, 3), at_a.direction));
   m.turn.quaternion = (spin * facing).normalized();
   const Vector<3> between =
       at_a.point - place.depth * smaller_diameter(a, b) * at_a.direction - matrix(m.turn) * at_b.point;

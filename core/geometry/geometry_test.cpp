@@ -80,6 +80,22 @@ TEST(Types, PerpendicularIsUnitAndPerpendicular) {
   EXPECT_EQ(perpendicular(Vector<2>(1, 0)), Vector<2>(0, 1));  // to the left
 }
 
+TEST(Types, RotationOntoIsTheShortestThatTakesOneDirectionToTheOther) {
+  Random random(5);
+  for (int i = 0; i < 400; ++i) {
+    const Vector<3> from = shapes::direction<3>(random);
+    // every second pair nearly or wholly opposite, where the axis is what rounding leaves
+    const double away = i % 2 ? std::pow(10.0, -i / 20) : 0;
+    const Vector<3> to =
+        i % 2 ? Vector<3>(i < 300 ? -from + away * perpendicular(from) : -from) : shapes::direction<3>(random);
+    const Rotation<3> turn = rotation_onto(2 * from, 3 * to);
+    EXPECT_NEAR(turn.quaternion.norm(), 1, rounding);
+    EXPECT_LT((matrix(turn) * from - to.normalized()).norm(), 1e-6) << i;  // 1 + cos is lost to rounding near pi
+    EXPECT_NEAR(rotation_vector(turn).norm(), std::acos(std::clamp(from.dot(to.normalized()), -1.0, 1.0)), 3e-6) << i;
+  }
+  EXPECT_EQ(matrix(rotation_onto(Vector<3>::UnitX(), Vector<3>::UnitX())), Matrix<3>::Identity());
+}
+
 // ---- half-spaces ----------------------------------------------------------------------------------------------------
 
 // Eqs 3.3-3.5 as printed: x north, y east, z down, looking down

@@ -56,6 +56,19 @@ Spin<3> rotation_vector(const Rotation<3>& rotation) {
   return sign * 2 * std::atan2(sine, std::abs(q.w())) / sine * q.vec();
 }
 
+Rotation<3> rotation_onto(const Vector<3>& from, const Vector<3>& to) {
+  const Vector<3> a = from.normalized(), b = to.normalized();
+  const double cosine = a.dot(b);
+  if (cosine < -1 + 1e-12) {
+    const Vector<3> axis = perpendicular(a);
+    return {Quaternion(0, axis[0], axis[1], axis[2])};
+  }
+  const double twice = std::sqrt((1 + cosine) * 2);  // 2 cos of half the angle
+  const Vector<3> axis = a.cross(b) * (1 / twice);
+  // of nearly opposite directions the error of the length is far more than rounding
+  return {Quaternion(0.5 * twice, axis[0], axis[1], axis[2]).normalized()};
+}
+
 Vector<2> perpendicular(const Vector<2>& n) {
   return {-n[1], n[0]};
 }

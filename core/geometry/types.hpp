@@ -63,6 +63,11 @@ Rotation<3> turned(const Rotation<3>& rotation, const Spin<3>& turn);
 Spin<2> rotation_vector(const Rotation<2>& rotation);
 Spin<3> rotation_vector(const Rotation<3>& rotation);
 
+// The shortest rotation that takes the direction `from` to the direction `to`, of any lengths; of opposite directions,
+// a half turn about perpendicular(from). As Eigen's FromTwoVectors, whose singular values take 5 s of each source to
+// compile.
+Rotation<3> rotation_onto(const Vector<3>& from, const Vector<3>& to);
+
 // a unit vector perpendicular to a unit vector n; the axis least aligned with n seeds it, so it never vanishes
 Vector<2> perpendicular(const Vector<2>& n);
 Vector<3> perpendicular(const Vector<3>& n);

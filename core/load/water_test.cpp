@@ -292,8 +292,7 @@ std::vector<WaterStretch<3>> level_3d(double h) {
 TEST(WaterNumbers, OfACubeOnItsCorner) {
   const std::vector<Polytope<3>> cube_parts{block<3>(cube<3>(0.5))};
   const Vector<3> diagonal = Vector<3>::Ones().normalized();
-  const Standing<3> standing{.axes =
-                                 Eigen::Quaterniond::FromTwoVectors(diagonal, Vector<3>::UnitZ()).toRotationMatrix()};
+  const Standing<3> standing{.axes = matrix(rotation_onto(diagonal, Vector<3>::UnitZ()))};
   const double corner = -std::sqrt(3.0) / 2;
   struct Row {
     double level, volume, centroid;

@@ -70,7 +70,7 @@ TEST(PotentialConservative, BetweenRightAngledFeaturesItIsTheOverlap) {
       const PotentialShape<3> block{shapes::box<3>({-2, -2, -1}, {2, 2, 0}), 0.05, 0, 10, {0, 0, -0.5}};
       const PotentialShape<3> cube{shapes::cube<3>(0.5), r, 0, 10};
       const double both = r + 0.05, depth = 0.1 * r;
-      const Matrix<3> turn = Eigen::Quaterniond::FromTwoVectors(down, Vector<3>(0, 0, -1)).toRotationMatrix();
+      const Matrix<3> turn = matrix(rotation_onto(down, Vector<3>(0, 0, -1)));
       const PotentialPair<3> pair{&block, &cube, turn, {0.3, -0.2, both - depth + 0.5 * down.norm()}};
       const PotentialContact<3> found = resolve<3>(pair, PotentialQuery::overlap, workspace);
       ASSERT_EQ(found.status, PotentialStatus::touching);
@@ -199,8 +199,7 @@ TEST(PotentialConservative, AroundClosedPathsItDoesNoWorkAndTheBracketedOverlapD
     PotentialShape<3> block{shapes::box<3>({-2, -2, -1}, {2, 2, 0}), r, k, 4, {0, 0, -0.5}};
     PotentialShape<3> wedge{shapes::cube<3>(0.5), r, k, 2};
     wedge.planes[0].normal = Vector<3>(0.8, 0.6, 0);  // an edge that is not right-angled
-    const Matrix<3> turned =
-        Eigen::Quaterniond::FromTwoVectors(Vector<3>(1, 1.2, 0.9), Vector<3>(0, 0, -1)).toRotationMatrix();
+    const Matrix<3> turned = matrix(rotation_onto(Vector<3>(1, 1.2, 0.9), Vector<3>(0, 0, -1)));
     PotentialPair<3> pair{&block, &wedge, turned, {0.3, -0.2, 0}};
     PotentialWorkspace<3> workspace;
     double low = 0, high = 3;

@@ -81,8 +81,7 @@ TEST(PotentialContact, OfTwoCubesFaceToFaceIsHalfWay) {
 // between the inner bodies' corner and face is G = t_A + t_B.
 TEST(PotentialContact, OfACornerOnAFaceWithoutSpheres) {
   PotentialWorkspace<3> workspace;
-  const Matrix<3> corner_down =
-      Eigen::Quaterniond::FromTwoVectors(Vector<3>(1, 1, 1), Vector<3>(0, 0, -1)).toRotationMatrix();
+  const Matrix<3> corner_down = matrix(rotation_onto(Vector<3>(1, 1, 1), Vector<3>(0, 0, -1)));
   for (const double r_a : {1e-3, 0.1})
     for (const double r_b : {1e-3, 0.02}) {
       const PotentialShape<3> block{shapes::box<3>({-2, -2, -1}, {2, 2, 0}), r_a, 0, 10, {0, 0, -0.5}};

@@ -28,7 +28,7 @@ std::string scene_of(const char* normal, bool half_spaces) {
   std::vector<Vector<Dim>> normals;
   std::string gravity, low, high;
   if constexpr (Dim == 3) {
-    turn = Eigen::Quaterniond::FromTwoVectors(Vector<3>(1, 1.2, 0.9), Vector<3>(0, 0, -1)).toRotationMatrix();
+    turn = matrix(rotation_onto(Vector<3>(1, 1.2, 0.9), Vector<3>(0, 0, -1)));
     normals = {{0.8, 0.6, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
     gravity = "[0, 0, 0]", low = "[-2, -2, -1]", high = "[2, 2, 0]";
   } else {

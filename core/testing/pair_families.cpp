@@ -144,8 +144,7 @@ Feature<Dim> random_feature(const Polytope<Dim>& part, Random& random) {
 Matrix<3> against(const Vector<3>& from, const Vector<3>& to, Random& random) {
   const Matrix<3> spin =
       Eigen::AngleAxisd(integer(random, 0, 2) ? uniform(random, -pi, pi) : 0.0, to).toRotationMatrix();
-  // if the two are nearly opposite the error of its length is far more than rounding
-  return spin * Eigen::Quaterniond::FromTwoVectors(from, -to).normalized().toRotationMatrix();
+  return spin * matrix(rotation_onto(from, -to));
 }
 Matrix<2> against(const Vector<2>& from, const Vector<2>& to, Random&) {
   return matrix(Rotation<2>{std::atan2(-to[1], -to[0]) - std::atan2(from[1], from[0])});
