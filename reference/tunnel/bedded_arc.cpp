@@ -1,6 +1,10 @@
 #include "reference/tunnel/bedded_arc.hpp"
 
+#include <gsl/gsl_poly.h>
+
 #include <Eigen/Dense>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 
@@ -19,11 +23,14 @@ Numbers numbers_of(const BeddedArc& arc) {
           arc.shear_stiffness * per_axial, arc.weight * per_axial};
 }
 
-// roots of a monic cubic: eigenvalues of its companion
-Eigen::Vector3cd roots(double c2, double c1, double c0) {
-  Eigen::Matrix3d companion;
-  companion << 0, 0, -c0, 1, 0, -c1, 0, 1, -c2;
-  return companion.eigenvalues();
+// roots of a monic cubic
+std::array<Complex, 3> roots(double c2, double c1, double c0) {
+  std::array<gsl_complex, 3> z;
+  gsl_poly_complex_solve_cubic(c2, c1, c0, &z[0], &z[1], &z[2]);
+  std::array<Complex, 3> found;
+  std::ranges::transform(z, found.begin(),
+                         [](const gsl_complex& root) { return Complex(GSL_REAL(root), GSL_IMAG(root)); });
+  return found;
 }
 
 // w - u', w" + u' and its derivative at an angle
@@ -51,7 +58,7 @@ Strains of_weight(const Numbers& n, double angle) {
 
 MemberForces bedded_arc(const BeddedArc& arc, double angle) {
   const Numbers n = numbers_of(arc);
-  const Eigen::Vector3cd squares = roots(2 - n.ks, ((1 + n.k) * (1 + n.e) - 1) / n.e, -(1 + n.k) * n.ks / n.e);
+  const std::array<Complex, 3> squares = roots(2 - n.ks, ((1 + n.k) * (1 + n.e) - 1) / n.e, -(1 + n.k) * n.ks / n.e);
   Eigen::Matrix3cd ends;
   Eigen::Vector3cd lambda;
   for (int j = 0; j < 3; ++j) {
