@@ -7,10 +7,10 @@
 
 #include "core/base/floating_point_traps.hpp"
 #include "core/model/state_hash.hpp"
-#include "core/run/fields.hpp"
 #include "core/run/run.hpp"
 #include "core/slicing/slice.hpp"
 #include "core/step/relaxation.hpp"
+#include "core/testing/end_bytes.hpp"
 #include "core/testing/models.hpp"
 
 namespace voussoir::step_test {
@@ -56,7 +56,7 @@ TEST(Determinism, EveryThreadCountGivesTheSameBits) {
     State<3> state = initial_state(model);
     steps(model, settings, 200, state);
     if (threads == 1) {
-      expected = bytes_of(state);
+      expected = bits_of(state);
       // something must have happened: contacts, slip, rotation
       int touching = 0;
       double slip = 0;
@@ -68,7 +68,7 @@ TEST(Determinism, EveryThreadCountGivesTheSameBits) {
       EXPECT_GT(slip, 0);
       EXPECT_EQ(state.counters.unconverged, 0);
     }
-    EXPECT_TRUE(bytes_of(state) == expected) << threads << " threads";
+    EXPECT_TRUE(bits_of(state) == expected) << threads << " threads";
   }
 }
 
@@ -94,9 +94,9 @@ TEST(Determinism, EveryThreadCountGivesTheSameBitsForManyBlocks) {
         if (!model.bodies[b].fixed)
           state.bodies.motions[b].velocity = {0.5, 0.2 * static_cast<double>(b % 5), 0.3};  // m/s
       steps(model, settings, 25, state);
-      if (threads == 1) expected = bytes_of(state);
+      if (threads == 1) expected = bits_of(state);
       EXPECT_GT(state.counters.neighbour_builds, relaxing ? 0 : 1);
-      EXPECT_TRUE(bytes_of(state) == expected) << threads << " threads";
+      EXPECT_TRUE(bits_of(state) == expected) << threads << " threads";
     }
   }
 }
@@ -133,8 +133,8 @@ TEST(Determinism, TheOrderOfInputDoesNotMatter) {
     const Model<3> model = model_of<3>(bodies);
     State<3> state = initial_state(model);
     steps(model, {}, 200, state);
-    if (order == 0) expected = bytes_of(state);
-    EXPECT_TRUE(bytes_of(state) == expected);
+    if (order == 0) expected = bits_of(state);
+    EXPECT_TRUE(bits_of(state) == expected);
     shapes::shuffle(bodies, random);
   }
 }
@@ -146,7 +146,7 @@ TEST(Determinism, ARunMayBeInterrupted) {
   steps(model, {}, 77, parts);
   State<3> copy = parts;
   steps(model, {}, 123, copy);
-  EXPECT_TRUE(bytes_of(copy) == bytes_of(whole));
+  EXPECT_TRUE(bits_of(copy) == bits_of(whole));
 }
 
 template <int Dim>

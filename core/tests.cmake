@@ -7,6 +7,9 @@ target_link_libraries(voussoir_oracle_algebra PUBLIC Eigen3::Eigen PRIVATE vouss
 target_include_directories(voussoir_oracle_algebra PUBLIC ${PROJECT_SOURCE_DIR})
 target_compile_definitions(voussoir_oracle_algebra PUBLIC EIGEN_DONT_VECTORIZE)
 
+add_library(voussoir_end_bytes STATIC testing/end_bytes.cpp)
+target_link_libraries(voussoir_end_bytes PUBLIC voussoir_core PRIVATE voussoir_flags cereal::cereal)
+
 set(outside_cone_solver)
 if(TARGET voussoir_ipopt)
   set(outside_cone_solver voussoir_ipopt)
@@ -34,14 +37,14 @@ voussoir_test(unit.faces LABEL unit SOURCES contact/region_integral_test.cpp ste
 voussoir_test(unit.outside_solvers LABEL unit SOURCES solvers/outside_solvers_test.cpp
   LIBS voussoir_core ${outside_solvers} Boost::headers)
 voussoir_test(unit.newton LONG LABEL unit SOURCES step/static_solver*_test.cpp solvers/block_solver_test.cpp
-  LIBS voussoir_core voussoir_oracle_algebra cereal::cereal Boost::headers)
+  LIBS voussoir_core voussoir_oracle_algebra Boost::headers)
 voussoir_test(unit.neighbours LABEL unit SOURCES step/neighbours_test.cpp LIBS voussoir_core Boost::headers)
 voussoir_test(unit.rest LABEL unit
   SOURCES step/rest_test.cpp step/free_fall_test.cpp run/settled_test.cpp scene/stage_excavations_test.cpp
-  LIBS voussoir_core cereal::cereal Boost::headers fmt::fmt)
+  LIBS voussoir_core Boost::headers fmt::fmt)
 voussoir_test(unit.particles LABEL unit SOURCES scene/*particles*_test.cpp
-  LIBS voussoir_core cereal::cereal fmt::fmt Boost::headers)
-voussoir_test(unit.monitors LABEL unit SOURCES */*monitor*_test.cpp run/begin_test.cpp LIBS voussoir_core cereal::cereal)
+  LIBS voussoir_core voussoir_end_bytes fmt::fmt Boost::headers)
+voussoir_test(unit.monitors LABEL unit SOURCES */*monitor*_test.cpp run/begin_test.cpp LIBS voussoir_core voussoir_end_bytes)
 voussoir_test(unit.law_and_motion LABEL unit
   SOURCES joint_laws/*_test.cpp step/motion_test.cpp support/bolt_test.cpp
   LIBS voussoir_core voussoir_oracle_algebra Boost::headers)
@@ -56,11 +59,11 @@ voussoir_test(unit.contact LABEL unit SOURCES contact/*_test.cpp
   LIBS voussoir_core voussoir_oracle_algebra Boost::headers)
 voussoir_test(unit.potential LONG LABEL unit SOURCES potential/*_test.cpp
   LIBS voussoir_core ${outside_cone_solver} Boost::headers)
-voussoir_test(unit.scene LABEL unit SOURCES scene/*_test.cpp LIBS voussoir_core cereal::cereal Boost::headers fmt::fmt)
+voussoir_test(unit.scene LABEL unit SOURCES scene/*_test.cpp LIBS voussoir_core voussoir_end_bytes Boost::headers fmt::fmt)
 voussoir_test(unit.output LABEL unit SOURCES output/*_test.cpp LIBS voussoir_core fmt::fmt nlohmann_json::nlohmann_json)
 if(TARGET voussoir_limit)
   voussoir_test(unit.limit LABEL unit SOURCES limit/*_test.cpp LIBS voussoir_limit Boost::headers)
 endif()
 voussoir_test(unit.step LABEL unit
   SOURCES *_test.cpp load/*_test.cpp model/*_test.cpp run/*_test.cpp stage/*_test.cpp step/*_test.cpp testing/*_test.cpp
-  LIBS voussoir_core voussoir_oracle_algebra cereal::cereal Boost::headers fmt::fmt)
+  LIBS voussoir_core voussoir_end_bytes voussoir_oracle_algebra Boost::headers fmt::fmt)

@@ -85,9 +85,9 @@ TEST(Types, RotationOntoIsTheShortestThatTakesOneDirectionToTheOther) {
   for (int i = 0; i < 400; ++i) {
     const Vector<3> from = shapes::direction<3>(random);
     // every second pair nearly or wholly opposite, where the axis is what rounding leaves
-    const double away = i % 2 ? std::pow(10.0, -i / 20) : 0;
-    const Vector<3> to =
-        i % 2 ? Vector<3>(i < 300 ? -from + away * perpendicular(from) : -from) : shapes::direction<3>(random);
+    const double away = i < 300 ? std::pow(10.0, -i / 20) : 0;
+    const Vector<3> opposite = away * perpendicular(from) - from;
+    const Vector<3> to = i % 2 ? opposite : shapes::direction<3>(random);
     const Rotation<3> turn = rotation_onto(2 * from, 3 * to);
     EXPECT_NEAR(turn.quaternion.norm(), 1, rounding);
     EXPECT_LT((matrix(turn) * from - to.normalized()).norm(), 1e-6) << i;  // 1 + cos is lost to rounding near pi

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "core/run/fields.hpp"
 #include "core/run/simulate.hpp"
 #include "core/scene/scene.hpp"
+#include "core/testing/end_bytes.hpp"
 
 namespace voussoir::begin_test {
 namespace {
@@ -66,7 +66,7 @@ template <int Dim>
 std::string bits(Progress<Dim> progress) {
   progress.results.seconds = 0;
   progress.frames.clear();
-  return bytes_of(progress);
+  return bits_of(progress);
 }
 
 // until its last stage has ended

@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include "core/run/fields.hpp"
 #include "core/testing/end_bytes.hpp"
 #include "core/testing/models.hpp"
 #include "core/testing/whole_runs.hpp"

@@ -11,7 +11,6 @@
 #include "core/contact/particles.hpp"
 #include "core/potential/particle.hpp"
 #include "core/run/checkpoint.hpp"
-#include "core/run/fields.hpp"
 #include "core/run/simulate.hpp"
 #include "core/scene/scene.hpp"
 #include "core/step.hpp"

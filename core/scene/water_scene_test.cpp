@@ -9,9 +9,9 @@
 #include "core/model/state_hash.hpp"
 #include "core/model/water_surfaces.hpp"
 #include "core/run/checkpoint.hpp"
-#include "core/run/fields.hpp"
 #include "core/run/simulate.hpp"
 #include "core/scene/scene.hpp"
+#include "core/testing/end_bytes.hpp"
 #include "core/testing/whole_runs.hpp"
 #include "text/angle.hpp"
 
@@ -78,11 +78,11 @@ TEST(WaterOfAScene, ChangesByItsStages) {
 TEST(WaterOfAScene, GivesTheSameBitsForThreadsAndAfterAPause) {
   for (const std::string& stages :
        {settle + flow + rise, settle + "[[stage]]\nname = \"up\"\nkind = \"settle\"\n" + rise}) {
-    const std::string once = bytes_of(simulated(prepared(stages)).state);
-    EXPECT_EQ(bytes_of(simulated(prepared(stages, {})).state), once);
+    const std::string once = bits_of(simulated(prepared(stages)).state);
+    EXPECT_EQ(bits_of(simulated(prepared(stages, {})).state), once);
     Prepared<2> threads = prepared(stages);
     threads.settings.threads = 3;
-    EXPECT_EQ(bytes_of(simulated(threads).state), once);
+    EXPECT_EQ(bits_of(simulated(threads).state), once);
 
     const Prepared<2> scene = prepared(stages);
     Progress<2> progress = initial_progress(scene);
@@ -96,7 +96,7 @@ TEST(WaterOfAScene, GivesTheSameBitsForThreadsAndAfterAPause) {
       ++pauses;
     }
     EXPECT_GT(pauses, 3);
-    EXPECT_EQ(bytes_of(progress.state), once);
+    EXPECT_EQ(bits_of(progress.state), once);
   }
 }
 
