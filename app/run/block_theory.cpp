@@ -79,7 +79,6 @@ std::vector<std::string> reasons_of(const JudgedSet<Dim>& set, const FailureMech
   if (mechanism.clusters.size() > 1)
     reasons.push_back(
         fmt::format("the blocks move in {} parts, which it judges as one body", mechanism.clusters.size()));
-  if (!moves(set.bolted.verdict.kind)) reasons.emplace_back("it knows translation only");
   return reasons;
 }
 
@@ -135,7 +134,7 @@ void add_block_theory(const Prepared<Dim>& prepared, Results& results) {
     at.block_theory = judge_moving(prepared, place, at.failed->mechanism);
     if (!at.block_theory) continue;
     BlockTheory& theory = *at.block_theory;
-    theory.differs = !theory.critical || std::abs(*theory.critical - value->value) > *value->error_bar;
+    theory.differs = theory.critical && std::abs(*theory.critical - value->value) > *value->error_bar;
     if (!theory.differs) theory.reasons.clear();
   }
 }
@@ -145,7 +144,7 @@ std::string text_of(const BlockTheory& theory, const std::string& unit) {
   if (theory.critical)
     text += fmt::format("{:.5g}{} for the same blocks", *theory.critical, unit == "1" ? "" : " " + unit);
   else
-    text += fmt::format("the same blocks have no critical value ({})", theory.kind);
+    text += fmt::format("{}; it knows the translation of one body only", theory.kind);
   if (theory.force)
     text += fmt::format("; {:.3g} kN ({:.1f}/{:05.1f}) would give {:g}", *theory.force / 1000, theory.force_plunge,
                         theory.force_trend, theory.required);

@@ -141,20 +141,22 @@ bool moves_alike(const BodyMotions<Dim>& motions, const RigidMotion<Dim>& motion
   return apart <= same_motion * way;
 }
 
-// from the heaviest body, over contacts
+// from the heaviest body, over bodies that are near each other
 template <int Dim>
 std::vector<ClusterGroup<Dim>> gather_clusters(const BodyMotions<Dim>& motions, std::vector<int> moving,
-                                               const std::vector<FaceMotion<Dim>>& faces) {
+                                               const ContactsState<Dim>& before, const ContactsState<Dim>& after) {
   const Model<Dim>& model = motions.model;
   std::vector<char> waits(model.bodies.size(), false);
   for (const int body : moving)
     waits[body] = true;
   std::map<int, std::vector<int>> near;
-  for (const FaceMotion<Dim>& face : faces) {
-    if (!waits[face.a] || !waits[face.b]) continue;
-    near[face.a].push_back(face.b);
-    near[face.b].push_back(face.a);
-  }
+  for (const ContactsState<Dim>* contacts : {&before, &after})
+    for (const Contact<Dim>& c : contacts->list) {
+      const int a = model.parts[c.part_a].body, b = model.parts[c.part_b].body;
+      if (c.status == ContactStatus::apart || !waits[a] || !waits[b]) continue;
+      near[a].push_back(b);
+      near[b].push_back(a);
+    }
   std::ranges::stable_sort(moving, std::ranges::greater{}, [&](int body) { return model.bodies[body].mass; });
   std::vector<ClusterGroup<Dim>> clusters;
   for (const int first : moving) {
@@ -364,7 +366,7 @@ FailureMechanism find_mechanism(const Model<Dim>& model, const std::vector<Place
   for (int b = 0; b < static_cast<int>(from.size()); ++b)
     if (motions.counts(b)) free_mass += model.bodies[b].mass;
   const std::vector<FaceMotion<Dim>> faces = face_motions(motions, before, after);
-  std::vector<ClusterGroup<Dim>> clusters = gather_clusters(motions, moving, faces);
+  std::vector<ClusterGroup<Dim>> clusters = gather_clusters(motions, moving, before, after);
   std::vector<int> cluster_of(from.size(), -1);
   for (std::size_t k = 0; k < clusters.size(); ++k)
     for (const int body : clusters[k].bodies)
