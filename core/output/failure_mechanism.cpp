@@ -64,8 +64,8 @@ std::string point_text(const std::vector<double>& point) {
 }
 
 std::string direction_text(const MovingCluster& c, int dimension) {
-  if (dimension == 3) return fmt::format("{:.1f}/{:05.1f} (plunge/trend)", c.plunge, c.trend);
   if (std::abs(c.plunge) > vertical) return c.plunge > 0 ? "straight down" : "straight up";
+  if (dimension == 3) return fmt::format("{:.1f}/{:05.1f} (plunge/trend)", c.plunge, c.trend);
   return fmt::format("{:.1f} deg {} to the {}", std::abs(c.plunge), c.plunge < 0 ? "up" : "down",
                      c.trend < 180 ? "right" : "left");
 }

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <iostream>
 #include <random>
 #include <string>
 
@@ -330,7 +331,7 @@ std::string random_slope(unsigned seed, int dimension) {
 struct Followed {
   bool failed = false, reached = false;
   std::vector<int> named, moves;  // by the trial, at ten times its displacement
-  std::string sentence;
+  std::string sentence, ended;
 };
 
 // The last failed trial of the search, and its motion to ten times the displacement at which it was judged.
@@ -383,10 +384,11 @@ Followed follow(const std::string& text) {
   RunGoal goal;
   goal.moved_away = 10 * moving_bodies(model, from, placed, none).farthest;
   goal.rest = true;
-  goal.step_limit = 100'000;
+  goal.step_limit = 200'000;
   RunProgress<Dim> run_progress;
   run_progress.begin = displacements(base.bodies);
   const RunReport report = run(model, relaxing, goal, RunSchedule{}, failed, run_progress);
+  result.ended = describe(report.reason);
   result.reached = report.reason == StopReason::moved_away;
   std::vector<Placement<Dim>> at_end;
   note_placements(failed.bodies, at_end);
@@ -394,16 +396,18 @@ Followed follow(const std::string& text) {
   return result;
 }
 
-void compare(unsigned first, int count, double least_share) {
+// every fourth in space, if so asked
+void compare(unsigned first, int count, bool with_space, double least_share) {
   int same = 0, judged = 0;
   for (unsigned seed = first; seed < first + count; ++seed) {
-    const bool space = seed % 4 == 3;
+    const bool space = with_space && seed % 4 == 3;
     const Followed slope = space ? follow<3>(random_slope(seed, 3)) : follow<2>(random_slope(seed, 2));
     if (!slope.failed || !slope.reached) {
-      std::cout << fmt::format("slope {}: {}\n", seed, slope.failed ? "comes to rest again" : "does not fail");
+      std::cout << fmt::format("slope {}: {}\n", seed, slope.failed ? "followed: " + slope.ended : "does not fail");
       continue;
     }
     ++judged;
+    std::cout << std::flush;
     same += slope.named == slope.moves;
     if (slope.named != slope.moves)
       std::cout << fmt::format("slope {}: {}; then {} blocks, not {}\n", seed, slope.sentence, slope.moves.size(),
@@ -415,10 +419,10 @@ void compare(unsigned first, int count, double least_share) {
 }
 
 TEST(MechanismOfRandomSlopes, TheNamedSetMovesOn) {
-  compare(1, 8, 0.95);
+  compare(1, 8, false, 0.95);
 }
 TEST(MechanismOfRandomSlopesLong, TheNamedSetMovesOn) {
-  compare(1001, 200, 0.95);
+  compare(1001, 200, false, 0.95);
 }
 
 }  // namespace
