@@ -229,6 +229,7 @@ const Harmless harmless[] = {
     {"cylinder", "to", "any", "another tunnel; one that excavates no block is refused"},
     {"stage", "failure_displacement", "0", is_default},
     {"stage", "failure_fraction", "0", is_default},
+    {"stage", "follow_steps", "0", is_default},
     {"joint_sets", "point", "any",
      "a set of equal spacing has no end: it passes through the domain wherever its point is"},
     {"stage", "gravity_ramp_s", "0", is_default},

@@ -36,6 +36,8 @@ int stage_of_search(const std::vector<StagePlan>& stages) {
   return -1;
 }
 
+}  // namespace
+
 template <int Dim>
 void refuse_other_models(const Model<Dim>& model) {
   if (model.particles)
@@ -53,6 +55,8 @@ void refuse_other_models(const Model<Dim>& model) {
   if (std::none_of(model.bodies.begin(), model.bodies.end(), is_free))
     throw BadInput("every block is fixed, so there is nothing to judge; choose fewer blocks in fix");
 }
+
+namespace {
 
 template <int Dim>
 std::vector<std::string> notes_on(const Prepared<Dim>& prepared, const Model<Dim>& model) {
@@ -233,6 +237,11 @@ std::string Survey<Dim>::body_names(const SurveyRow<Dim>& row) const {
 }
 
 template <int Dim>
+Assembly<Dim> assembly_of_stage(const Prepared<Dim>& prepared, int stage) {
+  return assembly_at(prepared, Stages{.strength = stage, .loads = stage, .geometry = stage});
+}
+
+template <int Dim>
 Survey<Dim> survey_blocks(const LoadedScene& scene, const SurveyRequest& request) {
   const Prepared<Dim>& prepared = std::get<Prepared<Dim>>(scene.prepared);
   const Stages stages = choose_stages(prepared.stages, request);
@@ -306,19 +315,13 @@ const char* motion_of(const SurveyRow<Dim>& row) {
   return *row.bolted.factor < 1 ? "slides and turns" : "turns";
 }
 
-template <int Dim>
-std::pair<double, double> plunge_and_trend(const Vector<Dim>& v) {
-  const double east = v[0], north = Dim == 3 ? v[1] : 0, up = v[Dim - 1];
-  const double trend = to_degrees(std::atan2(east, north));
-  return {to_degrees(std::atan2(-up, std::hypot(east, north))), trend < 0 ? trend + 360 : trend};
-}
-
 #define VOUSSOIR_INSTANTIATE(Dim)                                                    \
   template struct Survey<Dim>;                                                       \
   template Survey<Dim> survey_blocks<Dim>(const LoadedScene&, const SurveyRequest&); \
+  template Assembly<Dim> assembly_of_stage<Dim>(const Prepared<Dim>&, int);          \
+  template void refuse_other_models<Dim>(const Model<Dim>&);                         \
   template const char* type_of<Dim>(const SurveyRow<Dim>&, double);                  \
-  template const char* motion_of<Dim>(const SurveyRow<Dim>&);                        \
-  template std::pair<double, double> plunge_and_trend<Dim>(const Vector<Dim>&);
+  template const char* motion_of<Dim>(const SurveyRow<Dim>&);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)
 #undef VOUSSOIR_INSTANTIATE

@@ -71,6 +71,14 @@ struct Survey {
 template <int Dim>
 Survey<Dim> survey_blocks(const LoadedScene& scene, const SurveyRequest& request);
 
+// The blocks at a stage of the scene, from 0: its geometry, strength, loads and bolts.
+template <int Dim>
+Assembly<Dim> assembly_of_stage(const Prepared<Dim>& prepared, int stage);
+
+// Throws BadInput for models that block theory cannot judge.
+template <int Dim>
+void refuse_other_models(const Model<Dim>& model);
+
 const char* word_of(BlockKind kind);
 // Goodman & Shi's type, with "I" for factors below the required one; empty: none
 template <int Dim>
@@ -78,9 +86,5 @@ const char* type_of(const SurveyRow<Dim>& row, double required);
 // "slides", "slides and turns", "turns"; empty unless it slides
 template <int Dim>
 const char* motion_of(const SurveyRow<Dim>& row);
-
-// deg; in the plane the trend is 90 to the right and 270 to the left
-template <int Dim>
-std::pair<double, double> plunge_and_trend(const Vector<Dim>& v);
 
 }  // namespace voussoir

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/geometry/plunge_trend.hpp"
 #include "core/output/paraview.hpp"
 #include "text/angle.hpp"
 #include "text/csv_table.hpp"

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "app/blocks/blocks_files.hpp"
+#include "core/geometry/plunge_trend.hpp"
 #include "text/angle.hpp"
 
 namespace voussoir {

@@ -10,6 +10,7 @@
 #include "app/base/message.hpp"
 #include "app/base/progress_line.hpp"
 #include "app/run/accuracy_on_order.hpp"
+#include "app/run/block_theory.hpp"
 #include "app/run/error_budget.hpp"
 #include "app/run/run_files.hpp"
 #include "app/run/run_summary.hpp"
@@ -140,6 +141,7 @@ std::optional<ExitCode> carry_out_prepared(const LoadedScene& stated, const Load
     write_options(job.folder, job.options);
     return std::nullopt;
   }
+  add_block_theory(prepared, results);
   if (written.view) write_page(job.folder);
   write_results(job.folder, results_json(results, record_of(scene, job.options)));
   remove_checkpoints(job.folder);

@@ -8,6 +8,7 @@
 
 #include "app/base/progress_line.hpp"
 #include "app/base/shown_unit.hpp"
+#include "app/run/block_theory.hpp"
 #include "core/run/stable_state.hpp"
 #include "core/scene/stage_excavations.hpp"
 
@@ -101,6 +102,7 @@ void print_stages(const std::vector<StageResult>& stages, const std::vector<Stab
       if (at.bonds) fmt::print("      {}: {}\n", moment_text(at), bonds_text(*at.bonds));
       for (const std::string& line : search_text(at))
         fmt::print("      {}\n", line);
+      if (at.block_theory) fmt::print("      {}\n", text_of(*at.block_theory, at.unit));
     }
   }
 }

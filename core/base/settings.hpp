@@ -173,6 +173,7 @@ struct ReducePlan {
   double failure_fraction = 0;       // of the free mass that must have moved so far; 0: any body
   long long ramp_steps = 500;        // steps over which a trial lowers the friction; too few: inertia disturbs the path
   long long step_limit = 1'000'000;  // for one trial
+  long long follow_steps = 0;        // of the last failed trial, beyond its failure; 0: it is not followed
 };
 
 // a choice of bodies: all that satisfy every condition given; sides refer to a joint's upward normal

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/model/state.hpp"
+#include "core/output/failure_mechanism.hpp"
 
 namespace voussoir {
 
@@ -91,6 +92,27 @@ struct TrialRow {
   std::optional<double> bolts_use = {};              // largest force of a bolt over its capacity, if any has one
   std::optional<double> water_lost = {};  // fraction of the water's force on that body when the search began; may be
                                           // negative
+  FailureMechanism mechanism = {};        // of a trial that failed: its motion since the last stable state
+};
+
+// The last failed trial of a search, followed beyond its failure.
+struct FollowedTrial {
+  bool rests = false;       // it has come to equilibrium again
+  double displacement = 0;  // m, of the body that moved most since the search began
+  long long steps = 0;
+  std::string ended;  // why it was followed no further
+};
+
+// What block theory says of the blocks that a search found to move (core/key_blocks).
+struct BlockTheory {
+  std::string kind;                          // "slides", "stable", …
+  std::optional<double> critical;            // factor or friction angle, in the unit of the search's level
+  std::vector<std::string> joints;           // that carry
+  double required = 0;                       // factor of safety of the force below
+  std::optional<double> force{};             // N: the least that gives it
+  double force_plunge = 0, force_trend = 0;  // deg
+  bool differs = false;                      // from the search's value by more than its error bar
+  std::vector<std::string> reasons{};        // that it knows, as clauses
 };
 
 // The bonds and supports that held the blocks when a stage was last in equilibrium: at the end of a settle stage, or in
@@ -105,6 +127,8 @@ struct StableState {
   std::optional<double> taken_out{};          // by an extrapolation to no displacement, in the unit of the level
   std::string bracket_because{};  // of a result that is the middle of the bracket, though the scene asks for
                                   // the required strength: the reason, as a clause
+  std::optional<FollowedTrial> followed{};
+  std::optional<BlockTheory> block_theory{};  // found when the run is complete
 };
 
 // a body that a stage has moved by more than its own size while settling (core/run/settled.hpp)

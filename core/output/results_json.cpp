@@ -117,6 +117,48 @@ void add_number(Json& entry, const char* key, const std::optional<double>& value
   if (value) entry[key] = number(*value, key);
 }
 
+Json joint_json(const MovingJoint& joint, NumberWriter& number) {
+  return {{"joint", joint.joint.empty() ? Json() : Json(joint.joint)},
+          {"slip_m", number(joint.slip, "slip_m of a joint")},
+          {"opening_m", number(joint.opening, "opening_m of a joint")},
+          {"normal_force_N", number(joint.force, "normal_force_N of a joint")},
+          {"slips", joint.slips},
+          {"opens", joint.opens},
+          {"carries", joint.carries}};
+}
+
+Json cluster_json(const MovingCluster& cluster, NumberWriter& number) {
+  Json entry = {{"blocks", cluster.bodies},
+                {"volume_m3", number(cluster.volume, "volume_m3 of a cluster")},
+                {"weight_N", number(cluster.weight, "weight_N of a cluster")},
+                {"free_mass_share", number(cluster.free_share, "free_mass_share of a cluster")},
+                {"motion", word_of(cluster.motion)},
+                {"displacement_m", number(cluster.displacement, "displacement_m of a cluster")},
+                {"farthest_m", number(cluster.farthest, "farthest_m of a cluster")},
+                {"plunge_deg", number(cluster.plunge, "plunge_deg of a cluster")},
+                {"trend_deg", number(cluster.trend, "trend_deg of a cluster")},
+                {"turn_deg", number(cluster.turn, "turn_deg of a cluster")}};
+  for (const double coordinate : cluster.about)
+    entry["about_m"].push_back(number(coordinate, "about_m of a cluster"));
+  if (!cluster.about.empty()) entry["about_edge"] = cluster.at_edge;
+  for (const double component : cluster.axis)
+    entry["axis"].push_back(number(component, "axis of a cluster"));
+  entry["joints"] = Json::array();
+  for (const MovingJoint& joint : cluster.joints)
+    entry["joints"].push_back(joint_json(joint, number));
+  return entry;
+}
+
+Json mechanism_json(const FailureMechanism& mechanism, NumberWriter& number) {
+  Json entry = {{"sentence", sentence_of(mechanism)},
+                {"free_mass_share", number(mechanism.free_share, "free_mass_share of a mechanism")}};
+  if (mechanism.bonds_broken) entry["bonds_broken"] = *mechanism.bonds_broken;
+  entry["clusters"] = Json::array();
+  for (const MovingCluster& cluster : mechanism.clusters)
+    entry["clusters"].push_back(cluster_json(cluster, number));
+  return entry;
+}
+
 Json trial_json(const TrialRow& trial, NumberWriter& number) {
   Json entry = {{"trial", trial.trial}, {"level", number(trial.level, "level of a trial")}};
   entry["body"] = trial.body < 0 ? Json() : Json(trial.body);
@@ -127,6 +169,21 @@ Json trial_json(const TrialRow& trial, NumberWriter& number) {
   add_number(entry, "bolts_turned_deg", trial.bolts_turned, number);
   add_number(entry, "bolts_use", trial.bolts_use, number);
   add_number(entry, "water_lost", trial.water_lost, number);
+  if (trial.mechanism.known()) entry["mechanism"] = mechanism_json(trial.mechanism, number);
+  return entry;
+}
+
+Json block_theory_json(const BlockTheory& theory, NumberWriter& number) {
+  Json entry = {{"verdict", theory.kind}};
+  add_number(entry, "critical", theory.critical, number);
+  entry["joints"] = theory.joints;
+  if (theory.force)
+    entry["force"] = {{"required", theory.required},
+                      {"force_N", number(*theory.force, "block_theory.force_N")},
+                      {"plunge_deg", number(theory.force_plunge, "block_theory.plunge_deg")},
+                      {"trend_deg", number(theory.force_trend, "block_theory.trend_deg")}};
+  entry["differs"] = theory.differs;
+  entry["reasons"] = theory.reasons;
   return entry;
 }
 
@@ -143,6 +200,12 @@ Json stable_states_json(const Results& results, NumberWriter& number) {
     if (at.failed) entry["last_failed_trial"] = trial_json(*at.failed, number);
     add_number(entry, "taken_out", at.taken_out, number);
     if (!at.bracket_because.empty()) entry["bracket_because"] = at.bracket_because;
+    if (at.followed)
+      entry["followed"] = {{"rests", at.followed->rests},
+                           {"displacement_m", number(at.followed->displacement, "followed.displacement_m")},
+                           {"steps", at.followed->steps},
+                           {"ended", at.followed->ended}};
+    if (at.block_theory) entry["block_theory"] = block_theory_json(*at.block_theory, number);
   }
   return states;
 }

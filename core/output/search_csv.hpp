@@ -7,6 +7,7 @@
 //   required                the level that the motion of a failed trial required at its end, if it was watched
 //   bolts_turned_deg        the bolt that has turned most since its installation, against the block at its collar
 //   bolts_use               utilisation: the largest force of a bolt over its capacity
+//   moving_blocks, motion   of a failed trial: number of blocks that move, and how the heaviest cluster of them does
 //   water_lost              fraction of the water's force on that body, when the search began, that is gone
 #pragma once
 

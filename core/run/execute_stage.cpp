@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "core/run/find_mechanism.hpp"
 #include "core/run/record.hpp"
 #include "core/run/trial_record.hpp"
 #include "core/step/free_fall.hpp"
@@ -59,6 +60,16 @@ std::optional<StageOutcome> falls_from_begin(const StageInForce<Dim>& stage, con
   return StageOutcome{describe(StopReason::falls_free), std::numeric_limits<double>::infinity()};
 }
 
+// of a stage that sought equilibrium in vain: a sentence; empty if nothing has moved
+template <int Dim>
+std::string what_moves(const StageInForce<Dim>& stage, const Progress<Dim>& progress) {
+  std::vector<Placement<Dim>> placed;
+  note_accepted(stage.model, progress.state, placed);
+  if (progress.settle.placed.size() != placed.size()) return {};
+  return sentence_of(find_mechanism(stage.model, progress.settle.placed, ContactsState<Dim>{}, placed,
+                                    with_forces(stage, progress.state, false).contacts));
+}
+
 template <int Dim>
 std::optional<StageOutcome> run_to(const StageInForce<Dim>& stage, const RunGoal& goal, const GravityPlan& gravity,
                                    StopReason wanted, const Watcher<Dim>& watcher, Progress<Dim>& progress) {
@@ -69,6 +80,8 @@ std::optional<StageOutcome> run_to(const StageInForce<Dim>& stage, const RunGoal
                                record_run(stage, goal.end_time, watcher, progress));
   if (report.reason == StopReason::interrupted) return {};
   judge(stage, report, report.reason == wanted, progress.results);
+  if (goal.rest && report.reason != wanted && progress.results.outcome == Outcome::incomplete)
+    progress.results.message += and_more(what_moves(stage, progress));
   if (report.reason == StopReason::equilibrium) note_stable(stage, progress.state, progress);
   return StageOutcome{describe(report.reason), report.unbalanced};
 }
@@ -134,12 +147,16 @@ StageOutcome judge_search(const ReducePlan& reduction, const ReductionReport& re
       if (report.by == CriticalBy::required_strength || report.by == CriticalBy::stable_fit)
         at.taken_out = sought.number(report.taken_out);
       at.bracket_because = report.bracket_because;
+      at.followed = report.followed;
     }
   }
   const bool found = report.message.empty();
+  const bool none_is_stable = !results.trials.empty() && results.trials.back().trial == 1;
+  const std::string what_fails = !found && none_is_stable ? and_more(sentence_of(results.trials.back().mechanism)) : "";
   if (!found && results.outcome != Outcome::failed)
     fail(stage.plan(), Outcome::incomplete,
-         (report.bracketed ? "the bracket is wider than required: " : "no bracket: ") + report.message, results);
+         (report.bracketed ? "the bracket is wider than required: " : "no bracket: ") + report.message + what_fails,
+         results);
   return StageOutcome{found ? sought.found : describe(report.last.reason), report.unbalanced};
 }
 

@@ -77,6 +77,10 @@ template <int Dim, class From>
 MovingBodies moving_bodies(const Model<Dim>& model, const std::vector<From>& from,
                            const std::vector<Placement<Dim>>& placed, const std::vector<double>& values);
 
+// m: of the body that moved most since these displacements
+template <int Dim>
+double farthest_since(const Model<Dim>& model, const std::vector<Vector<Dim>>& began, const BodiesState<Dim>& bodies);
+
 // Whether the bodies that move have come as far as any of them may: a splinter that rides on blocks fails with them,
 // one that moves alone by itself.
 template <int Dim>

@@ -111,9 +111,10 @@ void visit_fields(Just<SearchEstimates> auto& k, auto&& visit) {
 
 void visit_fields(Either<ReductionProgress> auto& r, auto&& visit) {
   auto& [trial, target, level_from, level_rate, time_limit, stable, failed, failed_faster, unbalanced, true_motion,
-         trial_steps, avoids, undecided, run, begin, water, base, failed_from, watch, known] = r;
+         trial_steps, avoids, undecided, run, begin, water, base, failed_from, watch, known, begun, follows] = r;
   visit(Saved{}, trial, target, level_from, level_rate, time_limit, stable, failed, failed_faster, unbalanced,
-        true_motion, trial_steps, avoids, undecided, run, begin, water, base, failed_from, watch, known);
+        true_motion, trial_steps, avoids, undecided, run, begin, water, base, failed_from, watch, known, begun,
+        follows);
 }
 
 void visit_fields(Just<StageRecord> auto& r, auto&& visit) {
@@ -162,16 +163,39 @@ void visit_fields(Just<WholeBonds> auto& b, auto&& visit) {
   visit(Saved{}, whole, made, by_joint);
 }
 
+void visit_fields(Just<MovingJoint> auto& j, auto&& visit) {
+  auto& [joint, slip, opening, force, slips, opens, carries] = j;
+  visit(Saved{}, joint, slip, opening, force, slips, opens, carries);
+}
+
+void visit_fields(Just<MovingCluster> auto& c, auto&& visit) {
+  auto& [bodies, volume, weight, free_share, motion, displacement, farthest, plunge, trend, turn, about, at_edge, axis,
+         along_line, joints] = c;
+  visit(Saved{}, bodies, volume, weight, free_share, motion, displacement, farthest, plunge, trend, turn, about,
+        at_edge, axis, along_line, joints);
+}
+
+void visit_fields(Just<FailureMechanism> auto& m, auto&& visit) {
+  auto& [dimension, clusters, free_share, bonds_broken] = m;
+  visit(Saved{}, dimension, clusters, free_share, bonds_broken);
+}
+
 void visit_fields(Just<TrialRow> auto& t, auto&& visit) {
   auto& [stage, trial, level, unit, outcome, body, name, displacement, elastic_displacements, required, bolts_turned,
-         bolts_use, water_lost] = t;
+         bolts_use, water_lost, mechanism] = t;
   visit(Saved{}, stage, trial, level, unit, outcome, body, name, displacement, elastic_displacements, required,
-        bolts_turned, bolts_use, water_lost);
+        bolts_turned, bolts_use, water_lost, mechanism);
+}
+
+void visit_fields(Just<FollowedTrial> auto& f, auto&& visit) {
+  auto& [rests, displacement, steps, ended] = f;
+  visit(Saved{}, rests, displacement, steps, ended);
 }
 
 void visit_fields(Just<StableState> auto& s, auto&& visit) {
-  auto& [stage, kind, level, unit, bonds, trial, failed, taken_out, bracket_because] = s;
-  visit(Saved{}, stage, kind, level, unit, bonds, trial, failed, taken_out, bracket_because);
+  auto& [stage, kind, level, unit, bonds, trial, failed, taken_out, bracket_because, followed, block_theory] = s;
+  visit(Saved{}, stage, kind, level, unit, bonds, trial, failed, taken_out, bracket_because, followed);
+  visit(Found{}, block_theory);
 }
 
 void visit_fields(Just<MovedBody> auto& m, auto&& visit) {

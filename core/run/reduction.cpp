@@ -46,8 +46,9 @@ struct Attempt {
   double target = 0;       // level, rad or 1
   bool from_base = false;  // it begins at the last stable state, not at the end of the previous trial
   bool falls = false;
-  double rate = 0;      // rad/s, of a reduction
-  bool beside = false;  // a question beside the search: neither its bracket nor its records know the trial
+  double rate = 0;       // rad/s, of a reduction
+  bool beside = false;   // a question beside the search: neither its bracket nor its records know the trial
+  bool follows = false;  // beyond its failure
 };
 
 // The search methods are at the end, each in one place. A method runs its trials by number, so that an interrupted
@@ -128,11 +129,13 @@ struct Search {
     return std::max(1LL, plan.step_limit / (progress.true_motion ? motion_round : relaxation_round));
   }
 
+  long long step_limit(const Attempt& attempt) const { return attempt.follows ? plan.follow_steps : plan.step_limit; }
+
   // true: the trial continues by the other of the two
   bool takes_turn(const Attempt& attempt) {
     if (report.last.reason != StopReason::interrupted) progress.trial_steps += report.last.steps;
     if (!relaxes_first(attempt) || report.last.reason != StopReason::step_limit ||
-        progress.trial_steps >= plan.step_limit)
+        progress.trial_steps >= step_limit(attempt))
       return false;
     progress.true_motion = !progress.true_motion;
     return true;
@@ -141,9 +144,9 @@ struct Search {
   SearchTrial run_turn(const Attempt& attempt) {
     RunGoal goal;
     goal.rest = !attempt.falls;
-    if (!watches()) goal.moved_away = failure_displacement;
+    if (!watches() && !attempt.follows) goal.moved_away = failure_displacement;
     goal.moved_fraction = plan.failure_fraction;
-    goal.step_limit = plan.step_limit - progress.trial_steps;
+    goal.step_limit = step_limit(attempt) - progress.trial_steps;
     if (relaxes_first(attempt)) goal.step_limit = std::min(*goal.step_limit, round());
     if (attempt.falls) goal.time_limit = progress.time_limit;
     const RunSchedule schedule{.searched = plan.searched,
@@ -153,7 +156,8 @@ struct Search {
                                .properties = properties};
     Settings own = settings;
     if (progress.true_motion) own.statics.method = Statics::local;
-    report.last = run(model, own, goal, schedule, state, progress.run, hooks, watches() ? &progress.watch : nullptr);
+    report.last = run(model, own, goal, schedule, state, progress.run, hooks,
+                      watches() && !attempt.follows ? &progress.watch : nullptr);
     report.unbalanced = report.last.unbalanced;
     return trial_of(report.last.reason);
   }
@@ -243,25 +247,7 @@ struct Search {
     close(critical.level, critical.error_bar);
   }
 
-  // The body that has moved farthest since the search began, as a clause, for an undecided trial. The trial ended in
-  // true motion, so the velocity is meaningful.
-  std::string farthest_mover() const {
-    int body = -1;
-    double most = 0;
-    for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-      const double moved = (state.bodies.motions[b].displacement - progress.begin[b]).norm();
-      if (model.bodies[b].fixed || moved <= most) continue;
-      most = moved;
-      body = static_cast<int>(b);
-    }
-    if (body < 0) return "no body has moved";
-    const Vector<Dim>& velocity = state.bodies.motions[body].velocity;
-    const double away = velocity.dot(state.bodies.motions[body].displacement - progress.begin[body]) / most;
-    return fmt::format("{} has moved by {:.3g} m of the {:.3g} m that are failure and {} at {:.2g} m/s",
-                       label_of(model, body), most,
-                       watches() ? progress.watch.plan.moved_away[body] : failure_displacement,
-                       away > 0.5 * velocity.norm() ? "creeps" : "oscillates", velocity.norm());
-  }
+  double failure_of(int body) const { return watches() ? progress.watch.plan.moved_away[body] : failure_displacement; }
 
   // the result of a search after an undecided trial
   void give_up_undecided(const Attempt& attempt, double level) {
@@ -270,9 +256,10 @@ struct Search {
                                    describe(report.last.reason), levels.text(progress.stable));
       return;
     }
-    report.message = fmt::format("neither equilibrium nor failure at {} within {} steps (unbalanced {:.2g}){}: {}",
-                                 levels.text(level), progress.trial_steps, report.last.unbalanced,
-                                 report.last.unreached, farthest_mover());
+    report.message =
+        fmt::format("neither equilibrium nor failure at {} within {} steps (unbalanced {:.2g}){}: {}",
+                    levels.text(level), progress.trial_steps, report.last.unbalanced, report.last.unreached,
+                    farthest_mover(model, state, progress.begin, [&](int b) { return failure_of(b); }));
     if (attempt.number == 0) {
       report.message += fmt::format("; neither a stable nor a failed {} is known", levels.one);
       return;
@@ -323,10 +310,27 @@ struct Search {
     if (is_stable_at_end()) return ask_bolts();
     if (progress.trial <= 1 && !rest_at(1, levels.to, true)) return ask_bolts();
     const int next = progress.run.under_way ? progress.trial : progress.trial + 1;
-    for (int n = std::max(next, 2); !is_closed(); ++n)
+    for (int n = std::max(next, 2); !progress.follows && !is_closed(); ++n)
       if (!rest_at(n, bracket() > levels.tolerance ? next_level() : progress.failed, true)) return;
-    close_bracket();
+    if (follow_failed()) close_bracket();
   }
+
+  // The failed end of the bracket once more, until it comes to rest. False: interrupted.
+  bool follow_failed() {
+    if (plan.follow_steps == 0) return true;
+    const RunReport last = report.last;
+    const int number = progress.follows ? progress.trial : progress.trial + 1;
+    progress.follows = true;
+    const Attempt attempt{number, progress.failed, true, false, 0, true, true};
+    const bool rests = carry_out(attempt) == SearchTrial::stable;
+    if (report.last.reason == StopReason::interrupted) return false;
+    const double moved = farthest_since(model, progress.begin, state.bodies);
+    report.followed = FollowedTrial{rests, moved, progress.trial_steps, describe(report.last.reason)};
+    report.last = last;
+    report.message.clear();
+    return true;
+  }
+
   // half way, or if no trial decides the level there, half way from it to the farther end
   double next_level() {
     if (const std::optional<double> level = level_by_estimate(levels, ends(), progress.known);
@@ -426,7 +430,10 @@ struct Search {
   // -------------------------------------------------------------------------------------------------------------------
 
   void search() {
-    if (progress.begin.empty()) progress.begin = displacements(state.bodies);
+    if (progress.begin.empty()) {
+      progress.begin = displacements(state.bodies);
+      note_placements(state.bodies, progress.begun);
+    }
     switch (plan.method) {
       case ReductionMethod::bisection:
         return bisect();

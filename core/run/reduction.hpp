@@ -3,9 +3,11 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/output/results.hpp"
 #include "core/run/search_estimates.hpp"
 #include "core/run/search_trial.hpp"
 
@@ -22,10 +24,11 @@ struct ReductionReport {
   std::string bracket_because;  // of a result that is the bracket although the plan asks for the required strength
   bool watched = false;         // trials are judged by the strength that their motion requires
   bool turned = false;          // bodies of the last failed trial turned
-  std::string rule;             // the criterion of failure
-  std::string message;          // why there is no result, or none within the tolerance; empty: the search is complete
-  RunReport last;               // the last run
-  double unbalanced = -1;       // the equilibrium measure of the final state; negative if no equilibrium was sought
+  std::optional<FollowedTrial> followed{};
+  std::string rule;        // the criterion of failure
+  std::string message;     // why there is no result, or none within the tolerance; empty: the search is complete
+  RunReport last;          // the last run
+  double unbalanced = -1;  // the equilibrium measure of the final state; negative if no equilibrium was sought
 };
 
 // The progress of a search: with it an interrupted one continues as if nothing had happened.
@@ -49,6 +52,8 @@ struct ReductionProgress {
   double failed_from = 0;                 // the stable level that the failed one was tried from
   FailureWatch<Dim> watch;                // of the trial under way
   SearchEstimates known;                  // of its trials
+  std::vector<Placement<Dim>> begun;      // by body: where they were when the search began
+  bool follows = false;                   // the last failed trial is followed beyond its failure
 };
 
 // the outcome at a level; called at the end of each trial, with its final state

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "core/run/run.hpp"
+
 namespace voussoir {
 namespace {
 
@@ -44,5 +46,28 @@ std::string hangs_on_bolts(const std::optional<double>& use) {
       "bolts' own reserve, capacity over force, is then {}",
       use && *use > 0 ? fmt::format("{:.4g}", 1 / *use) : "not limited: they have no yield");
 }
+
+template <int Dim>
+std::string farthest_mover(const Model<Dim>& model, const State<Dim>& state, const std::vector<Vector<Dim>>& begin,
+                           const std::function<double(int)>& failure) {
+  int body = -1;
+  double most = 0;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const double moved = (state.bodies.motions[b].displacement - begin[b]).norm();
+    if (model.bodies[b].fixed || moved <= most) continue;
+    most = moved;
+    body = static_cast<int>(b);
+  }
+  if (body < 0) return "no body has moved";
+  const Motion<Dim>& motion = state.bodies.motions[body];
+  const double speed = motion.velocity.norm(), away = motion.velocity.dot(motion.displacement - begin[body]) / most;
+  return fmt::format("{} has moved by {:.3g} m of the {:.3g} m that are failure and {} at {:.2g} m/s",
+                     label_of(model, body), most, failure(body), away > 0.5 * speed ? "creeps" : "oscillates", speed);
+}
+
+template std::string farthest_mover<2>(const Model<2>&, const State<2>&, const std::vector<Vector<2>>&,
+                                       const std::function<double(int)>&);
+template std::string farthest_mover<3>(const Model<3>&, const State<3>&, const std::vector<Vector<3>>&,
+                                       const std::function<double(int)>&);
 
 }  // namespace voussoir

@@ -107,6 +107,15 @@ std::vector<std::string> search_text(const StableState& at) {
         failed.elastic_displacements ? fmt::format(", {:.3g} elastic displacements", *failed.elastic_displacements)
                                      : "",
         stable.displacement));
+  if (const std::string sentence = sentence_of(failed.mechanism); !sentence.empty()) lines.push_back(sentence);
+  if (at.followed)
+    lines.push_back(at.followed->rests
+                        ? fmt::format("followed beyond its failure, it comes to rest after {:.3g} m "
+                                      "(without inertia, in {} steps)",
+                                      at.followed->displacement, at.followed->steps)
+                        : fmt::format("followed beyond its failure for {} steps, it has moved by {:.3g} "
+                                      "m and not come to rest: {}",
+                                      at.followed->steps, at.followed->displacement, at.followed->ended));
   if (at.taken_out)
     lines.push_back(fmt::format("the extrapolation to no displacement takes out {:.2g}{}", *at.taken_out,
                                 at.unit == "1" ? "" : " " + at.unit));

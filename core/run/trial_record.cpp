@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/output/bolt_output.hpp"
+#include "core/run/find_mechanism.hpp"
 #include "core/run/record.hpp"
 #include "core/run/search_levels.hpp"
 #include "core/step.hpp"
@@ -61,6 +62,17 @@ void note_supports_and_water(const StageInForce<Dim>& stage, const State<Dim>& n
     row.water_lost = 1 - (water.empty() ? 0 : water[row.body]) / search.water[row.body];
 }
 
+// from the last stable state, or from where the search began, to bodies at these places with these forces
+template <int Dim>
+FailureMechanism mechanism_of(const Model<Dim>& model, const ReductionProgress<Dim>& search,
+                              const std::vector<Placement<Dim>>& placed, const State<Dim>& now) {
+  if (search.base.bodies.motions.size() != placed.size())
+    return find_mechanism(model, search.begun, ContactsState<Dim>{}, placed, now.contacts);
+  std::vector<Placement<Dim>> from;
+  note_placements(search.base.bodies, from);
+  return find_mechanism(model, from, search.base.contacts, placed, now.contacts);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -85,8 +97,11 @@ void note_trial(const StageInForce<Dim>& stage, const State<Dim>& state, double 
   if (watched && outcome == SearchTrial::failed)
     row.required = required_level(std::get<ReducePlan>(stage.plan().plan), search.watch.trial);
   const bool held_or_wet = !state.supports.bolt_springs.empty() || !stage.model.waters.empty();
-  if (outcome != SearchTrial::broken && held_or_wet)
-    note_supports_and_water(stage, forces_at(stage, placed, state), search, row);
+  if (outcome != SearchTrial::broken && (held_or_wet || outcome == SearchTrial::failed)) {
+    const State<Dim> now = forces_at(stage, placed, state);
+    if (held_or_wet) note_supports_and_water(stage, now, search, row);
+    if (outcome == SearchTrial::failed) row.mechanism = mechanism_of(stage.model, search, placed, now);
+  }
   if (outcome == SearchTrial::stable) note_stable(stage, state, progress, row);
   if (outcome == SearchTrial::failed)
     for (StableState& at : progress.results.at_last_stable_state)

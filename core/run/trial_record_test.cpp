@@ -75,7 +75,7 @@ TEST(TrialRecord, TheTableHasALineForEachTrial) {
   const std::string table = search_csv({stable, failed});
   EXPECT_EQ(std::ranges::count(table, '\n'), 3);
   EXPECT_NE(table.find("\n1,1,40,deg,stable,,0,,"), std::string::npos) << table;
-  EXPECT_NE(table.find("\n2,3,1.25,1,failed,7,0.5,20,1.125,,,\n"), std::string::npos) << table;
+  EXPECT_NE(table.find("\n2,3,1.25,1,failed,7,0.5,20,1.125,,,,,\n"), std::string::npos) << table;
 }
 
 // ---- bolts ----------------------------------------------------------------------------------------------------------

@@ -88,6 +88,11 @@ KeyTable stage_reduce_keys() {
      .plausible = {20, 1e5}, .example = "2000", .when = {"method", "bisection|steps|two_rates"},
      .meaning = "number of steps in which a trial reduces the strength; two_rates: before the slower one",
      .breaks = "too few: the sudden change causes failure by inertia"},
+    {.key = "follow_steps", .members = {in(&ReducePlan::follow_steps)}, .unit = "steps", .range = not_negative,
+     .plausible = {.low = 1000, .high = 1e7, .or_zero = true}, .example = "100000", .when = {"method", "bisection"},
+     .meaning = "number of steps in which the last failed trial is followed beyond its failure, to report after which displacement it "
+         "comes to rest again; 0: it is not followed",
+     .breaks = "a slide without end costs all of them"},
   }};
 }
 // clang-format on
