@@ -46,12 +46,19 @@ std::vector<std::string> unsupported(const LimitAnalysis& analysis) {
 void warn_of_strengths(const std::vector<JointProperties>& properties, bool cohesion,
                        std::vector<std::string>& warnings) {
   for (const JointProperties& p : properties) {
-    if (p.laws.bond && !cohesion)
+    const bool counts = cohesion || p.bonds == BondsMade::as_sliced;
+    if (p.laws.bond && !counts)
       warnings.push_back(
           fmt::format("joint_properties '{}' state tension {:.4g} Pa and cohesion {:.4g} Pa; limit analysis "
-                      "leaves both out: its joints have friction alone ('--cohesion' counts the cohesion)",
+                      "leaves both out: its joints have friction alone ('--cohesion' counts the cohesion, bonds = "
+                      "\"as_sliced\" in the scene too)",
                       p.name, p.tension, p.cohesion));
-    if (cohesion && p.tension > 0)
+    if (counts && p.cohesion > 0 && p.cohesion_law != CohesionLaw::plastic)
+      warnings.push_back(fmt::format(
+          "joint_properties '{}' have cohesion {:.4g} Pa that slip takes; limit analysis counts it as plastic, "
+          "which is unsafe where several joints share the load",
+          p.name, p.cohesion));
+    if (counts && p.tension > 0)
       warnings.push_back(fmt::format(
           "joint_properties '{}' state tension {:.4g} Pa, which limit analysis leaves out: its joints open freely",
           p.name, p.tension));
@@ -114,12 +121,16 @@ CriticalStrength seek_strength(const LimitRequest& request, const Find& find, co
   return found;
 }
 
+bool counts_cohesion(const LimitAnalysis& analysis) {
+  return std::ranges::any_of(analysis.interfaces, [](const Interface& face) { return face.cohesion > 0; });
+}
+
 void seek_factor_of_safety(const LimitRequest& request, LimitAnalysis& analysis) {
   analysis.sought = "factor of safety of ";
   const CriticalStrength found = seek_strength(request, find_factor_of_safety, "--joint", analysis);
   if (found.status == LimitStatus::found && std::isfinite(found.collapses)) {
     analysis.values.emplace_back("factor_of_safety", bracketed(found.stands, found.collapses, "1"));
-    analysis.values.back().second.divides = divided_by_factor(request.properties, request.cohesion);
+    analysis.values.back().second.divides = divided_by_factor(request.properties, counts_cohesion(analysis));
     analysis.values.emplace_back("force_missing_beyond", Value{found.missing, "weight of a block", {}, ""});
   } else if (found.status == LimitStatus::found) {
     analysis.message = fmt::format(

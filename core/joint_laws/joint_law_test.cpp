@@ -75,7 +75,15 @@ std::vector<JointProperties> every_law() {
   brittle.softening_slip = 1e-4;
   brittle.tension = 1e5;
   brittle.cohesion = 3e5;
-  return {plain(), linear(), power(), hardened(), softened(), bonded_joint(), brittle};
+  JointProperties cohesive = softened();
+  cohesive.name = "cohesive";
+  cohesive.laws.bond = true;
+  cohesive.tension = 1e4;
+  cohesive.cohesion = 3e5;
+  cohesive.cohesion_law = CohesionLaw::softening;
+  cohesive.residual_cohesion = 1e5;
+  cohesive.cohesion_slip = 1e-2;
+  return {plain(), linear(), power(), hardened(), softened(), bonded_joint(), brittle, cohesive};
 }
 
 // ---- normal
@@ -204,7 +212,7 @@ TEST(ShearLaw, CohesionIsLostAtTheFirstSlip) {
   for (const JointPathPoint& at : follow(p, path)) {
     if (at.slip == 0) continue;
     intact = intact && 1e9 * at.slip <= friction + 0.787e6;
-    EXPECT_EQ(at.bonded, intact);
+    EXPECT_EQ(at.bond == Bond::whole, intact);
     EXPECT_NEAR(at.shear_stress, intact ? 1e9 * at.slip : friction, closed_form * friction);
   }
   EXPECT_FALSE(intact);
@@ -219,19 +227,19 @@ TEST(ShearLaw, TensionAndSlipBreakTheSameBond) {
   k.area = 2;
   k.slip.setZero();
   k.overlap = 1e-5;  // 28 µm below the offset
-  history.bonded = true;
+  history.bond = Bond::whole;
   EXPECT_NEAR(joint_law<2>(p, p.friction, 0, k, history).force[1], -2 * 2e9 * 28e-6, 1e-6);
-  EXPECT_TRUE(history.bonded);
+  EXPECT_EQ(history.bond, Bond::whole);
   // a dashpot that pulls beyond the strength breaks it, and a broken bond does not pull
   k.closing_speed = -1;
   EXPECT_EQ(joint_law<2>(p, p.friction, 1e6, k, history).force[1], 0);
-  EXPECT_FALSE(history.bonded);
+  EXPECT_EQ(history.bond, Bond::lost);
   // slip under tension: the strength c A + tan φ F is less than without load; beyond it there is none
-  history.bonded = true;
+  history.bond = Bond::whole;
   k.closing_speed = 0;
   k.slip = {-1e-3, 0};  // the trial is 2 MN, the strength 1.574 - 0.094 MN
   const JointForce<2> torn = joint_law<2>(p, p.friction, 0, k, history);
-  EXPECT_FALSE(history.bonded);
+  EXPECT_EQ(history.bond, Bond::lost);
   EXPECT_EQ(torn.force, Vector<2>::Zero());
   EXPECT_EQ(history.shear_force, Vector<2>::Zero());
 }
@@ -250,7 +258,7 @@ TEST(ShearLaw, AFactorDividesTheFullShearStrength) {
   weaker.softening_drop /= factor;
   JointState<2> divided, stated, plain, of_one;
   for (JointState<2>* history : {&divided, &stated, &plain, &of_one})
-    history->bonded = true;
+    history->bond = Bond::whole;
   JointKinematics<2> k;
   k.normal = {0, 1};
   k.area = 2;
@@ -262,10 +270,132 @@ TEST(ShearLaw, AFactorDividesTheFullShearStrength) {
     EXPECT_EQ(force, joint_law<2>(weaker, weaker.friction, 0, k, stated).force) << step;
     EXPECT_EQ(divided.plastic_slip, stated.plastic_slip);
     EXPECT_EQ(joint_law<2>(p, p.friction, 0, k, plain).force, joint_law<2>(p, p.friction, 0, k, of_one, 1).force);
-    broken = broken || !divided.bonded;
+    broken = broken || divided.bond == Bond::lost;
   }
   EXPECT_TRUE(broken);
   EXPECT_GT(divided.plastic_slip, 0.02) << "softening has set in";
+}
+
+// c(β) = c_r + (c - c_r) e^(-β/s): at constant normal stress τ = ks u up to c + μ σ, then τ(β) at u = τ(β)/ks + β
+TEST(ShearLaw, CohesionFollowsItsLaw) {
+  constexpr double c = 0.3e6, stress = 1e6, ks = 1e9, least = 1e-12;
+  const double friction = std::tan(40 * degree) * stress;
+  struct Law {
+    CohesionLaw law;
+    double residual, slip;
+  };
+  for (const Law& law : {Law{CohesionLaw::plastic, 0, 0}, Law{CohesionLaw::softening, 0, 1e-3},
+                         Law{CohesionLaw::softening, 0.1e6, 5e-4}, Law{CohesionLaw::softening, 0.1e6, 0}}) {
+    JointProperties p{"cohesive", 2e9, ks, 40 * degree, false};
+    p.laws.bond = true;
+    p.cohesion = c;
+    p.cohesion_law = law.law;
+    p.residual_cohesion = law.residual;
+    p.cohesion_slip = law.slip;
+    const auto cohesion_after = [&](double slip) {
+      if (law.law == CohesionLaw::plastic) return c;
+      return law.residual + (law.slip > 0 ? (c - law.residual) * std::exp(-slip / law.slip) : 0);
+    };
+    JointPath path = sheared(stress, 4e-3);
+    path.bonded = true;
+    double dissipated = 0, sheared_before = 0, plastic_before = 0;
+    int slipping = 0, snapped = 0;
+    for (const JointPathPoint& at : follow(p, path)) {
+      if (at.slip == 0) continue;
+      if (ks * at.slip <= c + friction) {
+        EXPECT_EQ(at.bond, Bond::whole);
+        EXPECT_NEAR(at.shear_stress, ks * at.slip, least * friction);
+      } else {
+        const double strength = cohesion_after(at.plastic_slip) + friction;
+        EXPECT_EQ(at.bond, Bond::slipped);
+        EXPECT_NEAR(at.shear_stress, strength, least * strength);
+        EXPECT_NEAR(at.slip, strength / ks + at.plastic_slip, least * at.slip);
+        EXPECT_NEAR(at.cohesion, cohesion_after(at.plastic_slip), least * c);
+        ++slipping;
+        snapped += at.snap_back;
+      }
+      dissipated += 0.5 * (sheared_before + at.shear_stress) * (at.plastic_slip - plastic_before);
+      EXPECT_NEAR(at.dissipated, dissipated, 1e-12 * friction);
+      sheared_before = at.shear_stress;
+      plastic_before = at.plastic_slip;
+    }
+    EXPECT_GT(slipping, 50);
+    EXPECT_EQ(snapped, law.law == CohesionLaw::softening && law.slip == 0 ? 1 : 0);
+  }
+}
+
+// (c - c_r)/s = 3 GPa/m is more than the spring's 1: the fall is at once, to the only root
+TEST(ShearLaw, CohesionThatFallsFasterThanTheSpringSnapsBack) {
+  JointProperties p{"cohesive", 2e9, 1e9, 40 * degree, false};
+  p.laws.bond = true;
+  p.cohesion = 0.3e6;
+  p.cohesion_law = CohesionLaw::softening;
+  p.cohesion_slip = 1e-4;
+  JointPath path = sheared(1e6, 4e-3);
+  path.bonded = true;
+  int snapped = 0;
+  for (const JointPathPoint& at : follow(p, path)) {
+    snapped += at.snap_back;
+    if (at.bond == Bond::slipped) {
+      EXPECT_NEAR(at.slip, at.shear_stress / 1e9 + at.plastic_slip, 1e-12 * at.slip);
+    }
+  }
+  EXPECT_EQ(snapped, 1);
+}
+
+// A slipped bond keeps its cohesion under any load that leaves the joint closed and loses it, permanently, as soon as
+// the normal force is zero; its tensile strength went with the slip.
+TEST(ShearLaw, OpeningTakesWhatSlipHasLeft) {
+  JointProperties p = bonded_joint();
+  p.cohesion_law = CohesionLaw::plastic;
+  const double closed = p.tension / p.normal_stiffness;
+  JointState<2> history;
+  history.bond = Bond::whole;
+  JointKinematics<2> k;
+  k.normal = {0, 1};
+  k.area = 2;
+  k.overlap = closed + 1e-5;
+  k.slip = {-1e-2, 0};
+  const double strength = 2 * (p.cohesion + std::tan(p.friction) * 2e9 * 1e-5);
+  EXPECT_NEAR(joint_law<2>(p, p.friction, 0, k, history).force[0], strength, 1e-9 * strength);
+  EXPECT_EQ(history.bond, Bond::slipped);
+  k.slip = {1e-2, 0};  // back and forth, then nearly unloaded
+  EXPECT_NEAR(joint_law<2>(p, p.friction, 0, k, history).force[0], -strength, 1e-9 * strength);
+  k.overlap = closed + 1e-12;
+  EXPECT_NEAR(joint_law<2>(p, p.friction, 0, k, history).force[0], -2 * p.cohesion, 1e-6 * strength);
+  EXPECT_EQ(history.bond, Bond::slipped);
+  k.overlap = closed;
+  EXPECT_EQ(joint_law<2>(p, p.friction, 0, k, history).force, Vector<2>::Zero());
+  EXPECT_EQ(history.bond, Bond::lost);
+  k.overlap = closed + 1e-5;
+  const double frictional = 2 * std::tan(p.friction) * 2e9 * 1e-5;
+  EXPECT_NEAR(joint_law<2>(p, p.friction, 0, k, history).force[0], -frictional, 1e-9 * strength);
+}
+
+// a factor divides c and c_r, to the bit
+TEST(ShearLaw, AFactorDividesBothCohesions) {
+  constexpr double factor = 1.6;
+  JointProperties p{"cohesive", 2e9, 1e9, 40 * degree, false};
+  p.laws.bond = true;
+  p.cohesion = 0.3e6;
+  p.cohesion_law = CohesionLaw::softening;
+  p.residual_cohesion = 0.1e6;
+  p.cohesion_slip = 1e-3;
+  JointProperties weaker = p;
+  weaker.cohesion /= factor;
+  weaker.residual_cohesion /= factor;
+  JointState<3> divided, stated;
+  divided.bond = stated.bond = Bond::whole;
+  JointKinematics<3> k;
+  k.normal = {0, 0, 1};
+  k.area = 2;
+  k.overlap = 1e-4;
+  for (int step = 0; step < 200; ++step) {
+    k.slip = {-1e-5 * (1 + step % 3), 0, 0};
+    EXPECT_EQ(joint_law<3>(p, p.friction, 0, k, divided, factor).force,
+              joint_law<3>(weaker, p.friction, 0, k, stated).force);
+  }
+  EXPECT_EQ(divided.bond, Bond::slipped);
 }
 
 TEST(ShearLaw, SnapBackIsReported) {
@@ -307,7 +437,7 @@ TEST(JointEnergy, DissipationIsNeverNegative) {
   for (int i = 0; i < paths; ++i) {
     const JointProperties& p = laws[i % laws.size()];
     JointState<3> history;
-    history.bonded = p.laws.bond && i % 2;
+    if (p.laws.bond && i % 2) history.bond = Bond::whole;
     JointKinematics<3> k;
     k.normal = {0, 0, 1};
     k.area = shapes::power_of_ten(random, -2, 1);
@@ -321,7 +451,7 @@ TEST(JointEnergy, DissipationIsNeverNegative) {
       ASSERT_GE(history.plastic_slip, before);
       const double coefficient =
           friction_answer(p, p.friction, history.plastic_slip, answer.force[2] / k.area).coefficient;
-      const double cohesion = history.bonded ? p.cohesion * k.area : 0;
+      const double cohesion = cohesion_answer(p, history.bond, history.bond_slip).stress * k.area;
       ASSERT_LE(history.shear_force.norm(),
                 (cohesion + coefficient * std::max(answer.force[2], 0.0)) * (1 + 1e-9) + 1e-300)
           << p.name;

@@ -186,11 +186,11 @@ void judge_bonds(const Scene& scene, Warnings& warnings) {
                                    "exceeds cohesion / tan(friction_deg) = " + text(p.cohesion / std::tan(p.friction)) +
                                        " Pa, beyond which a joint in tension has no shear strength: it breaks there"));
     const bool of_lining = std::ranges::count(scene.linings, p.name, &LiningSpec::interface_properties) > 0;
-    if (made || scene.stages.empty() || !p.laws.bond || of_lining) continue;
-    warnings.push_back(complaint(
-        spec.subject, p.cohesion > 0 ? "cohesion" : "tension",
-        "has an effect only if joints are bonded, and no stage bonds any: write bond = true in the stage from "
-        "which it should act"));
+    if (made || scene.stages.empty() || !p.laws.bond || of_lining || p.bonds == BondsMade::as_sliced) continue;
+    warnings.push_back(complaint(spec.subject, p.cohesion > 0 ? "cohesion" : "tension",
+                                 "has an effect only if joints are bonded, and no stage bonds any: write bonds = "
+                                 "\"as_sliced\" here, or bond = true in "
+                                 "the stage from which it should act"));
   }
   for (const StageSpec& stage : scene.stages)
     if (stage.plan.change.bond && !strong)
