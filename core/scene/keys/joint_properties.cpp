@@ -95,7 +95,7 @@ KeyTable joint_property_keys() {
      .breaks = "plastic is unsafe if the joint is brittle, and a laboratory's residual cohesion is not it; brittle cohesion that several joints "
          "share makes a factor of safety depend on shear_stiffness / normal_stiffness"},
     {.key = "residual_cohesion", .members = {in(&JointProperties::residual_cohesion)}, .unit = "Pa", .range = not_negative,
-     .plausible = {.low = 1e3, .high = 1e8, .or_zero = true}, .example = "0.2e6", .when = {"cohesion_law", "softening"},
+     .plausible = {.low = 1e3, .high = 1e8, .or_zero = true}, .example = "0.05e6", .when = {"cohesion_law", "softening"},
      .meaning = "cohesion that any slip leaves, at most cohesion", .mistake = "was it given in MPa?"},
     {.key = "cohesion_slip_m", .members = {in(&JointProperties::cohesion_slip)}, .unit = "m", .range = not_negative,
      .plausible = {.low = 1e-5, .high = 1, .or_zero = true}, .example = "0.002", .required = true,
