@@ -359,7 +359,8 @@ gravity = [0, -10]
 density = 2000
 domain = { box = { min = [-2, -3], max = [2, 3] } }
 joints = [{ name = "A", dip = 30, dip_direction = 90, point = [0, -1] }]
-joint_properties = [{ name = "rock", normal_stiffness = 1e9, shear_stiffness = 1e8, friction_deg = 40, cohesion = 1e3 }]
+joint_properties = [{ name = "rock", normal_stiffness = 1e9, shear_stiffness = 1e8, friction_deg = 40, cohesion = 1e3,
+                      bonds = "by_stage" }]
 fix = [{ below = ["A"] }]
 stage = [{ name = "settle", kind = "settle" }]
 )");
