@@ -354,13 +354,13 @@ with = [{ key = "density", values = [2000, 4000] }, { key = "joint_properties.ro
 TEST_F(Study, MayRunLimitAnalysis) {
   if (!is_built_in("glpk")) GTEST_SKIP();
   write("plane.toml", R"(
+preset = "thesis"
 dimension = 2
 gravity = [0, -10]
 density = 2000
 domain = { box = { min = [-2, -3], max = [2, 3] } }
 joints = [{ name = "A", dip = 30, dip_direction = 90, point = [0, -1] }]
-joint_properties = [{ name = "rock", normal_stiffness = 1e9, shear_stiffness = 1e8, friction_deg = 40, cohesion = 1e3,
-                      bonds = "by_stage" }]
+joint_properties = [{ name = "rock", normal_stiffness = 1e9, shear_stiffness = 1e8, friction_deg = 40, cohesion = 1e3 }]
 fix = [{ below = ["A"] }]
 stage = [{ name = "settle", kind = "settle" }]
 )");
