@@ -174,7 +174,9 @@ TEST_F(Program, StrengthCountsWhereJointsAreBondedAndTheResultsCountTheBonds) {
 
   EXPECT_NE(run("check " + cubes_ + "--set stage.settle.bond=true").out.find("bonds nothing"), std::string::npos);
   if (!is_built_in("glpk")) return;
-  const Ended limit = run("limit " + squares_ + "--out limit --set joint_properties.rock.cohesion=1e5");
+  const Ended limit = run("limit " + squares_ +
+                          "--out limit --set joint_properties.rock.cohesion=1e5 "
+                          "--set joint_properties.rock.bonds=by_stage");
   EXPECT_NE(limit.err.find("leaves both out"), std::string::npos) << limit.err;
 }
 

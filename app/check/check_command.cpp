@@ -16,6 +16,7 @@
 #include "app/check/check_support.hpp"
 #include "core/contact/integrable.hpp"
 #include "core/model/water_surfaces.hpp"
+#include "core/run/bonds_as_sliced.hpp"
 #include "core/scene/judge_values.hpp"
 #include "core/scene/scene.hpp"
 #include "core/step/relaxation.hpp"
@@ -137,6 +138,12 @@ void print_water(const Prepared<Dim>& prepared) {
   print_line("", "hydrostatic (no flow, drag or added mass); contact forces are effective");
 }
 
+std::string law_of_cohesion(const JointProperties& p) {
+  if (p.cohesion_law == CohesionLaw::plastic) return "plastic: slip leaves it";
+  if (p.cohesion_law == CohesionLaw::brittle) return "brittle: the first slip takes it";
+  return fmt::format("softens to {} within {:g} m of slip", quantity_text(p.residual_cohesion, "Pa"), p.cohesion_slip);
+}
+
 // the laws that a plain joint does not have, one after the other
 std::vector<std::string> laws_text(const JointProperties& p) {
   std::vector<std::string> laws;
@@ -156,8 +163,9 @@ std::vector<std::string> laws_text(const JointProperties& p) {
       p.hardening_exponent);
   add(p.laws.friction == FrictionLaw::softening,
       fmt::runtime("friction coefficient softens by {:g} within {:g} m of slip"), p.softening_drop, p.softening_slip);
-  add(p.tension > 0, fmt::runtime("tension {} if bonded"), quantity_text(p.tension, "Pa"));
-  add(p.cohesion > 0, fmt::runtime("cohesion {} if bonded"), quantity_text(p.cohesion, "Pa"));
+  const char* const where = p.bonds == BondsMade::as_sliced ? "from the first stage on" : "if bonded";
+  add(p.tension > 0, fmt::runtime("tension {} {}"), quantity_text(p.tension, "Pa"), where);
+  add(p.cohesion > 0, fmt::runtime("cohesion {} {}, {}"), quantity_text(p.cohesion, "Pa"), where, law_of_cohesion(p));
   return laws;
 }
 
@@ -232,7 +240,7 @@ std::string inactive(const Prepared<Dim>& prepared) {
   const auto none_has = [&](auto test) { return std::none_of(model.properties.begin(), model.properties.end(), test); };
   if (none_has([](const JointProperties& p) { return !p.laws.is_plain(); })) list.push_back("joint laws and strengths");
   if (none_has([](const JointProperties& p) { return p.sub_contacts > 1; })) list.push_back("sub-contacts");
-  if (none_changes([](const Change& c) { return c.bond; })) list.push_back("bonds");
+  if (none_changes([](const Change& c) { return c.bond; }) && !has_bonds_as_sliced(model)) list.push_back("bonds");
   if (none_changes([](const Change& c) { return !c.move.empty(); })) list.push_back("prescribed motion");
   if (none_changes([](const Change& c) { return !c.boundary.empty(); })) list.push_back("boundary stress");
   if (none_changes([](const Change& c) { return !c.force.empty(); })) list.push_back("applied forces");

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "app/check/blocks.hpp"
+#include "core/run/bonds_as_sliced.hpp"
 #include "core/scene/judge_values.hpp"
 #include "core/step/contacts.hpp"
 #include "core/step/joint_forces.hpp"
@@ -225,9 +226,13 @@ Forecast forecast(const Prepared<Dim>& prepared, const Model<Dim>& model, State<
   result.candidates = static_cast<int>(state.contacts.list.size());
   result.touching = static_cast<int>(std::count_if(state.contacts.list.begin(), state.contacts.list.end(),
                                                    [](const Contact<Dim>& contact) { return contact.touching(); }));
-  if (std::any_of(prepared.stages.begin(), prepared.stages.end(), [](const StagePlan& s) { return s.change.bond; })) {
+  const bool by_stage =
+      std::any_of(prepared.stages.begin(), prepared.stages.end(), [](const StagePlan& s) { return s.change.bond; });
+  if (by_stage || (has_bonds_as_sliced(model) && !prepared.stages.empty())) {
     State<Dim> bonded = state;
-    make_bonds(model, prepared.settings, bonded.bodies, bonded.contacts, bonded.ledger.bonds, bonded.counters);
+    make_bonds_as_sliced(model, prepared.settings, bonded);
+    if (by_stage)
+      make_bonds(model, prepared.settings, bonded.bodies, bonded.contacts, bonded.ledger.bonds, bonded.counters);
     result.bonds = count_bonds(bonded.contacts, bonded.ledger.bonds);
   }
   find_crowd(prepared, model, state, result);

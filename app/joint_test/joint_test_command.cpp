@@ -96,7 +96,7 @@ std::string table(const std::vector<JointTest>& tests) {
       text +=
           fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_cell(test.name), test.stress, p.overlap,
                       p.slip, p.normal_stress, p.shear_stress, p.normal_stiffness, p.shear_stiffness, p.plastic_slip,
-                      p.friction, p.elastic, p.dissipated, p.stiffening, p.bonded ? 1 : 0, p.snap_back ? 1 : 0);
+                      p.friction, p.elastic, p.dissipated, p.stiffening, static_cast<int>(p.bond), p.snap_back ? 1 : 0);
   return text;
 }
 

@@ -43,15 +43,28 @@ std::vector<std::string> unsupported(const LimitAnalysis& analysis) {
 }
 
 // strengths other than friction that are left out
-void warn_of_strengths(const std::vector<JointProperties>& properties, bool cohesion,
-                       std::vector<std::string>& warnings) {
-  for (const JointProperties& p : properties) {
-    if (p.laws.bond && !cohesion)
-      warnings.push_back(
-          fmt::format("joint_properties '{}' state tension {:.4g} Pa and cohesion {:.4g} Pa; limit analysis "
-                      "leaves both out: its joints have friction alone ('--cohesion' counts the cohesion)",
-                      p.name, p.tension, p.cohesion));
-    if (cohesion && p.tension > 0)
+void warn_of_strengths(const LimitAnalysis& analysis, std::vector<std::string>& warnings) {
+  const std::vector<JointProperties>& properties = analysis.model.properties;
+  for (std::size_t k = 0; k < properties.size(); ++k) {
+    const JointProperties& p = properties[k];
+    const auto is_cohesive = [&](const Interface& face) {
+      return face.properties == static_cast<int>(k) && face.cohesion > 0;
+    };
+    const bool counts = std::ranges::any_of(analysis.interfaces, is_cohesive);
+    if (p.laws.bond && !counts)
+      warnings.push_back(fmt::format(
+          "joint_properties '{}' state tension {:.4g} Pa and cohesion {:.4g} Pa; limit analysis "
+          "leaves both out: its joints have friction alone ('--cohesion' counts the cohesion{})",
+          p.name, p.tension, p.cohesion,
+          p.bonds == BondsMade::as_sliced ? "; by itself it acts between faces of one joint, and blocks given "
+                                            "directly have none"
+                                          : ", bonds = \"as_sliced\" in the scene too"));
+    if (counts && p.cohesion > 0 && p.cohesion_law != CohesionLaw::plastic)
+      warnings.push_back(fmt::format(
+          "joint_properties '{}' have cohesion {:.4g} Pa that slip takes; limit analysis counts it as plastic, "
+          "which is unsafe where several joints share the load",
+          p.name, p.cohesion));
+    if (counts && p.tension > 0)
       warnings.push_back(fmt::format(
           "joint_properties '{}' state tension {:.4g} Pa, which limit analysis leaves out: its joints open freely",
           p.name, p.tension));
@@ -114,12 +127,16 @@ CriticalStrength seek_strength(const LimitRequest& request, const Find& find, co
   return found;
 }
 
+bool counts_cohesion(const LimitAnalysis& analysis) {
+  return std::ranges::any_of(analysis.interfaces, [](const Interface& face) { return face.cohesion > 0; });
+}
+
 void seek_factor_of_safety(const LimitRequest& request, LimitAnalysis& analysis) {
   analysis.sought = "factor of safety of ";
   const CriticalStrength found = seek_strength(request, find_factor_of_safety, "--joint", analysis);
   if (found.status == LimitStatus::found && std::isfinite(found.collapses)) {
     analysis.values.emplace_back("factor_of_safety", bracketed(found.stands, found.collapses, "1"));
-    analysis.values.back().second.divides = divided_by_factor(request.properties, request.cohesion);
+    analysis.values.back().second.divides = divided_by_factor(request.properties, counts_cohesion(analysis));
     analysis.values.emplace_back("force_missing_beyond", Value{found.missing, "weight of a block", {}, ""});
   } else if (found.status == LimitStatus::found) {
     analysis.message = fmt::format(
@@ -268,7 +285,7 @@ LimitAnalysis analyse_limit(const LoadedScene& scene, const LimitRequest& reques
   analysis.interfaces = find_interfaces(analysis.model, request.cohesion);
   if (!analysis.model.waters.empty()) analysis.water = water_loads_at_reference<2>(analysis.model);
   analysis.warnings = unsupported(analysis);
-  warn_of_strengths(analysis.model.properties, request.cohesion, analysis.warnings);
+  warn_of_strengths(analysis, analysis.warnings);
   const StagePlan* analysed = request.load == LimitLoad::applied ? stage_of_forces(prepared->stages) : nullptr;
   if (request.load == LimitLoad::applied && !analysed)
     throw BadInput(

@@ -163,7 +163,9 @@ void add_limit(CLI::App& program, Action& action) {
       ->check(plain_text())
       ->needs(factor);
   command->add_flag("--cohesion", arguments.cohesion,
-                    "include the cohesion of joint_properties, as of intact bonds; tension is left out");
+                    "include the cohesion of all joint_properties, also of those that only a stage bonds (those with "
+                    "bonds = \"as_sliced\" "
+                    "always have theirs); it is plastic, and tension is left out");
   add_overwrite(command, arguments.overwrite);
   command->add_flag("--quiet", arguments.quiet, "no warnings and no summary");
 }

@@ -98,8 +98,10 @@ stage = [{ name = "settle", kind = "settle" }]
     EXPECT_EQ(run("limit plane.toml --factor --overwrite --out out " + options).code, 0);
     return results("out")["values"]["factor_of_safety"]["value"].get<double>();
   };
-  EXPECT_NEAR(factor(""), friction, 1e-6);
-  EXPECT_NEAR(factor("--cohesion"), friction + cohesion, 1e-6);
+  EXPECT_NEAR(factor(""), friction + cohesion, 1e-6) << "what is stated acts";
+  EXPECT_NEAR(factor("--set joint_properties.rock.bonds=by_stage"), friction, 1e-6);
+  EXPECT_NEAR(factor("--cohesion --set joint_properties.rock.bonds=by_stage"), friction + cohesion, 1e-6);
+  EXPECT_NEAR(factor("--set preset=thesis"), friction, 1e-6);
 }
 
 TEST_F(Program, LimitFindsTheFactorOfAppliedForces) {

@@ -95,11 +95,11 @@ std::optional<BlockTheory> judge_moving(const Prepared<Dim>& prepared, int place
   }
   const Vector<Dim>& gravity = set.assembly.model.gravity;
   gather<Dim>(set.assembly, mechanism.bodies(), {}, set.block);
-  // without bonds a run has no cohesion
+  // bonds of a stage act from that stage on
   const auto bonds = [](const StagePlan& stage) { return stage.change.bond; };
   if (std::none_of(prepared.stages.begin(), prepared.stages.begin() + place + 1, bonds))
     for (RockFace<Dim>& face : set.block.faces)
-      face.cohesion = 0;
+      if (set.assembly.model.properties[face.properties].bonds == BondsMade::by_stage) face.cohesion = 0;
   set.bolted = judge_bolted<Dim>(set.block, Vector<Dim>::Zero(), gravity);
   const Verdict<Dim>& verdict = set.bolted.verdict;
   BlockTheory theory;

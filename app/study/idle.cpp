@@ -83,6 +83,11 @@ void forget_unused_properties(const Scene& scene, Node& tree) {
   });
 }
 
+bool acts_as_sliced(const Node& properties) {
+  const Node* bonds = properties.find("bonds");
+  return bonds && bonds->text == "as_sliced";
+}
+
 // Friction that the first stage replaces, and strength of bonds that no stage makes, never act.
 Node part_of_run(const Scene& scene, bool with_history) {
   Node tree = shared_part(scene, static_cast<int>(scene.stages.size()));
@@ -94,7 +99,7 @@ Node part_of_run(const Scene& scene, bool with_history) {
   const Names interfaces = interfaces_of(tree);
   each_properties(tree, [&](Node& item, const std::string& name) {
     if (stages && replaces_friction(stages->items.front(), name)) forget(item, "friction_deg");
-    if (bonds || interfaces.contains(name)) return;
+    if (bonds || interfaces.contains(name) || acts_as_sliced(item)) return;
     forget_amount(item, "cohesion");
     forget_amount(item, "tension");
   });
@@ -116,8 +121,9 @@ Node part_of_limit(const Scene& scene, const std::vector<std::string>& options) 
     forget(tree, key);
   forget_unused_properties(scene, tree);
   each_properties(tree, [&](Node& item, const std::string& name) {
+    const bool cohesion = asked("--cohesion") || acts_as_sliced(item);
     std::erase_if(item.members, [&](const Member& m) {
-      return m.key != "name" && m.key != "friction_deg" && !(m.key == "cohesion" && asked("--cohesion"));
+      return m.key != "name" && m.key != "friction_deg" && !(cohesion && (m.key == "cohesion" || m.key == "bonds"));
     });
     if (seeks_friction && (sought.empty() || sought.contains(name))) forget(item, "friction_deg");
   });

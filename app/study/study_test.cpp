@@ -354,6 +354,7 @@ with = [{ key = "density", values = [2000, 4000] }, { key = "joint_properties.ro
 TEST_F(Study, MayRunLimitAnalysis) {
   if (!is_built_in("glpk")) GTEST_SKIP();
   write("plane.toml", R"(
+preset = "thesis"
 dimension = 2
 gravity = [0, -10]
 density = 2000

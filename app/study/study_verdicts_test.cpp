@@ -296,6 +296,7 @@ normal_stiffness = 1e9
 shear_stiffness = 1e8
 friction_deg = 40
 cohesion = 5e3
+bonds = "by_stage"
 [[joint_properties]]
 name = "spare"
 normal_stiffness = 1e9
@@ -364,6 +365,9 @@ TEST_F(StudyKeys, AreKnownToBeIdleBeforeAnyRun) {
   EXPECT_EQ(idle(sweep(keys[0], "limit = { friction = [\"spare\"] }\n")).size(), 0u);
   EXPECT_EQ(idle(sweep(keys[1], "limit = { factor = true, cohesion = true }\n")).size(), 0u);
   EXPECT_EQ(idle(sweep(keys[1], "set = [\"stage.settle.bond=true\"]\n")).size(), 0u);
+  const std::string as_sliced = "set = [\"joint_properties.rock.bonds=as_sliced\"]\n";
+  EXPECT_EQ(idle(sweep(keys[1], as_sliced)).size(), 0u);
+  EXPECT_EQ(idle(sweep(keys[1], as_sliced + "limit = { factor = true }\n")).size(), 0u);
   EXPECT_EQ(idle(sweep({"density", "[2600, 2600]", true, true})).size(), 0u) << "nothing is varied";
 }
 

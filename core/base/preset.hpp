@@ -17,6 +17,7 @@ enum class PresetScope {
   everywhere,
   integrable_faces,   // a joint has constant stiffness per area and constant friction, and contacts are not stated
   faces_by_points,    // joint_properties that cannot be integrated, in such a scene
+  bonded_joints,      // joint_properties with tension or cohesion that are not of a lining's interface
   watched_searches,   // bisections without a stated failure displacement
   scenes_with_these,  // scenes with such a search
   searches_by_steps,  // searches that the required strength does not judge
@@ -39,6 +40,10 @@ inline constexpr PresetSetting standard_settings[] = {
     // one point a face resists neither spin nor rocking
     {"contact", "face", "integrated", PresetScope::integrable_faces},
     {"joint_properties", "sub_contacts", 4, PresetScope::faces_by_points},
+    // limit equilibrium's assumption, on which the trade's factors of safety rest; brittle bonds depend on stiffness
+    {"joint_properties", "cohesion_law", "plastic", PresetScope::bonded_joints},
+    // what is stated acts, in every command
+    {"joint_properties", "bonds", "as_sliced", PresetScope::bonded_joints},
     // the loss of equilibrium itself, not a displacement
     {"stage", "failure_criterion", "required_strength", PresetScope::watched_searches},
     // one more search, with stiffer joints: what is left of the error of sliding blocks is in proportion to 1/kn

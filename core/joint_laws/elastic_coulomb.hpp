@@ -28,7 +28,7 @@ struct JointForce {
                         // never negative
   double dashpot = 0;   // N: the dashpot's fraction of the normal force
   double stiffening = 0;   // J lost by the shear spring as it stiffened under its force; negative: gained
-  bool snap_back = false;  // friction fell faster than the spring could unload
+  bool snap_back = false;  // strength fell faster than the spring could unload
 };
 
 // of a force or slip of any size: the square of 1e-200 N is zero

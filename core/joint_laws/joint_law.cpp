@@ -22,6 +22,11 @@ double offset(const JointProperties& p) {
   return p.laws.bond ? p.tension / p.normal_stiffness : 0;
 }
 
+// a softening cohesion without a length
+bool falls_at_once(const JointProperties& p) {
+  return p.cohesion_law == CohesionLaw::softening && !(p.cohesion_slip > 0) && p.residual_cohesion < p.cohesion;
+}
+
 }  // namespace
 
 NormalAnswer normal_answer(const JointProperties& p, double overlap, bool bonded) {
@@ -72,14 +77,31 @@ FrictionAnswer friction_answer(const JointProperties& p, double friction, double
   return {last, 0};
 }
 
+CohesionAnswer cohesion_answer(const JointProperties& p, Bond bond, double slip, double strength_factor) {
+  if (bond == Bond::lost) return {};
+  const double whole = p.cohesion / strength_factor;
+  if (bond == Bond::whole || p.cohesion_law != CohesionLaw::softening) return {whole, 0};
+  const double residual = p.residual_cohesion / strength_factor;
+  if (!(p.cohesion_slip > 0)) return {residual, 0};
+  const double above = (whole - residual) * std::exp(-slip / p.cohesion_slip);
+  return {residual + above, -above / p.cohesion_slip};
+}
+
 // Eqs F.1-F.8 in one number: elastic trial, force and plastic slip have one direction.
 SlipReturn return_to_cone(const JointProperties& p, double friction, double plastic_slip, double trial,
-                          double stiffness, double normal_force, double stress, double strength_factor) {
+                          double stiffness, double normal_force, double stress, double strength_factor,
+                          const Adhesion& adhesion) {
+  const double area = adhesion.area;
+  const auto cohesion_after = [&](double slip) {
+    return cohesion_answer(p, adhesion.bond, adhesion.slip + slip, strength_factor);
+  };
   SlipReturn result;
+  const CohesionAnswer bond = cohesion_after(0);
   result.snap_back =
-      stiffness < -normal_force * friction_answer(p, friction, plastic_slip, stress, strength_factor).slope;
-  if (p.laws.friction == FrictionLaw::constant) {
-    result.slip = (trial - std::tan(friction) * normal_force) / stiffness;
+      stiffness <
+      -normal_force * friction_answer(p, friction, plastic_slip, stress, strength_factor).slope - area * bond.slope;
+  if (p.laws.friction == FrictionLaw::constant && bond.slope == 0) {
+    result.slip = (trial - std::tan(friction) * normal_force - area * bond.stress) / stiffness;
     return result;
   }
   double low = 0, high = trial / stiffness;
@@ -88,9 +110,10 @@ SlipReturn return_to_cone(const JointProperties& p, double friction, double plas
   constexpr int limit = 2 * std::numeric_limits<double>::digits;
   for (int i = 0; i < limit; ++i) {
     const FrictionAnswer at = friction_answer(p, friction, plastic_slip + slip, stress, strength_factor);
-    const double excess = trial - stiffness * slip - at.coefficient * normal_force;
+    const CohesionAnswer left = cohesion_after(slip);
+    const double excess = trial - stiffness * slip - at.coefficient * normal_force - area * left.stress;
     (excess > 0 ? low : high) = slip;
-    double next = slip + excess / (stiffness + at.slope * normal_force);
+    double next = slip + excess / (stiffness + at.slope * normal_force + area * left.slope);
     if (!(next >= low && next <= high)) next = 0.5 * (low + high);
     const bool done = std::abs(next - slip) <= std::numeric_limits<double>::epsilon() * next;
     slip = next;
@@ -107,17 +130,21 @@ JointForce<Dim> joint_law(const JointProperties& p, double friction, double dash
   const double area = kinematics.area;
   JointForce<Dim> result;
 
-  // the normal force; a bond breaks when it is pulled beyond its strength
-  NormalAnswer normal = normal_answer(p, kinematics.overlap, history.bonded);
+  // the normal force; a bond breaks when it is pulled beyond its strength, of which a slipped one has none
+  NormalAnswer normal = normal_answer(p, kinematics.overlap, history.bond == Bond::whole);
   const double damping = dashpot * kinematics.closing_speed;
-  if (history.bonded && normal.stress * area + damping < -p.tension * area) {
-    history.bonded = false;
+  if (history.bond == Bond::whole && normal.stress * area + damping < -p.tension * area) {
+    history.bond = Bond::lost;
     normal = normal_answer(p, kinematics.overlap, false);
   }
   const auto normal_force = [&] {
     const double force = normal.stress * area + damping;
-    return history.bonded ? force : std::max(force, 0.0);
+    return history.bond == Bond::whole ? force : std::max(force, 0.0);
   };
+  const auto lose_if_open = [&] {
+    if (history.bond == Bond::slipped && !(normal_force() > 0)) history.bond = Bond::lost;
+  };
+  lose_if_open();
 
   // at constant shear force the spring's energy changes with its stiffness
   const double per_area = shear_stiffness_at(p, normal.stress), stiffness = per_area * area;
@@ -125,27 +152,33 @@ JointForce<Dim> joint_law(const JointProperties& p, double friction, double dash
     result.stiffening = 0.5 * shear.squaredNorm() / area * (1 / history.shear_stiffness - 1 / per_area);
   history.shear_stiffness = per_area;
 
-  // elastic trial; slip breaks a bond and leaves friction
+  // elastic trial; slip takes a bond's tensile strength and, of a brittle one, its cohesion
   const Vector<Dim> old_shear = shear;
   shear -= stiffness * kinematics.slip;
   const double trial = length_of<Dim>(shear);
   const auto strength = [&] {
     const double coefficient =
         friction_answer(p, friction, history.plastic_slip, normal.stress, strength_factor).coefficient;
-    return std::max((history.bonded ? p.cohesion / strength_factor * area : 0) + coefficient * normal_force(), 0.0);
+    const double cohesion = cohesion_answer(p, history.bond, history.bond_slip, strength_factor).stress;
+    return std::max(cohesion * area + coefficient * normal_force(), 0.0);
   };
   if (trial > strength()) {
-    if (history.bonded) {
-      history.bonded = false;
+    if (history.bond == Bond::whole) {
+      const bool keeps = p.cohesion_law != CohesionLaw::brittle && p.cohesion > 0;
+      history.bond = keeps ? Bond::slipped : Bond::lost;
+      history.bond_slip = 0;
       normal = normal_answer(p, kinematics.overlap, false);
+      result.snap_back = keeps && falls_at_once(p);
+      lose_if_open();
     }
     double limit = strength();  // after the bond's loss; hardening may leave no slip
     if (stiffness > 0 && trial > limit) {
       const SlipReturn back = return_to_cone(p, friction, history.plastic_slip, trial, stiffness, normal_force(),
-                                             normal.stress, strength_factor);
+                                             normal.stress, strength_factor, {area, history.bond, history.bond_slip});
       result.plastic_slip = back.slip;
-      result.snap_back = back.snap_back;
+      result.snap_back = result.snap_back || back.snap_back;
       history.plastic_slip += back.slip;
+      if (history.bond == Bond::slipped) history.bond_slip += back.slip;
       limit = std::min(strength(), trial);
     }
     const Vector<Dim> excess = shear * (1 - limit / trial);

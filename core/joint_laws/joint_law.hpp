@@ -1,7 +1,7 @@
 // Joint laws beyond the plain one (Boon 2013, Eqs 4.10-4.14, 4.16-4.18, 6.3-6.7; decisions in
-// core/joint_laws/README.md): stiffness that depends on the normal stress, strength in tension and cohesion with
-// brittle loss, friction that hardens or softens with slip. The table of scene keys (scene/keys/joint_properties.cpp)
-// repeats parameters and equations for users.
+// core/joint_laws/README.md): stiffness that depends on the normal stress, strength in tension, cohesion that
+// slip takes or leaves, friction that hardens or softens with slip. The table of scene keys
+// (scene/keys/joint_properties.cpp) repeats parameters and equations for users.
 #pragma once
 
 #include "core/joint_laws/elastic_coulomb.hpp"
@@ -37,16 +37,32 @@ struct FrictionAnswer {
 FrictionAnswer friction_answer(const JointProperties& properties, double friction, double slip, double stress,
                                double strength_factor = 1);
 
-// The plastic slip p of a return to the cone after the slip β = `plastic_slip`: trial - K p = μ(β + p) N, within [0,
-// trial/K], over which the left side minus the right changes from positive to not positive. Hardening makes that
-// difference convex, softening concave: one root either way, to which Newton's method runs from one side. Needs K > 0
-// and trial > μ(β) N.
+// The cohesion of a bond, Pa, after the plastic slip `slip`, m, since it was made, and its derivative, Pa/m: c of a
+// whole one, c(β) = c_r + (c - c_r) e^(-β/s) of a slipped one, both over the strength factor; none of a lost one.
+struct CohesionAnswer {
+  double stress = 0, slope = 0;
+};
+CohesionAnswer cohesion_answer(const JointProperties& properties, Bond bond, double slip, double strength_factor = 1);
+
+// of a bond: what its cohesion adds to the strength
+struct Adhesion {
+  double area = 0;  // m²
+  Bond bond = Bond::lost;
+  double slip = 0;  // m, since it was made
+};
+
+// The plastic slip p of a return to the cone after the slip β = `plastic_slip`: trial - K p = c(β' + p) A + μ(β + p) N,
+// within [0, trial/K], over which the left side minus the right changes from positive to not positive. Hardening makes
+// that difference convex, softening of friction or cohesion concave: one root either way, to which Newton's method runs
+// from one side. Needs K > 0 and trial > c(β') A + μ(β) N.
 struct SlipReturn {
   double slip = 0;         // m
-  bool snap_back = false;  // friction fell faster than the spring unloads, N |μ'| > K: no quasi-static path leads here
+  bool snap_back = false;  // strength fell faster than the spring unloads, N |μ'| + A |c'| > K: no quasi-static path
+                           // leads here
 };
 SlipReturn return_to_cone(const JointProperties& properties, double friction, double plastic_slip, double trial,
-                          double stiffness, double normal_force, double stress, double strength_factor = 1);
+                          double stiffness, double normal_force, double stress, double strength_factor = 1,
+                          const Adhesion& adhesion = {});
 
 // As elastic_coulomb, for a joint with any laws; stiffness per area only. It updates the history's shear force, plastic
 // slip, shear stiffness and bond.

@@ -75,7 +75,15 @@ std::vector<JointProperties> every_law() {
   brittle.softening_slip = 1e-4;
   brittle.tension = 1e5;
   brittle.cohesion = 3e5;
-  return {plain(), linear(), power(), hardened(), softened(), bonded_joint(), brittle};
+  JointProperties cohesive = softened();
+  cohesive.name = "cohesive";
+  cohesive.laws.bond = true;
+  cohesive.tension = 1e4;
+  cohesive.cohesion = 3e5;
+  cohesive.cohesion_law = CohesionLaw::softening;
+  cohesive.residual_cohesion = 1e5;
+  cohesive.cohesion_slip = 1e-2;
+  return {plain(), linear(), power(), hardened(), softened(), bonded_joint(), brittle, cohesive};
 }
 
 // ---- normal
@@ -204,7 +212,7 @@ TEST(ShearLaw, CohesionIsLostAtTheFirstSlip) {
   for (const JointPathPoint& at : follow(p, path)) {
     if (at.slip == 0) continue;
     intact = intact && 1e9 * at.slip <= friction + 0.787e6;
-    EXPECT_EQ(at.bonded, intact);
+    EXPECT_EQ(at.bond == Bond::whole, intact);
     EXPECT_NEAR(at.shear_stress, intact ? 1e9 * at.slip : friction, closed_form * friction);
   }
   EXPECT_FALSE(intact);
@@ -219,19 +227,19 @@ TEST(ShearLaw, TensionAndSlipBreakTheSameBond) {
   k.area = 2;
   k.slip.setZero();
   k.overlap = 1e-5;  // 28 µm below the offset
-  history.bonded = true;
+  history.bond = Bond::whole;
   EXPECT_NEAR(joint_law<2>(p, p.friction, 0, k, history).force[1], -2 * 2e9 * 28e-6, 1e-6);
-  EXPECT_TRUE(history.bonded);
+  EXPECT_EQ(history.bond, Bond::whole);
   // a dashpot that pulls beyond the strength breaks it, and a broken bond does not pull
   k.closing_speed = -1;
   EXPECT_EQ(joint_law<2>(p, p.friction, 1e6, k, history).force[1], 0);
-  EXPECT_FALSE(history.bonded);
+  EXPECT_EQ(history.bond, Bond::lost);
   // slip under tension: the strength c A + tan φ F is less than without load; beyond it there is none
-  history.bonded = true;
+  history.bond = Bond::whole;
   k.closing_speed = 0;
   k.slip = {-1e-3, 0};  // the trial is 2 MN, the strength 1.574 - 0.094 MN
   const JointForce<2> torn = joint_law<2>(p, p.friction, 0, k, history);
-  EXPECT_FALSE(history.bonded);
+  EXPECT_EQ(history.bond, Bond::lost);
   EXPECT_EQ(torn.force, Vector<2>::Zero());
   EXPECT_EQ(history.shear_force, Vector<2>::Zero());
 }
@@ -250,7 +258,7 @@ TEST(ShearLaw, AFactorDividesTheFullShearStrength) {
   weaker.softening_drop /= factor;
   JointState<2> divided, stated, plain, of_one;
   for (JointState<2>* history : {&divided, &stated, &plain, &of_one})
-    history->bonded = true;
+    history->bond = Bond::whole;
   JointKinematics<2> k;
   k.normal = {0, 1};
   k.area = 2;
@@ -262,7 +270,7 @@ TEST(ShearLaw, AFactorDividesTheFullShearStrength) {
     EXPECT_EQ(force, joint_law<2>(weaker, weaker.friction, 0, k, stated).force) << step;
     EXPECT_EQ(divided.plastic_slip, stated.plastic_slip);
     EXPECT_EQ(joint_law<2>(p, p.friction, 0, k, plain).force, joint_law<2>(p, p.friction, 0, k, of_one, 1).force);
-    broken = broken || !divided.bonded;
+    broken = broken || divided.bond == Bond::lost;
   }
   EXPECT_TRUE(broken);
   EXPECT_GT(divided.plastic_slip, 0.02) << "softening has set in";
@@ -307,7 +315,7 @@ TEST(JointEnergy, DissipationIsNeverNegative) {
   for (int i = 0; i < paths; ++i) {
     const JointProperties& p = laws[i % laws.size()];
     JointState<3> history;
-    history.bonded = p.laws.bond && i % 2;
+    if (p.laws.bond && i % 2) history.bond = Bond::whole;
     JointKinematics<3> k;
     k.normal = {0, 0, 1};
     k.area = shapes::power_of_ten(random, -2, 1);
@@ -321,7 +329,7 @@ TEST(JointEnergy, DissipationIsNeverNegative) {
       ASSERT_GE(history.plastic_slip, before);
       const double coefficient =
           friction_answer(p, p.friction, history.plastic_slip, answer.force[2] / k.area).coefficient;
-      const double cohesion = history.bonded ? p.cohesion * k.area : 0;
+      const double cohesion = cohesion_answer(p, history.bond, history.bond_slip).stress * k.area;
       ASSERT_LE(history.shear_force.norm(),
                 (cohesion + coefficient * std::max(answer.force[2], 0.0)) * (1 + 1e-9) + 1e-300)
           << p.name;

@@ -44,7 +44,7 @@ struct Specimen {
     now.slip = slip;
     now.normal_stress = answer.force[1];
     now.shear_stress = history.shear_force[0];
-    now.normal_stiffness = normal_answer(properties, overlap, history.bonded).stiffness;
+    now.normal_stiffness = normal_answer(properties, overlap, history.bond == Bond::whole).stiffness;
     now.shear_stiffness = shear_stiffness_at(properties, now.normal_stress);
     now.plastic_slip = history.plastic_slip;
     now.friction =
@@ -52,7 +52,8 @@ struct Specimen {
     now.elastic = answer.elastic;
     now.dissipated += answer.friction;
     now.stiffening += answer.stiffening;
-    now.bonded = history.bonded;
+    now.bond = history.bond;
+    now.cohesion = cohesion_answer(properties, history.bond, history.bond_slip).stress;
     now.snap_back = answer.snap_back;
     points.push_back(now);
   }
@@ -65,7 +66,7 @@ std::vector<JointPathPoint> follow(const JointProperties& properties, const Join
   const double closed = overlap_at(properties, path.normal_stress);
   for (int i = 0; i <= path.steps; ++i)
     specimen.load(closed * i / path.steps, 0);
-  specimen.history.bonded = path.bonded;
+  if (path.bonded) specimen.history.bond = Bond::whole;
   if (path.unload)
     for (int i = path.steps - 1; i >= 0; --i)
       specimen.load(closed * i / path.steps, 0);
@@ -73,7 +74,7 @@ std::vector<JointPathPoint> follow(const JointProperties& properties, const Join
   const auto shear_to = [&](double from, double to) {
     for (int i = 1; i <= path.steps; ++i) {
       const double slip = from + (to - from) * i / path.steps, rise = path.dilation * std::abs(slip);
-      specimen.load(overlap_between(properties, path, closed, rise, specimen.history.bonded), slip);
+      specimen.load(overlap_between(properties, path, closed, rise, specimen.history.bond == Bond::whole), slip);
     }
   };
   if (path.slip != 0 && path.cycles == 0) shear_to(0, path.slip);

@@ -28,8 +28,10 @@ struct JointPathPoint {
   double normal_stiffness = 0, shear_stiffness = 0;    // Pa/m, tangents of the elastic springs
   double plastic_slip = 0;                             // m, accumulated
   double friction = 0;                                 // coefficient available
+  double cohesion = 0;                                 // Pa, available
   double elastic = 0, dissipated = 0, stiffening = 0;  // J/m², the last two since the start
-  bool bonded = false, snap_back = false;
+  Bond bond = Bond::lost;
+  bool snap_back = false;
 };
 
 // from the unloaded joint on, which is the first point

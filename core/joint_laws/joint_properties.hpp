@@ -21,11 +21,24 @@ enum class FrictionLaw : unsigned char {
   softening   // tan φ - softening_drop (1 - e^(-β/softening_slip))
 };
 
+// how cohesion depends on the plastic slip β since the bond was made, while the joint stays closed
+enum class CohesionLaw : unsigned char {
+  brittle,   // none after the first slip
+  plastic,   // unchanged
+  softening  // residual_cohesion + (cohesion - residual_cohesion) e^(-β/cohesion_slip)
+};
+
+// which joints have the tension and cohesion of their properties
+enum class BondsMade : unsigned char {
+  by_stage,  // those that a stage bonds
+  as_sliced  // and from the first stage on, once, faces of one stated joint that are opposite each other when sliced
+};
+
 // the laws of a joint; their parameters are in its properties
 struct JointLaws {
   StiffnessLaw normal = StiffnessLaw::constant, shear = StiffnessLaw::constant;
   FrictionLaw friction = FrictionLaw::constant;
-  bool bond = false;  // strength in tension, cohesion or both, until the bond breaks
+  bool bond = false;  // strength in tension, cohesion or both, of bonds
 
   bool depends_on_stress() const { return normal != StiffnessLaw::constant || shear != StiffnessLaw::constant; }
 
@@ -51,6 +64,13 @@ struct JointProperties {
   double hardening_slip = 0, hardening_exponent = 0;  // m at 1 Pa; 1
   double softening_drop = 0, softening_slip = 0;      // 1; m
   double tension = 0, cohesion = 0;                   // Pa
+  CohesionLaw cohesion_law = CohesionLaw::brittle;
+  double residual_cohesion = 0, cohesion_slip = 0;  // Pa, 0 to cohesion; m, 0: at once
+  BondsMade bonds = BondsMade::by_stage;
+
+  bool softens_cohesion() const {
+    return cohesion_law == CohesionLaw::softening && laws.bond && residual_cohesion < cohesion;
+  }
 };
 
 }  // namespace voussoir

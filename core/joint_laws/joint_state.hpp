@@ -5,6 +5,10 @@
 
 namespace voussoir {
 
+// The state of a bond. A slipped one has lost its tensile strength and keeps the cohesion that its slip has left, while
+// the joint stays closed; of a brittle law there is none.
+enum class Bond : unsigned char { lost, whole, slipped };
+
 template <int Dim>
 struct JointState {
   Vector<Dim> shear_force = Vector<Dim>::Zero();  // N on the second body
@@ -16,7 +20,8 @@ struct JointState {
   double twist = 0;            // N m on the second body about the normal: of an integrated face contact
   double polar = 0;            // m⁴: its last twisting stiffness, over the shear stiffness
   double shear_stiffness = 0;  // Pa/m, of the step before, if a law lets it vary; else 0
-  bool bonded = false;         // tension and cohesion are intact, both or neither
+  double bond_slip = 0;        // m, plastic slip since the bond was made
+  Bond bond = Bond::lost;
 };
 
 }  // namespace voussoir

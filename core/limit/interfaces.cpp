@@ -69,6 +69,7 @@ void find_between(const Model<2>& model, const PlacedPart& a, const PlacedPart& 
       found.body_a = a.body;
       found.body_b = b.body;
       found.joint = std::max(face_a.joint, face_b.joint);
+      found.one_joint = face_a.joint == face_b.joint && found.joint != no_joint;
       found.properties = found.joint == no_joint ? model.default_properties : model.joints[found.joint].properties;
       found.friction = model.properties[found.properties].friction;
       interfaces.push_back(found);
@@ -93,9 +94,10 @@ std::vector<Interface> find_interfaces(const Model<2>& model, bool bonded) {
       if (a == b || (model.bodies[a].fixed && model.bodies[b].fixed)) continue;
       find_between(model, parts[a < b ? i : j], parts[a < b ? j : i], interfaces);
     }
-  if (bonded)
-    for (Interface& face : interfaces)
-      face.cohesion = model.properties[face.properties].cohesion;
+  for (Interface& face : interfaces) {
+    const JointProperties& p = model.properties[face.properties];
+    if (bonded || (face.one_joint && p.bonds == BondsMade::as_sliced)) face.cohesion = p.cohesion;
+  }
   std::stable_sort(interfaces.begin(), interfaces.end(), [](const Interface& p, const Interface& q) {
     const auto key = [](const Interface& x) { return std::tuple(x.body_a, x.body_b, x.ends[0][0], x.ends[0][1]); };
     return key(p) < key(q);

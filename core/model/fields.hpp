@@ -60,10 +60,11 @@ void visit_fields(Either<ContactGeometry> auto& g, auto&& visit) {
 }
 
 void visit_fields(Either<JointState> auto& j, auto&& visit) {
-  auto& [shear_force, normal, point, plastic_slip, dashpot, area, twist, polar, shear_stiffness, bonded] = j;
+  auto& [shear_force, normal, point, plastic_slip, dashpot, area, twist, polar, shear_stiffness, bond_slip, bond] = j;
   visit(Hashed{}, shear_force, normal, point, plastic_slip);
   visit(HashedIfSet{}, twist);
-  visit(Hashed{}, shear_stiffness, bonded);
+  visit(Hashed{}, shear_stiffness, bond);
+  visit(HashedIfSet{}, bond_slip);
   visit(Saved{}, dashpot, area, polar);
 }
 
@@ -129,8 +130,9 @@ void visit_fields(Just<LiningRock> auto& r, auto&& visit) {
 }
 
 void visit_fields(Just<LiningContact> auto& c, auto&& visit) {
-  auto& [rock, bonded, closure, place, shear, plastic_slip, shear_stiffness, normal, dashpot] = c;
-  visit(Hashed{}, rock, closure, place, shear, plastic_slip, normal, bonded);
+  auto& [rock, bond, closure, place, shear, plastic_slip, bond_slip, shear_stiffness, normal, dashpot] = c;
+  visit(Hashed{}, rock, closure, place, shear, plastic_slip, normal, bond);
+  visit(HashedIfSet{}, bond_slip);
   visit(Saved{}, shear_stiffness, dashpot);
 }
 
@@ -229,8 +231,8 @@ void visit_fields(Either<JointHistories> auto& h, auto&& visit) {
 }
 
 void visit_fields(Either<StaticBase> auto& b, auto&& visit) {
-  auto& [motions, histories, supports, ledger, loads, whole_bonds, listed] = b;
-  visit(Saved{}, motions, histories, supports, ledger, loads.values, whole_bonds, listed);
+  auto& [motions, histories, supports, ledger, loads, held_bonds, listed] = b;
+  visit(Saved{}, motions, histories, supports, ledger, loads.values, held_bonds, listed);
 }
 
 void visit_fields(Just<StaticProgress> auto& p, auto&& visit) {

@@ -7,14 +7,14 @@
 
 namespace voussoir {
 
-// Bonds, counted by contact or sub-contact: the history of this state. Intact ones are in the contacts.
+// Bonds, counted by contact or sub-contact: the history of this state. Those not lost are in the contacts.
 struct BondTally {
-  long long made = 0, removed = 0;  // removed: intact when one of their blocks was removed
+  long long made = 0, removed = 0;  // removed: not lost when one of their blocks was removed
 };
 
 // the tally, and the present state of the bonds
 struct BondCount {
-  long long made = 0, whole = 0, broken = 0, removed = 0;
+  long long made = 0, whole = 0, slipped = 0, broken = 0, removed = 0;
   long long due = 0;  // contacts whose joint is to be bonded when it is first compressed, and has not been yet
 };
 

@@ -52,7 +52,7 @@ struct StaticBase {
   SupportsState<Dim> supports;
   Ledger ledger;
   LoadsBySource<Dim> loads;  // under the present loads
-  long long whole_bonds = 0;
+  long long held_bonds = 0;
   long long listed = 0;  // Counters::neighbour_builds that the histories belong to
 };
 

@@ -25,6 +25,7 @@ struct Bytes {
       add(x);
   }
   void add(bool b) { add(static_cast<int>(b)); }
+  void add(Bond b) { add(static_cast<int>(b)); }
   void add(const Rotation<2>& r) { add(r.angle); }
   void add(const Rotation<3>& r) { add(r.quaternion.coeffs()); }
   template <class T>

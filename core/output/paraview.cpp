@@ -217,7 +217,7 @@ PolyData contact_points(const Model<Dim>& model, const State<Dim>& state, double
       overlap.values.push_back(closed);
       area.values.push_back(wide);
       slip.values.push_back(history.plastic_slip);
-      bond.values.push_back(history.bonded);
+      bond.values.push_back(static_cast<int>(history.bond));
       mobilised.values.push_back(mobilised_friction<Dim>(carried, contact.geometry.normal, history.shear_force));
     };
     if (contact.cells == 0)

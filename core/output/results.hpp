@@ -67,13 +67,13 @@ struct StageResult {
 
 // Bonds of a joint, or of a set of joints.
 struct BondsOfJoint {
-  std::string joint;              // its name or its set's; empty: of faces that no joint made
-  long long whole = 0, made = 0;  // without those that were removed with their blocks
-  double area_share = 0;          // area of the intact ones over that of all
+  std::string joint;                           // its name or its set's; empty: of faces that no joint made
+  long long whole = 0, slipped = 0, made = 0;  // without those that were removed with their blocks
+  double area_share = 0;                       // area of those not lost over that of all
 };
 
 struct WholeBonds {
-  long long whole = 0, made = 0;
+  long long whole = 0, slipped = 0, made = 0;
   std::vector<BondsOfJoint> by_joint{};
 };
 
@@ -188,9 +188,10 @@ struct Results {
   std::vector<BoltRow> bolts;      // by stage, then by bolt
   std::vector<LiningRow> linings;  // by stage, then by lining and node
   Counters counters;
-  std::optional<BondCount> bonds;  // if a stage makes some
-  std::vector<MovedBody> moved;    // by stage, the farthest first
-  double forces_remaining = 0;     // largest fraction of excavation forces that still acts at the end
+  std::optional<BondCount> bonds;     // if some are to be made
+  std::vector<std::string> cohesion;  // then, of each joint properties with cohesion, its law in words
+  std::vector<MovedBody> moved;       // by stage, the farthest first
+  double forces_remaining = 0;        // largest fraction of excavation forces that still acts at the end
   EnergyBalance energy;
   std::string state_hash;             // of the last state (core/model/state_hash.hpp)
   std::vector<std::string> warnings;  // one line each: doubtful results of the run

@@ -98,16 +98,18 @@ Json counters_json(const Counters& counters) {
 Json bonds_json(const BondCount& bonds) {
   return {{"made", bonds.made},
           {"whole", bonds.whole},
+          {"slipped", bonds.slipped},
           {"broken", bonds.broken},
           {"removed_with_blocks", bonds.removed},
           {"joints_not_pressed_yet", bonds.due}};
 }
 
 Json bonds_json(const WholeBonds& bonds, NumberWriter& number) {
-  Json json = {{"whole", bonds.whole}, {"made", bonds.made}, {"by_joint", Json::array()}};
+  Json json = {{"whole", bonds.whole}, {"slipped", bonds.slipped}, {"made", bonds.made}, {"by_joint", Json::array()}};
   for (const BondsOfJoint& joint : bonds.by_joint)
     json["by_joint"].push_back({{"joint", joint.joint.empty() ? Json() : Json(joint.joint)},
                                 {"whole", joint.whole},
+                                {"slipped", joint.slipped},
                                 {"made", joint.made},
                                 {"area_share", number(joint.area_share, "area_share of joint " + joint.joint)}});
   return json;
@@ -307,6 +309,7 @@ std::string results_json(const Results& results, const RunRecord& record) {
   if (results.budget_evaluations > 0) json["budget"] = {{"contact_evaluations", results.budget_evaluations}};
   if (!record.rounds.empty()) json["accuracy"] = rounds_json(record.rounds);
   if (results.bonds) json["bonds"] = bonds_json(*results.bonds);
+  if (!results.cohesion.empty()) json["cohesion"] = results.cohesion;
   if (!results.moved.empty()) json["moved"] = moved;
   if (results.forces_remaining > 0) json["excavation_forces"] = {{"remaining", results.forces_remaining}};
   json["state_hash"] = results.state_hash;

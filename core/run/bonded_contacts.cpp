@@ -7,18 +7,18 @@
 namespace voussoir {
 namespace {
 
-// of the intact bonds of a contact
+// of the bonds of a contact that are not lost
 template <int Dim>
 double bonded_area(const Model<Dim>& model, const State<Dim>& state, std::size_t place) {
   const Contact<Dim>& c = state.contacts.list[place];
   if (c.cells == 0) {
-    if (!c.history.bonded) return 0;
+    if (c.history.bond == Bond::lost) return 0;
     if (model.properties[c.properties].constant_stiffness) return 1;
     return c.history.area > 0 ? c.history.area : c.geometry.area;  // it has no history before its first force
   }
   double area = 0;
   for (const SubContact<Dim>& s : subs_of(state.contacts, place))
-    if (s.area > 0 && s.history.bonded) area += s.area;
+    if (s.area > 0 && s.history.bond != Bond::lost) area += s.area;
   return area;
 }
 
@@ -41,12 +41,12 @@ void remember_bonds(const Model<Dim>& model, const State<Dim>& state, BondedCont
   if (bonded.made == 0) return;
   for (std::size_t i = 0; i < state.contacts.list.size(); ++i) {
     const Contact<Dim>& c = state.contacts.list[i];
-    const long long whole = whole_bonds(state.contacts, i);
-    if (whole == 0) continue;
+    const long long held = held_bonds(state.contacts, i);
+    if (held == 0) continue;
     BondedContact& contact = remembered(c.part_a, c.part_b, bonded.contacts);
-    if (whole < contact.bonds) continue;
+    if (held < contact.bonds) continue;
     contact.joint = c.joint;
-    contact.bonds = whole;
+    contact.bonds = held;
     contact.area = bonded_area(model, state, i);
   }
 }
@@ -76,7 +76,8 @@ std::vector<JointBonds> bonds_by_joint(const Model<Dim>& model, const State<Dim>
     if (found == state.contacts.list.end() || pair(*found) != std::pair(contact.part_a, contact.part_b)) continue;
     const auto place = static_cast<std::size_t>(found - state.contacts.list.begin());
     bonds.whole += whole_bonds(state.contacts, place);
-    bonds.whole_area += bonded_area(model, state, place);
+    bonds.slipped += bonds_in(Bond::slipped, state.contacts, place);
+    bonds.held_area += bonded_area(model, state, place);
   }
   std::vector<JointBonds> all;
   for (auto& [joint, bonds] : by_joint) {

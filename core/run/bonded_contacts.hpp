@@ -13,8 +13,7 @@ struct BondedContact {
   int part_a = 0, part_b = 0;
   int joint = 0;  // of Model::joints, or no_joint
   long long bonds = 0;
-  double area =
-      0;  // m², of these bonds when all were last intact; for a constant stiffness, whose area is never computed, 1
+  double area = 0;  // m², of these bonds when none was lost; for a constant stiffness, whose area is never computed, 1
 };
 
 // by (part a, part b)
@@ -33,8 +32,8 @@ void carry(const Excavated<Dim>& moved, BondedContacts& bonded);
 
 struct JointBonds {
   int joint = 0;  // of Model::joints, or no_joint
-  long long whole = 0, made = 0;
-  double whole_area = 0, made_area = 0;  // as in BondedContact
+  long long whole = 0, slipped = 0, made = 0;
+  double held_area = 0, made_area = 0;  // as in BondedContact; held: not lost
 };
 
 // by joint, ascending, of present bodies; `bonded` has the bonds of this state

@@ -65,7 +65,7 @@ void carry_contacts(const Model<Dim>& before, const Model<Dim>& model, const Exc
     if (a >= 0)
       order.emplace_back(a, b, i);
     else
-      bonds.removed += whole_bonds(contacts, i);
+      bonds.removed += held_bonds(contacts, i);
   }
   std::ranges::sort(order);
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "core/run/bonds_as_sliced.hpp"
 #include "core/run/find_mechanism.hpp"
 #include "core/run/record.hpp"
 #include "core/run/trial_record.hpp"
@@ -102,7 +103,7 @@ std::optional<StageOutcome> execute(const SettlePlan& settle, const StageInForce
   goal.rest = true;
   goal.time_limit = progress.stage_began + settle.time_limit;
   goal.step_limit = settle.step_limit;
-  goal.bonds = stage.plan().change.bond;
+  goal.bonds = stage.plan().change.bond || (stage.place == 0 && has_bonds_as_sliced(stage.model));
   return run_to(stage, goal, settle.gravity, StopReason::equilibrium, watcher, progress);
 }
 

@@ -40,7 +40,7 @@ template <int Dim>
 struct TrialWatch {
   std::vector<Placement<Dim>> first, last;  // by body: where the trial began; at the last look
   double bolts = 0;                         // N: forces of bolts on bodies at the last look
-  long long bonds = 0;                      // whole at the begin
+  long long bonds = 0;                      // not lost at the begin
   double target = 0;                        // tan φ or 1/F of the trial's level
   int looks = 0;                            // half an elastic displacement, doubled so often, is the next look
   std::vector<RequiredStrength> required;   // at each look

@@ -65,8 +65,8 @@ void visit_fields(Just<BondedContacts> auto& b, auto&& visit) {
 }
 
 void visit_fields(Just<BondCount> auto& b, auto&& visit) {
-  auto& [made, whole, broken, removed, due] = b;
-  visit(Saved{}, made, whole, broken, removed, due);
+  auto& [made, whole, slipped, broken, removed, due] = b;
+  visit(Saved{}, made, whole, slipped, broken, removed, due);
 }
 
 void visit_fields(Either<RunProgress> auto& r, auto&& visit) {
@@ -154,13 +154,13 @@ void visit_fields(Just<LiningRow> auto& l, auto&& visit) {
 }
 
 void visit_fields(Just<BondsOfJoint> auto& b, auto&& visit) {
-  auto& [joint, whole, made, area_share] = b;
-  visit(Saved{}, joint, whole, made, area_share);
+  auto& [joint, whole, slipped, made, area_share] = b;
+  visit(Saved{}, joint, whole, slipped, made, area_share);
 }
 
 void visit_fields(Just<WholeBonds> auto& b, auto&& visit) {
-  auto& [whole, made, by_joint] = b;
-  visit(Saved{}, whole, made, by_joint);
+  auto& [whole, slipped, made, by_joint] = b;
+  visit(Saved{}, whole, slipped, made, by_joint);
 }
 
 void visit_fields(Just<MovingJoint> auto& j, auto&& visit) {
@@ -205,9 +205,10 @@ void visit_fields(Just<MovedBody> auto& m, auto&& visit) {
 
 void visit_fields(Just<Results> auto& r, auto&& visit) {
   auto& [outcome, message, values, stages, at_last_stable_state, history, trials, bolts_carried, linings_carried,
-         counters, bonds, moved, forces_remaining, energy, state_hash, warnings, seconds, budget_evaluations] = r;
+         counters, bonds, cohesion, moved, forces_remaining, energy, state_hash, warnings, seconds,
+         budget_evaluations] = r;
   visit(Saved{}, outcome, message, values, stages, at_last_stable_state, history, trials, bolts_carried,
-        linings_carried, counters, bonds, moved, forces_remaining, energy, state_hash, warnings, seconds);
+        linings_carried, counters, bonds, cohesion, moved, forces_remaining, energy, state_hash, warnings, seconds);
   visit(Found{}, budget_evaluations);
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "core/run/bonds_as_sliced.hpp"
 #include "core/step/joint_forces.hpp"
 
 namespace voussoir {
@@ -27,23 +28,45 @@ std::string name_of_joint(const Prepared<Dim>& scene, const Model<Dim>& model, i
 template <int Dim>
 std::optional<WholeBonds> whole_bonds_of(const Prepared<Dim>& scene, const Model<Dim>& model, const State<Dim>& state,
                                          const BondedContacts& bonded) {
-  WholeBonds bonds{.whole = whole_bonds(state.contacts), .made = state.ledger.bonds.made - state.ledger.bonds.removed};
+  WholeBonds bonds{.whole = whole_bonds(state.contacts),
+                   .slipped = held_bonds(state.contacts) - whole_bonds(state.contacts),
+                   .made = state.ledger.bonds.made - state.ledger.bonds.removed};
   if (bonds.made == 0) return std::nullopt;
   std::map<std::string, JointBonds> by_name;
   for (const JointBonds& joint : bonds_by_joint(model, state, bonded)) {
     JointBonds& sum = by_name[name_of_joint(scene, model, joint.joint)];
     sum.whole += joint.whole;
+    sum.slipped += joint.slipped;
     sum.made += joint.made;
-    sum.whole_area += joint.whole_area;
+    sum.held_area += joint.held_area;
     sum.made_area += joint.made_area;
   }
   for (const auto& [name, joint] : by_name)
     bonds.by_joint.push_back(
-        {name, joint.whole, joint.made, joint.made_area > 0 ? joint.whole_area / joint.made_area : 0.0});
+        {name, joint.whole, joint.slipped, joint.made, joint.made_area > 0 ? joint.held_area / joint.made_area : 0.0});
   return bonds;
 }
 
 }  // namespace
+
+std::string cohesion_text(const JointProperties& p) {
+  const std::string stated = fmt::format("cohesion of {}: {:.4g} Pa, ", p.name, p.cohesion);
+  const std::string acts = p.bonds == BondsMade::as_sliced
+                               ? "; it acts once, between faces of one joint that are opposite each other when sliced"
+                               : "; it acts where a stage bonds";
+  switch (p.cohesion_law) {
+    case CohesionLaw::plastic:
+      return stated + "plastic (slip leaves it, opening takes it; unsafe if the joint is brittle)" + acts;
+    case CohesionLaw::softening:
+      return stated +
+             fmt::format("softening (slip takes it to {:.4g} Pa, 63 % within {:.3g} m; opening takes it)",
+                         p.residual_cohesion, p.cohesion_slip) +
+             acts;
+    case CohesionLaw::brittle:
+      break;
+  }
+  return stated + "brittle (the first slip takes it)" + acts;
+}
 
 std::string moment_text(const StableState& at) {
   if (!at.level) return "in equilibrium";
@@ -65,7 +88,7 @@ void note_stable_state(const Prepared<Dim>& scene, const Model<Dim>& model, cons
 std::vector<std::string> doubts_about(const std::vector<StableState>& noted, const std::string& stage) {
   std::vector<std::string> doubts;
   for (const StableState& at : noted)
-    if (at.stage == stage && at.bonds && at.bonds->whole == 0)
+    if (at.stage == stage && at.bonds && at.bonds->whole + at.bonds->slipped == 0)
       doubts.push_back(fmt::format(
           "stage {}: {}: none of {} bonds is intact, so that cohesion and tensile strength have no effect there",
           at.stage, moment_text(at), at.bonds->made));
@@ -74,11 +97,17 @@ std::vector<std::string> doubts_about(const std::vector<StableState>& noted, con
 
 template <int Dim>
 void count_all_bonds(const Prepared<Dim>& scene, const State<Dim>& state, Results& results) {
-  if (std::ranges::none_of(scene.stages, [](const StagePlan& stage) { return stage.change.bond; })) return;
+  const bool by_stage = std::ranges::any_of(scene.stages, [](const StagePlan& stage) { return stage.change.bond; });
+  if (!by_stage && !has_bonds_as_sliced(scene.model)) return;
   results.bonds = count_bonds(state.contacts, state.ledger.bonds);
   if (results.bonds->made == 0)
     results.warnings.push_back(
-        "stage.bond has made no bond: no joint with tension or cohesion was closed and compressed");
+        by_stage ? "stage.bond has made no bond: no joint with tension or cohesion was closed and compressed"
+                 : "tension and cohesion have no effect: no two faces of a joint that states them are opposite each "
+                   "other and compressed; blocks given directly have no joint: write bond = true in the stage from "
+                   "which it should act");
+  for (const JointProperties& p : scene.model.properties)
+    if (p.cohesion > 0 && (by_stage || p.bonds == BondsMade::as_sliced)) results.cohesion.push_back(cohesion_text(p));
 }
 
 std::string bonds_text(const WholeBonds& bonds) {
@@ -86,11 +115,13 @@ std::string bonds_text(const WholeBonds& bonds) {
   for (std::size_t k = 0; k < std::min(bonds.by_joint.size(), most_named); ++k) {
     const BondsOfJoint& joint = bonds.by_joint[k];
     joints += fmt::format("{}{}: {} of {}, {:.3g} % of the bonded area", k > 0 ? "; " : "",
-                          joint.joint.empty() ? "faces that no joint made" : joint.joint, joint.whole, joint.made,
-                          100 * joint.area_share);
+                          joint.joint.empty() ? "faces that no joint made" : joint.joint, joint.whole + joint.slipped,
+                          joint.made, 100 * joint.area_share);
   }
   if (bonds.by_joint.size() > most_named) joints += fmt::format("; {} more", bonds.by_joint.size() - most_named);
-  return fmt::format("{} of {} bonds intact ({})", bonds.whole, bonds.made, joints);
+  const std::string slipped =
+      bonds.slipped > 0 ? fmt::format(", {} slipped with the cohesion that slip leaves", bonds.slipped) : "";
+  return fmt::format("{} of {} bonds intact{} ({})", bonds.whole, bonds.made, slipped, joints);
 }
 
 std::vector<std::string> search_text(const StableState& at) {

@@ -20,7 +20,7 @@ void note_stable_state(const Prepared<Dim>& scene, const Model<Dim>& model, cons
 // doubtful results of this stage, one line each
 std::vector<std::string> doubts_about(const std::vector<StableState>& noted, const std::string& stage);
 
-// Results::bonds, if a stage makes some, with a warning if none was made.
+// Results::bonds and cohesion, if some are to be made, with a warning if none was made.
 template <int Dim>
 void count_all_bonds(const Prepared<Dim>& scene, const State<Dim>& state, Results& results);
 
@@ -29,6 +29,9 @@ std::string moment_text(const StableState& at);
 
 // Of a search: how far its trials moved and turned, what an extrapolation took out, why it was not used; a line each.
 std::vector<std::string> search_text(const StableState& at);
+
+// what slip does to the cohesion of these joint properties, and where it acts
+std::string cohesion_text(const JointProperties& properties);
 
 // "2 of 3 bonds intact (rock: 2 of 3, 66.7 % of the bonded area)"
 std::string bonds_text(const WholeBonds& bonds);

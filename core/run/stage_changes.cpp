@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "core/output/support_table.hpp"
+#include "core/run/bonds_as_sliced.hpp"
 #include "core/run/doubts.hpp"
 #include "core/run/excavate.hpp"
 #include "core/run/history.hpp"
@@ -126,6 +127,7 @@ void begin_stage(const StageInForce<Dim>& stage, Progress<Dim>& progress) {
   remove_bonds(stage.model, state.contacts, state.ledger.bonds);
   install_supports(stage, state, progress.results);
   if (change.zero_slip) zero_slip(state.contacts);
+  if (stage.place == 0) make_bonds_as_sliced(stage.model, stage.settings, state);
   if (change.bond)
     make_bonds(stage.model, stage.settings, state.bodies, state.contacts, state.ledger.bonds, state.counters);
   renew_for_stage(stage.model, state);

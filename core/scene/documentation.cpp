@@ -121,6 +121,8 @@ std::string_view scope_text(PresetScope scope) {
       return " if a joint can be integrated";
     case PresetScope::faces_by_points:
       return " for joints that cannot be integrated";
+    case PresetScope::bonded_joints:
+      return " for joints with tension or cohesion, but for interfaces of linings";
     case PresetScope::watched_searches:
       return " for bisections that state no displacement or fraction";
     case PresetScope::scenes_with_these:

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <limits>
 
 #include "core/model/water_surfaces.hpp"
 #include "core/potential/particle.hpp"
 #include "core/potential/valid_shape.hpp"
 #include "core/scene/bodies.hpp"
+#include "core/scene/judge_bonds.hpp"
 #include "core/scene/keys.hpp"
 #include "core/scene/keys/ranges.hpp"
 #include "text/angle.hpp"
@@ -171,31 +173,6 @@ void judge_properties(const PropertiesSpec& spec, Warnings& warnings) {
     warnings.push_back(
         complaint(spec.subject, "shear_stiffness",
                   "is very small compared with" + other + ", 0.01 to 1 times it is usual; is the unit of one wrong?"));
-}
-
-// strengths and bonds have an effect only together
-void judge_bonds(const Scene& scene, Warnings& warnings) {
-  const bool made = std::any_of(scene.stages.begin(), scene.stages.end(),
-                                [](const StageSpec& stage) { return stage.plan.change.bond; });
-  bool strong = false;
-  for (const PropertiesSpec& spec : scene.properties) {
-    const JointProperties& p = spec.properties;
-    strong |= p.laws.bond;
-    if (p.tension * std::tan(p.friction) > p.cohesion)
-      warnings.push_back(complaint(spec.subject, "tension",
-                                   "exceeds cohesion / tan(friction_deg) = " + text(p.cohesion / std::tan(p.friction)) +
-                                       " Pa, beyond which a joint in tension has no shear strength: it breaks there"));
-    const bool of_lining = std::ranges::count(scene.linings, p.name, &LiningSpec::interface_properties) > 0;
-    if (made || scene.stages.empty() || !p.laws.bond || of_lining) continue;
-    warnings.push_back(complaint(
-        spec.subject, p.cohesion > 0 ? "cohesion" : "tension",
-        "has an effect only if joints are bonded, and no stage bonds any: write bond = true in the stage from "
-        "which it should act"));
-  }
-  for (const StageSpec& stage : scene.stages)
-    if (stage.plan.change.bond && !strong)
-      warnings.push_back(
-          complaint(stage.subject, "bond", "bonds nothing: no joint_properties state tension or cohesion"));
 }
 
 // if it is not stated which of several applies; the outer faces of one domain do not meet, those of blocks given
@@ -464,7 +441,7 @@ std::vector<std::string> judge_values(const Scene& scene, const Prepared<Dim>& p
   for (std::size_t p = 0; p < scene.properties.size(); ++p)
     if (used[p]) judge_properties(scene.properties[p], warnings);
   judge_default(scene, warnings);
-  judge_bonds(scene, warnings);
+  std::ranges::move(judge_bonds(scene), std::back_inserter(warnings));
   for (const StageSpec& stage : scene.stages)
     judge_factors(stage, warnings);
   judge_water<Dim>(scene, prepared, warnings);

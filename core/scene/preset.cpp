@@ -36,6 +36,13 @@ struct PresetTarget {
     return std::ranges::any_of(properties, [](const PropertiesSpec& p) { return can_be_integrated(p.properties); });
   }
 
+  bool is_of_lining(const std::string& name) const {
+    const Node* linings = scene.find("linings");
+    return linings && std::ranges::any_of(linings->items, [&](const Node& lining) {
+             return text_of(lining, "joint_properties", "") == name;
+           });
+  }
+
   bool applies(PresetScope scope, const Node& table, std::size_t index) const {
     const bool search = text_of(table, "kind", "") == "reduce";
     const std::string_view method = text_of(table, "method", "bisection");
@@ -49,6 +56,8 @@ struct PresetTarget {
         return open_contacts && some_integrable();
       case PresetScope::faces_by_points:
         return open_contacts && !can_be_integrated(properties[index].properties);
+      case PresetScope::bonded_joints:
+        return properties[index].properties.laws.bond && !is_of_lining(properties[index].properties.name);
       case PresetScope::watched_searches:
         return search && method == "bisection" && !displacement;
       case PresetScope::scenes_with_these: {

@@ -73,12 +73,14 @@ TEST(Preset, FacesThatCannotBeIntegratedGetPoints) {
   const std::vector<std::string> bonded{"joint_properties.rock.cohesion=1e5"};
   EXPECT_EQ(set_in(bisected, bonded),
             (Lines{"statics = \"newton\"", "joint_properties.rock.sub_contacts = 4",
+                   "joint_properties.rock.cohesion_law = \"plastic\"", "joint_properties.rock.bonds = \"as_sliced\"",
                    "stage.critical.failure_criterion = \"required_strength\"", "accuracy.error_bar = \"stiffness\""}));
   const std::string soil =
       "[[joint_properties]]\nname = \"soil\"\nnormal_stiffness = 1e8\nshear_stiffness = 1e7\n"
       "friction_deg = 20\ntension = 1e3\n";
   EXPECT_EQ(set_in(bisected + soil),
             (Lines{"statics = \"newton\"", "contact.face = \"integrated\"", "joint_properties.soil.sub_contacts = 4",
+                   "joint_properties.soil.cohesion_law = \"plastic\"", "joint_properties.soil.bonds = \"as_sliced\"",
                    "stage.critical.failure_criterion = \"required_strength\"", "accuracy.error_bar = \"stiffness\""}));
 }
 

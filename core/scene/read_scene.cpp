@@ -35,6 +35,9 @@ void check_laws(const Subject& item, const JointProperties& p) {
            "cohesion");
   if (p.laws.normal == StiffnessLaw::power && p.tension > 0)
     refuse(item, "tension", "a power law has no stiffness without stress; use the linear or the constant law");
+  if (p.residual_cohesion > p.cohesion)
+    refuse(item, "residual_cohesion",
+           fmt::format("exceeds cohesion = {:.4g} Pa, of which it is the part that slip leaves", p.cohesion));
   if (p.laws.friction == FrictionLaw::softening && p.softening_drop > std::tan(p.friction))
     refuse(item, "softening_drop",
            fmt::format("exceeds the friction coefficient tan(friction_deg) = {:.4g}, which is all that can be lost",

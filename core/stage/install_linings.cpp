@@ -54,8 +54,8 @@ double outside_by(const LiningRock& rock, double place) {
 LiningState cast(const Model<2>& model, int index, State<2>& state) {
   const Lining& lining = model.linings[index];
   LiningState lined{.lining = index, .rock = rock_around(model, state, lining), .contacts = {}};
-  const bool bonded = model.properties[lining.interface_properties].laws.bond;
-  lined.contacts.assign(2 * lining.nodes.size(), LiningContact{.bonded = bonded});
+  const bool bonds = model.properties[lining.interface_properties].laws.bond;
+  lined.contacts.assign(2 * lining.nodes.size(), LiningContact{.bond = bonds ? Bond::whole : Bond::lost});
   cache_poses(model, 1, state.bodies);
   for (std::size_t i = 0; i < lined.contacts.size(); ++i) {
     LiningContact& contact = lined.contacts[i];

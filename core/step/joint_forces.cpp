@@ -82,7 +82,8 @@ template <int Dim>
 JointForce<Dim> answer_of_laws(const JointProperties& properties, double friction, double damping,
                                const JointKinematics<Dim>& k, double strength_factor, JointSums& sums,
                                JointState<Dim>& history) {
-  const double stiffness = damping > 0 ? normal_answer(properties, k.overlap, history.bonded).stiffness : 0;
+  const double stiffness =
+      damping > 0 ? normal_answer(properties, k.overlap, history.bond == Bond::whole).stiffness : 0;
   const JointForce<Dim> answer =
       joint_law<Dim>(properties, friction, damping * std::sqrt(stiffness), k, history, strength_factor);
   sums.stiffening += answer.stiffening;
@@ -178,19 +179,31 @@ void bond_what_presses(const JointProperties& properties, std::size_t place, Con
                        long long& made) {
   Contact<Dim>& c = contacts.list[place];
   const auto bond = [&](double overlap, JointState<Dim>& history) {
-    if (history.bonded || !(normal_answer(properties, overlap, false).stress > 0)) return;
-    history.bonded = true;
+    if (history.bond != Bond::lost || !(normal_answer(properties, overlap, false).stress > 0)) return;
+    history.bond = Bond::whole;
+    history.bond_slip = 0;
     ++made;
   };
   if (!properties.laws.bond) {
     c.bond_due = false;
   } else if (c.cells == 0) {
     bond(c.geometry.overlap, c.history);
-    c.bond_due = !c.history.bonded;
+    c.bond_due = c.history.bond == Bond::lost;
   } else {
     for (SubContact<Dim>& s : subs_of(contacts, place))
       if (s.area > 0) bond(s.overlap, s.history);
   }
+}
+
+// a slipped bond gives way to a new one
+template <int Dim>
+void renew_slipped(std::size_t place, ContactsState<Dim>& contacts) {
+  const auto renew = [](JointState<Dim>& history) {
+    if (history.bond == Bond::slipped) history.bond = Bond::lost;
+  };
+  renew(contacts.list[place].history);
+  for (SubContact<Dim>& s : subs_of(contacts, place))
+    renew(s.history);
 }
 
 // load of a touching contact on its bodies; the second one's centroid is `apart` from the first's
@@ -250,11 +263,11 @@ template <int Dim>
   c.history.normal = c.geometry.normal;
   c.history.point = c.geometry.point;
   c.history.area = properties.constant_stiffness ? 1 : whole;
-  c.history.bonded = whole > 0;
+  c.history.bond = whole > 0 ? Bond::whole : Bond::lost;
   for (SubContact<Dim>& s : subs_of(contacts, place)) {
     if (!(s.area > 0)) continue;
     const double area = properties.constant_stiffness ? s.area / whole : s.area;
-    const bool bonded = s.history.bonded;
+    const Bond before = s.history.bond;
     s.force = joint_force<Dim>(properties, step, motion,
                                {s.point, c.geometry.normal, s.overlap, area, s.overlap_variance, s.area / whole},
                                friction, s.history, sums);
@@ -262,8 +275,10 @@ template <int Dim>
     c.history.shear_force += s.history.shear_force;
     c.history.plastic_slip += s.area / whole * s.history.plastic_slip;
     c.history.dashpot += s.history.dashpot;
-    c.history.bonded = c.history.bonded && s.history.bonded;
-    if (bonded && !s.history.bonded) c.bond_due = false;  // if one breaks, none is made any more
+    if (c.history.bond != Bond::lost && s.history.bond != Bond::whole) c.history.bond = s.history.bond;
+    c.history.bond_slip += s.area / whole * s.history.bond_slip;
+    if (before != Bond::lost && s.history.bond == Bond::lost)
+      c.bond_due = false;  // if one breaks, none is made any more
   }
   note_load<Dim>(c, subs_of(std::as_const(contacts), place), model.parts[c.part_b].body, motion.between,
                  contacts.loads[place]);
@@ -360,12 +375,18 @@ void apply_joint_laws(const Model<Dim>& model, const Settings& settings, const S
 
 template <int Dim>
 void make_bonds(const Model<Dim>& model, const Settings& settings, BodiesState<Dim>& bodies,
-                ContactsState<Dim>& contacts, BondTally& bonds, Counters& counters) {
+                ContactsState<Dim>& contacts, BondTally& bonds, Counters& counters,
+                const std::vector<std::pair<int, int>>* between) {
   if (std::ranges::none_of(model.properties, [](const JointProperties& p) { return p.laws.bond; })) return;
   // the closed ones of the near pairs are found as each is examined
   find_neighbours(model, settings, bodies, contacts, counters);
-  for (Contact<Dim>& c : contacts.list)
-    c.bond_due = true;
+  for (Contact<Dim>& c : contacts.list) {
+    const std::pair<int, int> pair = std::minmax({model.parts[c.part_a].body, model.parts[c.part_b].body});
+    c.bond_due = !between || std::ranges::binary_search(*between, pair);
+  }
+  for (std::size_t i = 0; i < contacts.list.size(); ++i) {
+    if (contacts.list[i].bond_due) renew_slipped(i, contacts);
+  }
   find_contacts(model, settings, bodies, contacts, counters);
   for (std::size_t i = 0; i < contacts.list.size(); ++i)
     if (const Contact<Dim>& c = contacts.list[i]; c.bond_due && c.touching())
@@ -377,10 +398,10 @@ void remove_bonds(const Model<Dim>& model, ContactsState<Dim>& contacts, BondTal
   for (std::size_t i = 0; i < contacts.list.size(); ++i) {
     Contact<Dim>& c = contacts.list[i];
     if (model.bodies[model.parts[c.part_a].body].present && model.bodies[model.parts[c.part_b].body].present) continue;
-    bonds.removed += whole_bonds(contacts, i);
-    c.history.bonded = false;
+    bonds.removed += held_bonds(contacts, i);
+    c.history.bond = Bond::lost;
     for (SubContact<Dim>& s : subs_of(contacts, i))
-      s.history.bonded = false;
+      s.history.bond = Bond::lost;
   }
 }
 
@@ -397,10 +418,12 @@ BondCount count_bonds(const ContactsState<Dim>& contacts, const BondTally& bonds
   BondCount count{.made = bonds.made, .removed = bonds.removed};
   for (std::size_t i = 0; i < contacts.list.size(); ++i) {
     const long long whole = whole_bonds(contacts, i);
+    const long long slipped = bonds_in(Bond::slipped, contacts, i);
     count.whole += whole;
-    count.due += contacts.list[i].bond_due && whole == 0;
+    count.slipped += slipped;
+    count.due += contacts.list[i].bond_due && whole + slipped == 0;
   }
-  count.broken = count.made - count.removed - count.whole;
+  count.broken = count.made - count.removed - count.whole - count.slipped;
   return count;
 }
 
@@ -414,7 +437,7 @@ BondCount count_bonds(const ContactsState<Dim>& contacts, const BondTally& bonds
   template void apply_joint_laws<Dim>(const Model<Dim>&, const Settings&, const Schedule&, const JointStep&,  \
                                       const BodiesState<Dim>&, ContactsState<Dim>&, Ledger&, Counters&);      \
   template void make_bonds<Dim>(const Model<Dim>&, const Settings&, BodiesState<Dim>&, ContactsState<Dim>&,   \
-                                BondTally&, Counters&);                                                       \
+                                BondTally&, Counters&, const std::vector<std::pair<int, int>>*);              \
   template void remove_bonds<Dim>(const Model<Dim>&, ContactsState<Dim>&, BondTally&);                        \
   template void zero_slip<Dim>(ContactsState<Dim>&);                                                          \
   template BondCount count_bonds<Dim>(const ContactsState<Dim>&, const BondTally&);

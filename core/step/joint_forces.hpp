@@ -1,6 +1,9 @@
 // The step's second line: contacts among the candidate pairs, and the forces of their joints.
 #pragma once
 
+#include <utility>
+#include <vector>
+
 #include "core/base/settings.hpp"
 #include "core/model/model.hpp"
 #include "core/model/state.hpp"
@@ -45,13 +48,14 @@ PairWrench<Dim> joint_wrench(const Model<Dim>& model, const Schedule& schedule, 
                              const JointState<Dim>& history, std::span<const JointState<Dim>> sub_histories);
 
 // Bonds every closed joint that has tensile strength or cohesion: immediately if it is compressed, otherwise when it
-// first is, unless its faces have parted by more than a thousandth of the smallest inscribed radius before. No force
-// changes.
+// first is, unless its faces have parted by more than a thousandth of the smallest inscribed radius before. A slipped
+// bond gives way to a new one. No force changes. `between`: only joints of these pairs of bodies, (a < b), ascending.
 template <int Dim>
 void make_bonds(const Model<Dim>& model, const Settings& settings, BodiesState<Dim>& bodies,
-                ContactsState<Dim>& contacts, BondTally& bonds, Counters& counters);
+                ContactsState<Dim>& contacts, BondTally& bonds, Counters& counters,
+                const std::vector<std::pair<int, int>>* between = nullptr);
 
-// removes the bonds of bodies that the model no longer has from the count of intact ones
+// removes the bonds of bodies that the model no longer has from the count of those not lost
 template <int Dim>
 void remove_bonds(const Model<Dim>& model, ContactsState<Dim>& contacts, BondTally& bonds);
 

@@ -272,7 +272,9 @@ void scale_nodes(const Model<Dim>& model, const std::vector<int>& place, Eigen::
 template <int Dim>
 std::string loose_lining(const Model<Dim>& model, const SupportsState<Dim>& supports) {
   for (const LiningState& lined : supports.linings) {
-    const auto touches = [](const LiningContact& c) { return c.rock >= 0 && (c.bonded || c.closure >= 0); };
+    const auto touches = [](const LiningContact& c) {
+      return c.rock >= 0 && (c.bond == Bond::whole || c.closure >= 0);
+    };
     if (!lined.rock.empty() && std::ranges::none_of(lined.contacts, touches))
       return fmt::format("no node of the lining '{}' touches rock any more",
                          model.linings[lined.lining].properties.name);

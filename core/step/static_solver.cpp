@@ -296,8 +296,8 @@ struct Newton {
 
   // A broken bond loses its force suddenly: relaxation finds the path.
   bool breaks_bonds() const {
-    const long long expected = base.whole_bonds + state.ledger.bonds.made - base.ledger.bonds.made;
-    return expected > 0 && whole_bonds(state.contacts) < expected;
+    const long long expected = base.held_bonds + state.ledger.bonds.made - base.ledger.bonds.made;
+    return expected > 0 && held_bonds(state.contacts) < expected;
   }
 
   // Back on the step to the point where its work, interpolated between both ends, is zero.
@@ -373,7 +373,7 @@ struct Newton {
 }  // namespace
 
 bool newton_follows(const JointProperties& joint) {
-  return joint.laws.friction != FrictionLaw::softening;
+  return joint.laws.friction != FrictionLaw::softening && !joint.softens_cohesion();
 }
 
 template <int Dim>

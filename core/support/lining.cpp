@@ -131,7 +131,8 @@ LiningAnswer interface_answer(const LiningJoint& joint, double length, const Lin
   contact.place = motion.place;
   LiningAnswer answer;
   const double shear_stiffness = p.shear_stiffness * length;
-  if (motion.closure < 0 && !contact.bonded) {  // parted: the energy of the shear spring is lost
+  if (motion.closure < 0 && contact.bond != Bond::whole) {  // parted: the energy of the shear spring is lost
+    contact.bond = Bond::lost;
     if (shear_stiffness > 0) answer.friction = 0.5 * contact.shear * contact.shear / shear_stiffness;
     contact.shear = contact.normal = contact.dashpot = 0;
     return answer;
@@ -141,7 +142,8 @@ LiningAnswer interface_answer(const LiningJoint& joint, double length, const Lin
   history.shear_force = {0, contact.shear};
   history.plastic_slip = contact.plastic_slip;
   history.shear_stiffness = contact.shear_stiffness;
-  history.bonded = contact.bonded;
+  history.bond_slip = contact.bond_slip;
+  history.bond = contact.bond;
   // it is cast without stress, which a joint with tensile strength has when it is closed by its offset
   JointKinematics<2> k;
   k.normal = {1, 0};
@@ -153,14 +155,15 @@ LiningAnswer interface_answer(const LiningJoint& joint, double length, const Lin
 
   answer.elastic = force.elastic;
   answer.friction = force.friction;
-  if (contact.bonded && !history.bonded)
+  if (contact.bond == Bond::whole && history.bond != Bond::whole)
     answer.friction += length * (normal_answer(p, k.overlap, true).energy - normal_answer(p, k.overlap, false).energy);
   answer.dashpots = 0.5 * (contact.dashpot + force.dashpot) * closed_by;
   contact.normal = force.force[0];
   contact.shear = history.shear_force[1];
   contact.plastic_slip = history.plastic_slip;
   contact.shear_stiffness = history.shear_stiffness;
-  contact.bonded = history.bonded;
+  contact.bond_slip = history.bond_slip;
+  contact.bond = history.bond;
   contact.dashpot = force.dashpot;
   return answer;
 }

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "core/joint_laws/elastic_coulomb.hpp"
+#include "core/joint_laws/joint_state.hpp"
 #include "core/support/beam.hpp"
 
 namespace voussoir {
@@ -89,11 +90,12 @@ struct LiningRock {
 // The history of the interface at half a node, and its forces.
 struct LiningContact {
   int rock = -1;  // LiningState::rock; -1: no rock is opposite
-  bool bonded = false;
+  Bond bond = Bond::lost;
   double closure = 0;          // m: u
   double place = 0;            // m, of the node along the side
   double shear = 0;            // N on the node, along t
   double plastic_slip = 0;     // m, accumulated
+  double bond_slip = 0;        // m, as JointState's
   double shear_stiffness = 0;  // Pa/m, as JointState's
   double normal = 0;           // N on the node, out of the rock: compression positive
   double dashpot = 0;          // N, of it

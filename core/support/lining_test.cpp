@@ -90,16 +90,16 @@ TEST(Interface, PullsUntilItsBondBreaks) {
   glued.laws.bond = true;
   const LiningJoint joint{glued, 0.5};
   constexpr double length = 0.2;
-  LiningContact at{.bonded = true};
+  LiningContact at{.bond = Bond::whole};
   const double strength = 2e5 / 1e9;  // m
   interface_answer(joint, length, {.closure = 0, .place = 0, .seconds = 1}, at);
   EXPECT_NEAR(at.normal, 0, 1e-6) << "it is cast without stress";
   interface_answer(joint, length, {.closure = -0.999 * strength, .place = 0, .seconds = 1}, at);
   EXPECT_NEAR(at.normal, -0.999 * 2e5 * length, 1e-3);
-  EXPECT_TRUE(at.bonded);
+  EXPECT_EQ(at.bond, Bond::whole);
   const LiningAnswer broken =
       interface_answer(joint, length, {.closure = -1.001 * strength, .place = 0, .seconds = 1}, at);
-  EXPECT_FALSE(at.bonded);
+  EXPECT_EQ(at.bond, Bond::lost);
   EXPECT_EQ(at.normal, 0);
   EXPECT_NEAR(broken.friction, 0.5 * 1e9 * length * std::pow(1.001 * strength, 2), 1e-9);
 }

@@ -102,6 +102,9 @@ shear_growth = 1e4
 friction_deg = 30
 friction_law = "hardening"
 hardening_slip_m = 1e-6
+cohesion = 1e5
+cohesion_law = "softening"
+cohesion_slip_m = 1e-3
 [[joint_properties]]
 name = "power"
 normal_stiffness = 2e6

@@ -79,13 +79,36 @@ KeyTable joint_property_keys() {
      .meaning = "plastic slip at which 63 % of softening_drop is lost"},
     {.key = "tension", .members = {in(&JointProperties::tension)}, .unit = "Pa", .range = not_negative,
      .plausible = {.low = 1e3, .high = 2e7, .or_zero = true}, .example = "0.076e6",
-     .meaning = "tensile strength of bonded joints, valid until the bond breaks by tension or slip; the overlap of zero stress is shifted "
-         "to tension / normal_stiffness, permanently",
-     .breaks = "has an effect only after a stage has made bonds (stage.bond)", .mistake = "was it given in MPa?"},
+     .meaning = "tensile strength of bonds, until they are pulled beyond it or slip, under every cohesion_law; no factor of safety divides "
+         "it; the overlap of zero stress is shifted to tension / normal_stiffness, permanently",
+     .breaks = "acts where there are bonds: see bonds", .mistake = "was it given in MPa?"},
     {.key = "cohesion", .members = {in(&JointProperties::cohesion)}, .unit = "Pa", .range = not_negative,
      .plausible = {.low = 1e3, .high = 1e8, .or_zero = true}, .example = "0.787e6",
-     .meaning = "cohesion of bonded joints, valid until the bond breaks by tension or slip",
-     .breaks = "has an effect only after a stage has made bonds (stage.bond)", .mistake = "was it given in MPa?"},
+     .meaning = "cohesion c of bonds, until slip takes it as cohesion_law says or the joint opens, which takes all of it permanently",
+     .breaks = "acts where there are bonds: see bonds", .mistake = "was it given in MPa?"},
+    {.key = "cohesion_law", .members = {one_of(&JointProperties::cohesion_law,
+         {{"plastic", CohesionLaw::plastic}, {"softening", CohesionLaw::softening}, {"brittle", CohesionLaw::brittle}})},
+     .example = "\"plastic\"",
+     .meaning = "cohesion c(β) against the plastic slip β since the bond was made, as long as the joint stays closed; plastic: c(β) = "
+         "cohesion, limit equilibrium's assumption; softening: residual_cohesion + (cohesion - residual_cohesion) exp(-β / "
+         "cohesion_slip_m); brittle: 0 after the first slip. A search for the factor of safety divides c(β)",
+     .breaks = "plastic is unsafe if the joint is brittle, and a laboratory's residual cohesion is not it; brittle cohesion that several joints "
+         "share makes a factor of safety depend on shear_stiffness / normal_stiffness"},
+    {.key = "residual_cohesion", .members = {in(&JointProperties::residual_cohesion)}, .unit = "Pa", .range = not_negative,
+     .plausible = {.low = 1e3, .high = 1e8, .or_zero = true}, .example = "0.05e6", .when = {"cohesion_law", "softening"},
+     .meaning = "cohesion that any slip leaves, at most cohesion", .mistake = "was it given in MPa?"},
+    {.key = "cohesion_slip_m", .members = {in(&JointProperties::cohesion_slip)}, .unit = "m", .range = not_negative,
+     .plausible = {.low = 1e-5, .high = 1, .or_zero = true}, .example = "0.002", .required = true,
+     .when = {"cohesion_law", "softening"},
+     .meaning = "plastic slip at which 63 % of cohesion - residual_cohesion is lost; 0: lost at the first slip",
+     .breaks = "cohesion that falls faster than the shear spring unloads causes snap-back, counted as snap_backs"},
+    {.key = "bonds", .members = {one_of(&JointProperties::bonds,
+         {{"as_sliced", BondsMade::as_sliced}, {"by_stage", BondsMade::by_stage}})},
+     .example = "\"as_sliced\"",
+     .meaning = "where tension and cohesion act; as_sliced: from the first stage on, once, between faces of one joint that are opposite each "
+         "other when sliced, as each is first compressed (a contact that is lost, or formed later, has none), and where a stage bonds; "
+         "by_stage: only where a stage bonds (stage.bond). Interfaces of linings are bonded when the lining is installed",
+     .breaks = "weight that comes on suddenly, in a stage of kind run, may part a joint, which loses its cohesion permanently: settle first"},
   }};
 }
 // clang-format on

@@ -33,7 +33,7 @@ KeyTable stage_change_keys() {
      .meaning = "friction angle of single joint properties, by name, from this stage on; it takes precedence over friction_deg"},
     {.key = "bond", .members = {in(&Change::bond)}, .example = "true",
      .meaning = "bonds closed joints that state tension or cohesion, at contacts that are compressed, or are so before they open by a "
-         "thousandth of the smallest inscribed radius; a bond breaks permanently, by tension or slip"},
+         "thousandth of the smallest inscribed radius; for joints whose properties have bonds by_stage, and those that were made or parted later"},
     {.key = "zero_slip", .members = {in(&Change::zero_slip)}, .example = "true",
      .meaning = "the plastic slip of every joint is set to zero before the stage begins, so that hardening or softening of friction starts "
          "there, as after the generation of in-situ stress"},

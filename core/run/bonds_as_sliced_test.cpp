@@ -1,0 +1,178 @@
+// A stated cohesion against limit equilibrium: a block on one plane, Hoek and Bray's wedge on two.
+#include "core/run/bonds_as_sliced.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/testing/whole_runs.hpp"
+
+namespace voussoir::bonds_as_sliced_test {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+struct Slope {
+  int dimension = 2, points = 1;
+  std::string law;     // keys of the joint's cohesion
+  std::string stages;  // after the weight has come on
+
+  std::string at(double x, double z) const {
+    return dimension == 2 ? fmt::format("[{}, {}]", x, z) : fmt::format("[{}, 0, {}]", x, z);
+  }
+  // 20 degrees of slope, 15 of friction, a slab 2 m thick below a plane parallel to the joint
+  std::string text() const {
+    const std::string low = dimension == 2 ? "[-4, -6]" : "[-4, -1, -6]",
+                      high = dimension == 2 ? "[4, 6]" : "[4, 1, 6]";
+    return fmt::format(
+               "dimension = {}\ngravity = {}\ndensity = 2500\n"
+               "[domain]\nbox = {{ min = {}, max = {} }}\n"
+               "planes = [{{ dip = 20, dip_direction = 90, point = {}, keep = \"below\" }}]\n"
+               "[[joints]]\nname = \"plane\"\ndip = 20\ndip_direction = 90\npoint = {}\n"
+               "[[joint_properties]]\nname = \"rock\"\nnormal_stiffness = 1e9\nshear_stiffness = 1e8\nfriction_deg = "
+               "15\n"
+               "cohesion = 20e3\nsub_contacts = {}\n{}\n"
+               "[[fix]]\nbelow = [\"plane\"]\n[[restrain]]\nabove = [\"plane\"]\nrotation = true\n"
+               "[[stage]]\nname = \"settle\"\nkind = \"settle\"\ngravity_ramp_s = 0.5\n",
+               dimension, dimension == 2 ? "[0, -9.81]" : "[0, 0, -9.81]", low, high, at(0, 2 / std::cos(20 * degree)),
+               at(0, 0), points, law) +
+           stages + "[output]\nframes = false\n";
+  }
+  // (c A + W cos β tan φ)/(W sin β), W = γ t A
+  double factor(double cohesion = 20e3) const {
+    return cohesion / (2500 * 9.81 * 2 * std::sin(20 * degree)) + std::tan(15 * degree) / std::tan(20 * degree);
+  }
+};
+
+const std::string search =
+    "[[stage]]\nname = \"safety\"\nkind = \"reduce\"\nsearch = \"factor\"\nfrom_factor = 0.5\nto_factor = 4\n"
+    "tolerance_factor = 0.001\nfailure_displacement = 0.02\n";
+
+template <int Dim>
+void expect_peak_strength(const std::string& law, int points) {
+  const Slope slope{Dim, points, law, search};
+  const Results results = whole_run(scene_of<Dim>(slope.text())).results;
+  const Value* found = results.find("factor_of_safety");
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->value, slope.factor(), *found->error_bar + 1e-9) << law << ", " << points;
+  ASSERT_TRUE(results.bonds);
+  EXPECT_EQ(results.bonds->broken, 0);
+  ASSERT_EQ(results.cohesion.size(), 1u);
+}
+
+// under its weight a block has the factor of its peak strength, whatever slip leaves
+TEST(BondsAsSliced, ABlockOnAnInclineHasTheFactorOfLimitEquilibrium) {
+  EXPECT_GT(Slope{}.factor(), 1.7);
+  for (const char* law : {"", "cohesion_law = \"softening\"\ncohesion_slip_m = 1e-3\nresidual_cohesion = 5e3",
+                          "cohesion_law = \"softening\"\ncohesion_slip_m = 0", "cohesion_law = \"brittle\""})
+    for (const int points : {1, 4}) {
+      expect_peak_strength<2>(law, points);
+      expect_peak_strength<3>(law, points);
+    }
+}
+
+// A joint that was pulled apart, and blocks given directly, have none.
+TEST(BondsAsSliced, WhatPartsOrMeetsLaterHasNone) {
+  const std::string pulled =
+      "[[stage]]\nname = \"pull\"\nkind = \"run\"\nduration_s = 0.02\nforce = [{ name = \"pull\", inside = [0, 1], "
+      "force "
+      "= [0, 4e6], times_s = [0, 0.01, 0.02], factors = [0, 1, 0] }]\n"
+      "[[stage]]\nname = \"rest\"\nkind = \"settle\"\nstatics = \"local\"\nfriction_deg = 60\n" +
+      search + "friction = [{ name = \"rock\", friction_deg = 15 }]\n";
+  const Slope slope{2, 1, "", pulled};
+  const Results results = whole_run(scene_of<2>(slope.text())).results;
+  EXPECT_NEAR(results.find("factor_of_safety")->value, slope.factor(0), 2e-3);
+  EXPECT_EQ(results.bonds->broken, 1);
+
+  const std::string given =
+      "dimension = 2\ngravity = [0, -9.81]\ndensity = 2500\n"
+      "blocks = [{ name = \"ground\", box = { min = [-2, -1], max = [2, 0] }, fixed = true },\n"
+      "          { name = \"stone\", box = { min = [-1, 0], max = [1, 1] } }]\n"
+      "[[joint_properties]]\nname = \"rock\"\nnormal_stiffness = 1e9\nshear_stiffness = 1e8\nfriction_deg = "
+      "15\ncohesion "
+      "= 20e3\n[[stage]]\nname = \"settle\"\nkind = \"settle\"\ngravity_ramp_s = 0.1\n";
+  const Results apart = whole_run(scene_of<2>(given)).results;
+  EXPECT_EQ(apart.bonds->made, 0);
+  EXPECT_EQ(std::ranges::count_if(apart.warnings,
+                                  [](const std::string& w) { return w.find("blocks given directly") != w.npos; }),
+            1);
+}
+
+// stated by stage, a strength acts where a stage bonds
+TEST(BondsAsSliced, ByStageNothingActsUntilAStageBonds) {
+  Slope slope{2, 4, "bonds = \"by_stage\"", "friction_deg = 60\n" + search + "friction_deg = 15\n"};
+  const Results without = whole_run(scene_of<2>(slope.text())).results;
+  EXPECT_FALSE(without.bonds);
+  EXPECT_NEAR(without.find("factor_of_safety")->value, slope.factor(0), 2e-3);
+  const Results with = whole_run(scene_of<2>(slope.text(), {"stage.settle.bond=true"})).results;
+  EXPECT_NEAR(with.find("factor_of_safety")->value, slope.factor(), 2e-3);
+}
+
+TEST(BondsAsSliced, ACheckpointKeepsSlippedBonds) {
+  const Slope slope{3, 2, "cohesion_law = \"softening\"\ncohesion_slip_m = 1e-3\nresidual_cohesion = 5e3", search};
+  const Prepared<3> scene = scene_of<3>(slope.text());
+  const Results whole = whole_run(scene).results;
+  EXPECT_EQ(continued(scene, whole.counters.steps - 40).results.state_hash, whole.state_hash);
+}
+
+// Hoek and Bray's wedge (Wyllie & Mah, Rock Slope Engineering, 2004, Appendix III) in SI; the crack carries nothing.
+std::string wedge(double ratio, const std::string& law, const std::string& failure) {
+  const double normal = 1e11;
+  const auto joint = [](const char* name, double dip, double direction, const char* point) {
+    return fmt::format(
+        "[[joints]]\nname = \"{0}\"\ndip = {1}\ndip_direction = {2}\npoint = {3}\nproperties = \"{0}\"\n", name, dip,
+        direction, point);
+  };
+  const auto properties = [&](const char* name, double friction, double part, const std::string& keys) {
+    return fmt::format(
+        "[[joint_properties]]\nname = \"{}\"\nnormal_stiffness = {}\nshear_stiffness = {}\nfriction_deg = {}\n{}\n",
+        name, part * normal, part * normal * ratio, friction, keys);
+  };
+  return "dimension = 3\ngravity = [0, 0, -9.81]\ndensity = 2562.078921\n"
+         "[domain]\nbox = { min = [-200, -50, -60], max = [100, 200, 120] }\n"
+         "planes = [{ dip = 65, dip_direction = 185, point = [0, 0, 0], keep = \"below\" },\n"
+         "          { dip = 12, dip_direction = 195, point = [-27.0970698257, 16.6380354154, 30.48], keep = \"below\" "
+         "}]\n" +
+         joint("A", 45, 105, "[0, 0, 0]") + joint("B", 70, 235, "[0, 0, 0]") +
+         joint("crack", 70, 165, "[-26.4723494774, 28.5584097721, 32.9617863897]") +
+         properties("A", 20, 1, "cohesion = 23940.12949\n" + law) +
+         properties("B", 30, 1, "cohesion = 47880.25898\n" + law) + properties("crack", 0, 1e-5, "") +
+         "[[fix]]\nbelow = [\"A\"]\n[[fix]]\nbelow = [\"B\"]\n[[fix]]\nbelow = [\"crack\"]\n"
+         "[[restrain]]\nabove = [\"A\", \"B\", \"crack\"]\nrotation = true\n"
+         "[[stage]]\nname = \"settle\"\nkind = \"settle\"\ngravity_ramp_s = 0.5\nfriction_deg = 85\n"
+         "[[stage]]\nname = \"safety\"\nkind = \"reduce\"\nsearch = \"factor\"\njoint_properties = [\"A\", \"B\"]\n"
+         "friction = [{ name = \"A\", friction_deg = 20 }, { name = \"B\", friction_deg = 30 },\n"
+         "            { name = \"crack\", friction_deg = 0 }]\n"
+         "from_factor = 0.5\nto_factor = 3\ntolerance_factor = 0.0002\n" +
+         failure + "[accuracy]\nerror_bar = \"bracket\"\n[output]\nframes = false\n";
+}
+
+double factor_of_wedge(double ratio, const std::string& law, const std::string& failure = "") {
+  const Results results = whole_run(scene_of<3>(wedge(ratio, law, failure))).results;
+  if (!failure.empty()) EXPECT_LE(results.energy.relative_error(), 1e-6);
+  return results.find("factor_of_safety")->value;
+}
+
+// plastic: limit equilibrium for any stiffness; brittle: the joint that breaks first, by elasticity, then the rest
+TEST(BondsAsSliced, HoekAndBraysWedge) {
+  for (const double ratio : {1.0, 0.1, 0.01})
+    EXPECT_NEAR(factor_of_wedge(ratio, ""), 1.735577, 2e-4) << ratio;
+  EXPECT_NEAR(factor_of_wedge(1, "cohesion_law = \"brittle\""), 1.106620, 2e-4);
+  EXPECT_NEAR(factor_of_wedge(0.01, "cohesion_law = \"brittle\""), 1.599971, 2e-4);
+}
+
+// Σ T_i(u) of both joints has its peak; shear across the line at ks/kn = 0.001 takes 0.0016, as it does of 1.617707
+TEST(BondsAsSliced, HoekAndBraysWedgeWithCohesionThatSlipTakes) {
+  const auto softening = [](double slip) {
+    return factor_of_wedge(0.001, fmt::format("cohesion_law = \"softening\"\ncohesion_slip_m = {}", slip),
+                           "failure_displacement = 0.02\n");
+  };
+  EXPECT_NEAR(softening(1e-2), 1.73415 - 0.0016, 3e-4);
+  EXPECT_NEAR(softening(1e-3), 1.71987 - 0.0016, 3e-4);
+  EXPECT_NEAR(softening(3e-4), 1.67034 - 0.0016, 3e-4);
+}
+
+}  // namespace
+}  // namespace voussoir::bonds_as_sliced_test
