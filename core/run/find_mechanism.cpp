@@ -383,7 +383,7 @@ FailureMechanism find_mechanism(const Model<Dim>& model, const std::vector<Place
     mechanism.free_share += mechanism.clusters.back().free_share;
   }
   std::ranges::stable_sort(mechanism.clusters, std::ranges::greater{}, &MovingCluster::weight);
-  if (const long long whole = whole_bonds(before); whole > 0) mechanism.bonds_broken = whole - whole_bonds(after);
+  if (const long long held = held_bonds(before); held > 0) mechanism.bonds_broken = held - held_bonds(after);
   return mechanism;
 }
 
