@@ -214,6 +214,8 @@ const Harmless harmless[] = {
     {"joint_properties", "hardening_exponent", "0", is_default},
     {"joint_properties", "tension", "0", is_default},
     {"joint_properties", "cohesion", "0", is_default},
+    {"joint_properties", "residual_cohesion", "0", "none is left, as without the key"},
+    {"joint_properties", "cohesion_slip_m", "0", "the documented meaning of zero: the fall is at once"},
     {"contact", "tolerance", "0", is_default},
     {"damping", "viscous_ratio", "0", is_default},
     {"output", "frame_interval_s", "0", is_default},

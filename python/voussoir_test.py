@@ -32,8 +32,10 @@ FALL = SOURCE / "cases/free_fall/scene.toml"  # long
 
 
 def results_of(folder):
-    """results.json without machine and program."""
+    """results.json without machine and program, and without block theory, which is the program's only."""
     results = json.loads((Path(folder) / "results.json").read_text())
+    for state in results.get("at_last_stable_state", []):
+        state.pop("block_theory", None)
     return {key: value for key, value in results.items() if key not in ("program", "timing", "warnings")}
 
 

@@ -59,7 +59,7 @@ Spin<3> rotation_vector(const Rotation<3>& rotation) {
 Rotation<3> rotation_onto(const Vector<3>& from, const Vector<3>& to) {
   const Vector<3> a = from.normalized(), b = to.normalized();
   const double cosine = a.dot(b);
-  if (cosine < -1 + 1e-12) {
+  if (cosine < -1 + 1e-15) {
     const Vector<3> axis = perpendicular(a);
     return {Quaternion(0, axis[0], axis[1], axis[2])};
   }

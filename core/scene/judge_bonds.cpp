@@ -12,6 +12,8 @@
 namespace voussoir {
 namespace {
 
+constexpr double longest_cohesion_slip = 0.3;  // m
+
 // joints, sets counted twice, with cohesion that the first slip takes
 int brittle_joints(const Scene& scene, bool made) {
   const auto is_brittle = [&](const std::optional<std::string>& name) {
@@ -72,6 +74,12 @@ std::vector<std::string> judge_bonds(const Scene& scene) {
           spec.subject, "tension",
           "exceeds cohesion / tan(friction_deg) = " + fmt::format("{:.3g}", p.cohesion / std::tan(p.friction)) +
               " Pa, beyond which a joint in tension has no shear strength: it breaks there"));
+    if (p.softens_cohesion() && p.cohesion_slip > longest_cohesion_slip)
+      warnings.push_back(
+          complaint(spec.subject, "cohesion_slip_m",
+                    fmt::format("is {:g} m, beyond the slip of any shear test: the cohesion is as good as "
+                                "plastic; if it is meant in mm, write cohesion_slip_m = {:g}",
+                                p.cohesion_slip, p.cohesion_slip / 1000)));
     const bool of_lining = std::ranges::count(scene.linings, p.name, &LiningSpec::interface_properties) > 0;
     if (made || scene.stages.empty() || !p.laws.bond || of_lining || p.bonds == BondsMade::as_sliced) continue;
     warnings.push_back(complaint(spec.subject, p.cohesion > 0 ? "cohesion" : "tension",
