@@ -42,13 +42,17 @@ std::vector<std::string> unsupported(const LimitAnalysis& analysis) {
   return warnings;
 }
 
+bool has_cohesion(const Interface& face) {
+  return face.cohesion > 0;
+}
+
 // strengths other than friction that are left out
 void warn_of_strengths(const LimitAnalysis& analysis, std::vector<std::string>& warnings) {
   const std::vector<JointProperties>& properties = analysis.model.properties;
   for (std::size_t k = 0; k < properties.size(); ++k) {
     const JointProperties& p = properties[k];
     const auto is_cohesive = [&](const Interface& face) {
-      return face.properties == static_cast<int>(k) && face.cohesion > 0;
+      return face.properties == static_cast<int>(k) && has_cohesion(face);
     };
     const bool counts = std::ranges::any_of(analysis.interfaces, is_cohesive);
     if (p.laws.bond && !counts)
@@ -127,16 +131,13 @@ CriticalStrength seek_strength(const LimitRequest& request, const Find& find, co
   return found;
 }
 
-bool counts_cohesion(const LimitAnalysis& analysis) {
-  return std::ranges::any_of(analysis.interfaces, [](const Interface& face) { return face.cohesion > 0; });
-}
-
 void seek_factor_of_safety(const LimitRequest& request, LimitAnalysis& analysis) {
   analysis.sought = "factor of safety of ";
   const CriticalStrength found = seek_strength(request, find_factor_of_safety, "--joint", analysis);
   if (found.status == LimitStatus::found && std::isfinite(found.collapses)) {
     analysis.values.emplace_back("factor_of_safety", bracketed(found.stands, found.collapses, "1"));
-    analysis.values.back().second.divides = divided_by_factor(request.properties, counts_cohesion(analysis));
+    analysis.values.back().second.divides =
+        divided_by_factor(request.properties, std::ranges::any_of(analysis.interfaces, has_cohesion));
     analysis.values.emplace_back("force_missing_beyond", Value{found.missing, "weight of a block", {}, ""});
   } else if (found.status == LimitStatus::found) {
     analysis.message = fmt::format(

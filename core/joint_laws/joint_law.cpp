@@ -24,7 +24,7 @@ double offset(const JointProperties& p) {
 
 // a softening cohesion without a length
 bool falls_at_once(const JointProperties& p) {
-  return p.cohesion_law == CohesionLaw::softening && !(p.cohesion_slip > 0) && p.residual_cohesion < p.cohesion;
+  return p.softens_cohesion() && !(p.cohesion_slip > 0);
 }
 
 }  // namespace

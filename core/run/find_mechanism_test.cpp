@@ -34,14 +34,19 @@ std::string box(const std::string& name, double x, double y, double width, doubl
                      x + width, y + height, fixed);
 }
 
-// the state with its bodies there, and the forces
 template <int Dim>
-State<Dim> placed_at(const Prepared<Dim>& scene, const std::vector<Placement<Dim>>& placed) {
-  State<Dim> state = scene.state;
+void place_bodies(const std::vector<Placement<Dim>>& placed, State<Dim>& state) {
   for (std::size_t b = 0; b < placed.size(); ++b) {
     state.bodies.motions[b].displacement = placed[b].displacement;
     state.bodies.motions[b].rotation = placed[b].rotation;
   }
+}
+
+// the state with its bodies there, and the forces
+template <int Dim>
+State<Dim> placed_at(const Prepared<Dim>& scene, const std::vector<Placement<Dim>>& placed) {
+  State<Dim> state = scene.state;
+  place_bodies(placed, state);
   find_forces(scene.model, scene.settings, state);
   return state;
 }
@@ -356,10 +361,7 @@ Followed follow(const std::string& text) {
   if (!result.failed) return result;
   std::vector<Placement<Dim>> from;
   note_placements(base.bodies, from);
-  for (std::size_t b = 0; b < placed.size(); ++b) {
-    failed.bodies.motions[b].displacement = placed[b].displacement;
-    failed.bodies.motions[b].rotation = placed[b].rotation;
-  }
+  place_bodies(placed, failed);
   failed.increment = {};
   stop(failed.bodies.motions);
   State<Dim> evaluated = failed;
