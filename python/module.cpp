@@ -6,11 +6,13 @@
 #include <chrono>
 #include <cstring>
 
+#include "core/base/bad_input.hpp"
 #include "core/base/version.hpp"
 #include "core/output/output_error.hpp"
 #include "core/scene/effective_scene.hpp"
 #include "core/scene/scene.hpp"
 #include "python/stepped_run.hpp"
+#include "text/angle.hpp"
 
 namespace py = pybind11;
 
@@ -213,6 +215,49 @@ py::dict history_of(const Run& run) {
   return columns;
 }
 
+// ---- block theory ------------------------------------------------------------------------------------------------
+
+// the columns of a table of numbers and texts: arrays of numbers, NaN for empty cells, or lists of texts
+py::dict columns_of(const std::string& csv) {
+  const py::module_ io = py::module_::import("io"), reader = py::module_::import("csv");
+  const py::object numpy = py::module_::import("numpy");
+  const py::list rows = py::list(reader.attr("reader")(io.attr("StringIO")(csv)));
+  py::dict columns;
+  const py::list header = rows[0];
+  for (std::size_t k = 0; k < header.size(); ++k) {
+    py::list texts;
+    for (std::size_t r = 1; r < rows.size(); ++r)
+      texts.append(rows[r][py::int_(k)]);
+    py::list numbers;
+    try {
+      for (const py::handle& text : texts)
+        numbers.append(py::float_(py::len(text) == 0 ? py::str("nan") : py::reinterpret_borrow<py::str>(text)));
+      columns[header[k]] = numpy.attr("array")(numbers, py::arg("dtype") = "f8");
+    } catch (const py::error_already_set&) {
+      columns[header[k]] = texts;
+    }
+  }
+  return columns;
+}
+
+std::optional<SeismicRequest> seismic_of(const py::object& seismic, double vertical) {
+  if (seismic.is_none() && vertical == 0) return std::nullopt;
+  SeismicRequest request;
+  request.vertical = vertical;
+  if (seismic.is_none()) {
+    request.trend = 0;
+  } else if (py::isinstance<py::tuple>(seismic)) {
+    const auto [coefficient, trend] = seismic.cast<std::pair<double, double>>();
+    request.coefficient = coefficient;
+    request.trend = trend * degree;
+  } else {
+    request.coefficient = seismic.cast<double>();
+  }
+  if (!(request.coefficient >= 0 && request.coefficient <= 10) || !(vertical >= 0 && vertical <= 10))
+    throw py::value_error("seismic coefficients are from 0 to 10");
+  return request;
+}
+
 // ---- errors ------------------------------------------------------------------------------------------------------
 
 py::handle scene_error;  // the class; it lives as long as the module, which Python never unloads
@@ -231,6 +276,8 @@ void translate(std::exception_ptr thrown) {
     raised.attr("line") = error.line;
     raised.attr("key") = text_of(error.key);
     PyErr_SetObject(scene_error.ptr(), raised.ptr());
+  } catch (const BadInput& error) {
+    PyErr_SetString(PyExc_ValueError, error.what());
   } catch (const FileInTheWay& error) {
     PyErr_SetString(PyExc_FileExistsError, error.what());
   } catch (const OutputError& error) {
@@ -268,11 +315,43 @@ void bind_scene(py::module_& module) {
           "Stated values that look like mistakes of unit or sign.");
 }
 
-void bind_run(py::module_& module) {
-  const py::object surface =
+void bind_blocks(py::module_& module, const py::object& surface) {
+  const py::object verdicts =
       py::module_::import("collections")
-          .attr("namedtuple")("Surface", "points faces cell_data point_data", py::arg("module") = "voussoir");
-  module.attr("Surface") = surface;
+          .attr("namedtuple")("Blocks", "verdicts table surface", py::arg("module") = "voussoir");
+  module.attr("Blocks") = verdicts;
+  module.def(
+      "blocks",
+      [verdicts, surface](const OpenedScene& scene, double required, const py::object& seismic, double vertical,
+                          const std::optional<std::pair<double, double>>& bolt, const std::string& strength_of,
+                          const std::string& after, bool frictionless) {
+        if (!(required > 0 && required <= 1000)) throw py::value_error("required is above 0 and at most 1000");
+        SurveyRequest request{.required = required,
+                              .seismic = seismic_of(seismic, vertical),
+                              .strength_of = strength_of,
+                              .after = after,
+                              .frictionless = frictionless};
+        if (bolt) request.bolt = std::pair(bolt->first * degree, bolt->second * degree);
+        BlockVerdicts found;
+        {
+          const py::gil_scoped_release others_may_run;
+          found = judge_blocks(scene, request);
+        }
+        return verdicts(py::module_::import("json").attr("loads")(found.json), columns_of(found.csv),
+                        surface(array_of(found.surface.points), faces_of(found.surface),
+                                dict_of(found.surface.cell_data), dict_of(found.surface.point_data)));
+      },
+      py::arg("scene"), py::kw_only(), py::arg("required") = 1.5, py::arg("seismic") = py::none(),
+      py::arg("seismic_vertical") = 0.0, py::arg("bolt") = py::none(), py::arg("strength_of") = "",
+      py::arg("after") = "", py::arg("frictionless") = false,
+      "Block theory on every block of a scene, with the options of `voussoir blocks`: Blocks(verdicts, table, "
+      "surface), the "
+      "content of blocks_verdicts.json, the columns of blocks_verdicts.csv (NaN: does not apply) and the faces. "
+      "`seismic` is k or (k, trend in deg), `bolt` (plunge, trend) in deg. Raises ValueError for scenes that it cannot "
+      "judge.");
+}
+
+void bind_run(py::module_& module, const py::object& surface) {
   py::class_<Run, std::shared_ptr<Run>>(module, "Run", "A run of a scene; Scene.start makes it.")
       .def("advance", &advance, py::arg("steps") = 1000,
            "Continues by this number of steps; False when the scene is done. Ctrl-C raises KeyboardInterrupt between "
@@ -345,7 +424,12 @@ PYBIND11_MODULE(voussoir, module) {
   scene_error = py::exception<voussoir::SceneError>(module, "SceneError", PyExc_ValueError).release();
   scene_error.attr("__doc__") = "An error in a scene, in one line, at `file`, `line` (0: none) and `key`.";
   py::register_exception_translator(&translate);
+  const py::object surface =
+      py::module_::import("collections")
+          .attr("namedtuple")("Surface", "points faces cell_data point_data", py::arg("module") = "voussoir");
+  module.attr("Surface") = surface;
   bind_scene(module);
-  bind_run(module);
+  bind_blocks(module, surface);
+  bind_run(module, surface);
   bind_state(module);
 }

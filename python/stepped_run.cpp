@@ -7,10 +7,12 @@
 #include "core/base/version.hpp"
 #include "core/model/state_hash.hpp"
 #include "core/output/atomic_file.hpp"
+#include "core/output/block_verdicts.hpp"
 #include "core/output/history_csv.hpp"
 #include "core/output/paraview.hpp"
 #include "core/output/results_json.hpp"
 #include "core/output/support_table.hpp"
+#include "core/run/block_theory.hpp"
 #include "core/run/simulate.hpp"
 #include "core/run/snapshot.hpp"
 #include "core/scene/accuracy_target.hpp"
@@ -20,6 +22,18 @@
 #include "core/scene/scene.hpp"
 
 namespace voussoir::python {
+
+BlockVerdicts judge_blocks(const OpenedScene& scene, const SurveyRequest& request) {
+  return std::visit(
+      [&]<int Dim>(const Prepared<Dim>& prepared) {
+        const Survey<Dim> survey = survey_blocks(prepared, request);
+        return BlockVerdicts{.json = blocks_json(survey, scene.stated.title, scene.hash, {}),
+                             .csv = blocks_csv(survey),
+                             .surface = block_verdict_faces(survey)};
+      },
+      scene.prepared);
+}
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -134,7 +148,11 @@ class SteppedRunOf : public SteppedRun {
   }
 
   std::string results() const override {
-    if (done_) return results_json(progress_.results, record());
+    if (done_) {
+      Results complete = progress_.results;
+      add_block_theory(prepared_, complete);
+      return results_json(complete, record());
+    }
     Results so_far = progress_.results;
     so_far.counters = progress_.state.counters;
     so_far.energy = progress_.state.ledger.energy;

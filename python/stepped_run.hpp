@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/key_blocks/block_survey.hpp"
 #include "core/model/prepared.hpp"
 #include "core/output/results.hpp"
 #include "core/output/vtp.hpp"
@@ -27,6 +28,15 @@ struct OpenedScene {
 
 // Throws SceneError, also for features that the core lacks: external solvers, and additional runs for a result.
 std::shared_ptr<const OpenedScene> open_scene(Scene stated);
+
+// what `voussoir blocks` writes
+struct BlockVerdicts {
+  std::string json, csv;
+  PolyData surface;
+};
+
+// Throws BadInput for scenes and stages that it cannot judge.
+BlockVerdicts judge_blocks(const OpenedScene& scene, const SurveyRequest& request);
 
 // The motion of the bodies, by body: the data of Python's arrays.
 struct MotionArrays {

@@ -1,5 +1,6 @@
 """The Python module against the program: the same bits, and views, copies, errors and signals as its README states."""
 import ast
+import csv
 import gc
 import json
 import os
@@ -32,10 +33,8 @@ FALL = SOURCE / "cases/free_fall/scene.toml"  # long
 
 
 def results_of(folder):
-    """results.json without machine and program, and without block theory, which is the program's only."""
+    """results.json without machine and program"""
     results = json.loads((Path(folder) / "results.json").read_text())
-    for state in results.get("at_last_stable_state", []):
-        state.pop("block_theory", None)
     return {key: value for key, value in results.items() if key not in ("program", "timing", "warnings")}
 
 
@@ -308,6 +307,38 @@ class Save(unittest.TestCase):
             again.save(program(CUBES), overwrite=True)
         with self.assertRaises(OSError):
             again.save(CUBES / "below_a_file")
+
+
+class Blocks(unittest.TestCase):
+    def test_are_those_of_the_program(self):
+        slope = SOURCE / "examples" / "tutorial" / "slope.toml"
+        with tempfile.TemporaryDirectory() as out:
+            subprocess.run([PROGRAM, "blocks", slope, "--required", "1.3", "--seismic", "0.1/180", "--out", out], check=True,
+                           stdout=subprocess.DEVNULL)
+            expected = json.loads((Path(out) / "blocks_verdicts.json").read_text())
+            rows = list(csv.DictReader((Path(out) / "blocks_verdicts.csv").open()))
+        found = voussoir.blocks(voussoir.Scene(slope), required=1.3, seismic=(0.1, 180))
+        for content in (expected, found.verdicts):
+            content["program"].pop("origins")
+        self.assertEqual(found.verdicts, expected)
+        factors = [float(row["factor"] or "nan") for row in rows]
+        np.testing.assert_array_equal(found.table["factor"], factors)
+        self.assertEqual(found.table["verdict"], [row["verdict"] for row in rows])
+        self.assertEqual(len(found.surface.cell_data["factor"]), len(found.surface.cell_data["body"]))
+
+    def test_the_tutorial_s_pair_is_lower_than_its_blocks(self):
+        slope = voussoir.Scene(SOURCE / "examples" / "tutorial" / "slope.toml")
+        found = voussoir.blocks(slope).verdicts
+        self.assertAlmostEqual(found["clusters"][0]["factor"], 1.069448, places=6)
+        with self.assertRaisesRegex(ValueError, "no stage has this name"):
+            voussoir.blocks(slope, after="nowhere")
+        with self.assertRaises(ValueError):
+            voussoir.blocks(slope, required=0)
+
+    def test_stand_beside_the_search_in_results(self):
+        scene = voussoir.Scene(SOURCE / "examples" / "tutorial" / "slope.toml")
+        at = end_of(scene.start()).results["at_last_stable_state"][0]
+        self.assertAlmostEqual(at["block_theory"]["critical"], 1.069448, places=6)
 
 
 class Errors(unittest.TestCase):

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string_view>
 
-#include "app/base/bad_input.hpp"
+#include "core/base/bad_input.hpp"
 
 namespace voussoir {
 namespace {

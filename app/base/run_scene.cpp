@@ -1,6 +1,6 @@
 #include "app/base/run_scene.hpp"
 
-#include "app/base/bad_input.hpp"
+#include "core/base/bad_input.hpp"
 #include "app/base/message.hpp"
 #include "core/base/version.hpp"
 #include "core/scene/effective_scene.hpp"

@@ -7,11 +7,14 @@
 #include <cmath>
 
 #include "app/base/arguments.hpp"
-#include "app/base/bad_input.hpp"
 #include "app/base/message.hpp"
-#include "app/blocks/blocks_files.hpp"
+#include "app/base/run_scene.hpp"
+#include "app/blocks/blocks_summary.hpp"
 #include "app/run_folder/claimed_folder.hpp"
+#include "app/run_folder/origin.hpp"
+#include "core/base/bad_input.hpp"
 #include "core/output/atomic_file.hpp"
+#include "core/output/block_verdicts.hpp"
 #include "text/angle.hpp"
 
 namespace voussoir {
@@ -81,15 +84,15 @@ std::optional<std::pair<double, double>> bolt_of(const BlocksArguments& argument
 
 template <int Dim>
 ExitCode judge_scene(const BlocksArguments& arguments, const SurveyRequest& request, const LoadedScene& scene) {
-  const Survey<Dim> survey = survey_blocks<Dim>(scene, request);
+  const Survey<Dim> survey = survey_blocks(std::get<Prepared<Dim>>(scene.prepared), request);
   const fs::path folder =
       arguments.out.empty() ? fs::path("results") / (arguments.scene.scene.stem().string() + "_blocks") : arguments.out;
   const Outputs outputs{"blocks", {"blocks_verdicts.json", "blocks_verdicts.csv", "blocks.vtp"}};
   const ClaimedFolder claim(folder, outputs, scene.files, arguments.overwrite);
   tell_remarks(*scene.stated);
   write_file(folder / "blocks_verdicts.csv", blocks_csv(survey));
-  write_file(folder / "blocks.vtp", blocks_vtp(survey));
-  write_file(folder / "blocks_verdicts.json", blocks_json(survey, scene));
+  write_file(folder / "blocks.vtp", vtp(block_verdict_faces(survey)));
+  write_file(folder / "blocks_verdicts.json", blocks_json(survey, scene.title, scene.hash, {this_origin()}));
   fmt::print("{}results: {}\n", blocks_summary(survey, scene.title, arguments.top), folder.string());
   ExitCode code = ExitCode::done;
   for (const auto* list : {&survey.rows, &survey.clusters})

@@ -1,3 +1,5 @@
+#include "app/blocks/blocks_summary.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -5,8 +7,8 @@
 #include <cmath>
 #include <map>
 
-#include "app/blocks/blocks_files.hpp"
 #include "core/geometry/plunge_trend.hpp"
+#include "core/output/block_verdicts.hpp"
 #include "text/angle.hpp"
 
 namespace voussoir {

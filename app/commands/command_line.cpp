@@ -11,7 +11,7 @@
 #include <new>
 #include <system_error>
 
-#include "app/base/bad_input.hpp"
+#include "core/base/bad_input.hpp"
 #include "app/base/exit_codes.hpp"
 #include "app/base/interruption.hpp"
 #include "app/base/message.hpp"

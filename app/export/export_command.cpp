@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/base/arguments.hpp"
-#include "app/base/bad_input.hpp"
+#include "core/base/bad_input.hpp"
 #include "app/base/run_scene.hpp"
 #include "app/export/formats.hpp"
 #include "app/run_folder/claimed_folder.hpp"

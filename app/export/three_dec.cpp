@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "app/base/bad_input.hpp"
+#include "core/base/bad_input.hpp"
 #include "app/base/dip_angles.hpp"
 #include "app/export/formats.hpp"
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <map>
 
-#include "app/base/bad_input.hpp"
+#include "core/base/bad_input.hpp"
 #include "app/export/formats.hpp"
 #include "text/angle.hpp"
 

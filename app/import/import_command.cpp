@@ -9,7 +9,7 @@
 #include <map>
 
 #include "app/base/arguments.hpp"
-#include "app/base/bad_input.hpp"
+#include "core/base/bad_input.hpp"
 #include "app/base/message.hpp"
 #include "app/base/orientation.hpp"
 #include "app/base/svg_figure.hpp"

@@ -6,7 +6,7 @@
 #include <cstdlib>
 
 #include "app/base/arguments.hpp"
-#include "app/base/bad_input.hpp"
+#include "core/base/bad_input.hpp"
 #include "app/base/message.hpp"
 #include "app/base/shown_unit.hpp"
 #include "app/run_folder/claimed_folder.hpp"

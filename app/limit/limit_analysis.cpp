@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "app/base/bad_input.hpp"
+#include "core/base/bad_input.hpp"
 #include "core/model/body_title.hpp"
 #include "core/model/water_surfaces.hpp"
 #include "text/angle.hpp"

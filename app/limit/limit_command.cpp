@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/base/arguments.hpp"
-#include "app/base/bad_input.hpp"
+#include "core/base/bad_input.hpp"
 #ifdef VOUSSOIR_HAS_GLPK
 #include <algorithm>
 

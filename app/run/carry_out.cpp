@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <optional>
 
-#include "app/base/bad_input.hpp"
+#include "core/base/bad_input.hpp"
 #include "app/base/interruption.hpp"
 #include "app/base/message.hpp"
 #include "app/base/progress_line.hpp"
 #include "app/run/accuracy_on_order.hpp"
-#include "app/run/block_theory.hpp"
+#include "core/run/block_theory.hpp"
 #include "app/run/error_budget.hpp"
 #include "app/run/run_files.hpp"
 #include "app/run/run_summary.hpp"

@@ -6,7 +6,7 @@
 #include <system_error>
 
 #include "app/base/arguments.hpp"
-#include "app/base/bad_input.hpp"
+#include "core/base/bad_input.hpp"
 #include "app/run/carry_out.hpp"
 #include "app/run_folder/origin.hpp"
 #include "app/run_folder/run_folder.hpp"

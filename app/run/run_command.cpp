@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "app/base/arguments.hpp"
-#include "app/base/bad_input.hpp"
+#include "core/base/bad_input.hpp"
 #include "app/base/message.hpp"
 #include "app/check/assess.hpp"
 #include "app/run/carry_out.hpp"

@@ -8,7 +8,7 @@
 
 #include "app/base/progress_line.hpp"
 #include "app/base/shown_unit.hpp"
-#include "app/run/block_theory.hpp"
+#include "core/run/block_theory.hpp"
 #include "core/run/stable_state.hpp"
 #include "core/scene/stage_excavations.hpp"
 

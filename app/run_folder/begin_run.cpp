@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "app/base/bad_input.hpp"
+#include "core/base/bad_input.hpp"
 #include "app/run_folder/claimed_folder.hpp"
 #include "app/run_folder/run_folder.hpp"
 #include "core/run/begin.hpp"

@@ -9,7 +9,7 @@
 #include <csignal>
 #include <cstdlib>
 
-#include "app/base/bad_input.hpp"
+#include "core/base/bad_input.hpp"
 #include "app/base/digest.hpp"
 #include "core/output/atomic_file.hpp"
 #include "text/read_file.hpp"

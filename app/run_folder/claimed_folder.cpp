@@ -13,7 +13,7 @@
 #include <optional>
 #include <thread>
 
-#include "app/base/bad_input.hpp"
+#include "core/base/bad_input.hpp"
 #include "core/output/atomic_file.hpp"
 #include "core/output/paraview.hpp"
 #include "text/plain_text.hpp"

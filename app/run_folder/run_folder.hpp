@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "app/base/bad_input.hpp"
+#include "core/base/bad_input.hpp"
 #include "app/run_folder/claimed_folder.hpp"
 #include "core/output/results_json.hpp"
 #include "core/run/checkpoint.hpp"

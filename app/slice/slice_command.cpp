@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "app/base/arguments.hpp"
-#include "app/base/bad_input.hpp"
+#include "core/base/bad_input.hpp"
 #include "app/base/run_scene.hpp"
 #include "app/run_folder/claimed_folder.hpp"
 #include "app/slice/slice_report.hpp"

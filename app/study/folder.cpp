@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "app/base/bad_input.hpp"
+#include "core/base/bad_input.hpp"
 #include "app/base/digest.hpp"
 #include "app/study/findings.hpp"
 #include "core/output/atomic_file.hpp"

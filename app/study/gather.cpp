@@ -8,7 +8,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "app/base/bad_input.hpp"
+#include "core/base/bad_input.hpp"
 #include "app/base/message.hpp"
 #include "app/base/row_ranges.hpp"
 #include "app/run_folder/run_folder.hpp"

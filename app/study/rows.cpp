@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "app/base/bad_input.hpp"
+#include "core/base/bad_input.hpp"
 #include "app/base/digest.hpp"
 #include "app/base/run_scene.hpp"
 #include "app/check/assess.hpp"

@@ -13,7 +13,7 @@
 #include <memory>
 #include <thread>
 
-#include "app/base/bad_input.hpp"
+#include "core/base/bad_input.hpp"
 #include "app/base/exit_codes.hpp"
 #include "app/base/interruption.hpp"
 #include "app/base/message.hpp"

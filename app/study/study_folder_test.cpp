@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "app/base/bad_input.hpp"
+#include "core/base/bad_input.hpp"
 #include "app/base/digest.hpp"
 #include "app/base/row_ranges.hpp"
 #include "app/run_folder/claimed_folder.hpp"

@@ -7,7 +7,7 @@
 #include <set>
 #include <thread>
 
-#include "app/base/bad_input.hpp"
+#include "core/base/bad_input.hpp"
 #include "app/base/interruption.hpp"
 #include "app/base/message.hpp"
 #include "app/base/row_ranges.hpp"

@@ -7,7 +7,7 @@
 #include <limits>
 #include <new>
 
-#include "app/base/bad_input.hpp"
+#include "core/base/bad_input.hpp"
 #include "app/view/asset.hpp"
 #include "core/output/view.hpp"
 #include "text/read_file.hpp"

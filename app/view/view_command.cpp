@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "app/base/arguments.hpp"
-#include "app/base/bad_input.hpp"
+#include "core/base/bad_input.hpp"
 #include "app/run_folder/claimed_folder.hpp"
 #include "app/run_folder/run_folder.hpp"
 #include "app/view/page.hpp"

@@ -297,7 +297,7 @@ struct Search {
         carry_out({.number = 2, .target = factor_without_strength, .from_base = true, .beside = true});
     if (report.last.reason == StopReason::interrupted) return;
     report.message = outcome == SearchTrial::stable ? hangs_on_bolts(largest_bolt_use(model, state)) : still_stable();
-    report.last = {.reason = StopReason::equilibrium};
+    report.last = {.reason = StopReason::equilibrium, .unreached = {}};
     report.unbalanced = progress.unbalanced;
     go_back_to_base();
   }

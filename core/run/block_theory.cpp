@@ -1,4 +1,4 @@
-#include "app/run/block_theory.hpp"
+#include "core/run/block_theory.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/base/bad_input.hpp"
-#include "app/blocks/block_survey.hpp"
+#include "core/base/bad_input.hpp"
 #include "core/geometry/plunge_trend.hpp"
+#include "core/key_blocks/block_survey.hpp"
 #include "core/key_blocks/elastic_shear.hpp"
 #include "core/key_blocks/pressure_eccentricity.hpp"
 #include "core/run/failure_watch.hpp"

@@ -3,10 +3,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "app/blocks/blocks_files.hpp"
-#include "app/run_folder/origin.hpp"
 #include "core/base/version.hpp"
 #include "core/key_blocks/direction_cone.hpp"
+#include "core/output/block_verdicts.hpp"
 #include "text/angle.hpp"
 
 namespace voussoir {
@@ -98,16 +97,15 @@ Json rounds_of(const SuccessiveFailure& failure) {
 }  // namespace
 
 template <int Dim>
-std::string blocks_json(const Survey<Dim>& survey, const LoadedScene& scene) {
+std::string blocks_json(const Survey<Dim>& survey, const std::string& title, const std::string& input_hash,
+                        const std::vector<Origin>& origins) {
   Json json;
   json["schema"] = "voussoir.blocks";
   json["schema_version"] = 1;
-  json["title"] = scene.title;
-  json["input_hash"] = scene.hash;
-  json["program"] = {{"version", version()},
-                     {"commit", commit()},
-                     {"compiler", compiler()},
-                     {"origins", origins_json({this_origin()})}};
+  json["title"] = title;
+  json["input_hash"] = input_hash;
+  json["program"] = {
+      {"version", version()}, {"commit", commit()}, {"compiler", compiler()}, {"origins", origins_json(origins)}};
   json["dimension"] = Dim;
   json["closing_tolerance"] = closing_tolerance;
   json["strength_of"] = survey.strength;
@@ -133,7 +131,9 @@ std::string blocks_json(const Survey<Dim>& survey, const LoadedScene& scene) {
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-template std::string blocks_json<2>(const Survey<2>&, const LoadedScene&);
-template std::string blocks_json<3>(const Survey<3>&, const LoadedScene&);
+template std::string blocks_json<2>(const Survey<2>&, const std::string&, const std::string&,
+                                    const std::vector<Origin>&);
+template std::string blocks_json<3>(const Survey<3>&, const std::string&, const std::string&,
+                                    const std::vector<Origin>&);
 
 }  // namespace voussoir

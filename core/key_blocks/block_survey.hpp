@@ -1,13 +1,14 @@
-// The verdicts of a scene's blocks by block theory, ready to print and write.
+// The verdicts of a scene's blocks by block theory, at its stages.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "app/base/run_scene.hpp"
 #include "core/key_blocks/block_forces.hpp"
 #include "core/key_blocks/survey.hpp"
+#include "core/model/prepared.hpp"
 
 namespace voussoir {
 
@@ -69,7 +70,7 @@ struct Survey {
 
 // Throws BadInput for scenes that it cannot judge.
 template <int Dim>
-Survey<Dim> survey_blocks(const LoadedScene& scene, const SurveyRequest& request);
+Survey<Dim> survey_blocks(const Prepared<Dim>& prepared, const SurveyRequest& request);
 
 // The blocks at a stage of the scene, from 0: its geometry, strength, loads and bolts.
 template <int Dim>

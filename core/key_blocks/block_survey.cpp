@@ -1,4 +1,4 @@
-#include "app/blocks/block_survey.hpp"
+#include "core/key_blocks/block_survey.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,7 +8,7 @@
 #include <numbers>
 #include <set>
 
-#include "app/base/bad_input.hpp"
+#include "core/base/bad_input.hpp"
 #include "core/key_blocks/elastic_shear.hpp"
 #include "core/key_blocks/pressure_eccentricity.hpp"
 #include "core/model/water_surfaces.hpp"
@@ -242,8 +242,7 @@ Assembly<Dim> assembly_of_stage(const Prepared<Dim>& prepared, int stage) {
 }
 
 template <int Dim>
-Survey<Dim> survey_blocks(const LoadedScene& scene, const SurveyRequest& request) {
-  const Prepared<Dim>& prepared = std::get<Prepared<Dim>>(scene.prepared);
+Survey<Dim> survey_blocks(const Prepared<Dim>& prepared, const SurveyRequest& request) {
   const Stages stages = choose_stages(prepared.stages, request);
   refuse_other_models(prepared.model);
   Survey<Dim> survey;
@@ -315,12 +314,12 @@ const char* motion_of(const SurveyRow<Dim>& row) {
   return *row.bolted.factor < 1 ? "slides and turns" : "turns";
 }
 
-#define VOUSSOIR_INSTANTIATE(Dim)                                                    \
-  template struct Survey<Dim>;                                                       \
-  template Survey<Dim> survey_blocks<Dim>(const LoadedScene&, const SurveyRequest&); \
-  template Assembly<Dim> assembly_of_stage<Dim>(const Prepared<Dim>&, int);          \
-  template void refuse_other_models<Dim>(const Model<Dim>&);                         \
-  template const char* type_of<Dim>(const SurveyRow<Dim>&, double);                  \
+#define VOUSSOIR_INSTANTIATE(Dim)                                                      \
+  template struct Survey<Dim>;                                                         \
+  template Survey<Dim> survey_blocks<Dim>(const Prepared<Dim>&, const SurveyRequest&); \
+  template Assembly<Dim> assembly_of_stage<Dim>(const Prepared<Dim>&, int);            \
+  template void refuse_other_models<Dim>(const Model<Dim>&);                           \
+  template const char* type_of<Dim>(const SurveyRow<Dim>&, double);                    \
   template const char* motion_of<Dim>(const SurveyRow<Dim>&);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)

@@ -1,15 +1,14 @@
-// The texts that `voussoir blocks` prints and writes.
+// The files of block theory's verdicts.
 #pragma once
 
 #include <string>
+#include <vector>
 
-#include "app/blocks/block_survey.hpp"
+#include "core/key_blocks/block_survey.hpp"
+#include "core/output/origin.hpp"
+#include "core/output/vtp.hpp"
 
 namespace voussoir {
-
-// header, a line a class, the worst blocks and clusters, rounds, notes; kN and m³ (2-D: per metre)
-template <int Dim>
-std::string blocks_summary(const Survey<Dim>& survey, const std::string& title, int top);
 
 // a row for every free block by body, then the clusters; empty cells for what does not apply
 template <int Dim>
@@ -18,11 +17,12 @@ std::string blocks_csv(const Survey<Dim>& survey);
 // The same with the proof of every verdict (core/key_blocks): faces, load, motion and normal forces, a direction, or
 // weights.
 template <int Dim>
-std::string blocks_json(const Survey<Dim>& survey, const LoadedScene& scene);
+std::string blocks_json(const Survey<Dim>& survey, const std::string& title, const std::string& input_hash,
+                        const std::vector<Origin>& origins);
 
 // the faces of the blocks with their verdict
 template <int Dim>
-std::string blocks_vtp(const Survey<Dim>& survey);
+PolyData block_verdict_faces(const Survey<Dim>& survey);
 
 // the normal force on each face, zero for unloaded ones, N
 template <int Dim>

@@ -1,4 +1,4 @@
-#include "app/blocks/blocks_files.hpp"
+#include "core/output/block_verdicts.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -153,7 +153,7 @@ std::string blocks_csv(const Survey<Dim>& survey) {
 }
 
 template <int Dim>
-std::string blocks_vtp(const Survey<Dim>& survey) {
+PolyData block_verdict_faces(const Survey<Dim>& survey) {
   const Model<Dim>& model = survey.assembly.model;
   PolyData data = block_faces(model, initial_state<Dim>(model), 0, survey.sets);
   const auto body = std::find_if(data.cell_data.begin(), data.cell_data.end(),
@@ -187,14 +187,14 @@ std::string blocks_vtp(const Survey<Dim>& survey) {
     words.emplace_back(word_of(static_cast<BlockKind>(kind)));
   words.emplace_back("fixed or undecided");
   data.names.emplace_back("verdict_names", words);
-  return vtp(data);
+  return data;
 }
 
 #define VOUSSOIR_INSTANTIATE(Dim)                                                                  \
   template std::vector<double> normal_forces<Dim>(const SurveyRow<Dim>&);                          \
   template std::vector<std::string> loaded_joints<Dim>(const Survey<Dim>&, const SurveyRow<Dim>&); \
   template std::string blocks_csv<Dim>(const Survey<Dim>&);                                        \
-  template std::string blocks_vtp<Dim>(const Survey<Dim>&);
+  template PolyData block_verdict_faces<Dim>(const Survey<Dim>&);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)
 #undef VOUSSOIR_INSTANTIATE
