@@ -10,6 +10,7 @@
 #include "app/base/message.hpp"
 #include "app/base/run_scene.hpp"
 #include "app/blocks/blocks_summary.hpp"
+#include "app/blocks/kinematics_text.hpp"
 #include "app/run_folder/claimed_folder.hpp"
 #include "app/run_folder/origin.hpp"
 #include "core/base/bad_input.hpp"
@@ -31,9 +32,17 @@ struct BlocksArguments {
   double seismic_vertical = 0;
   std::string strength_of, after;
   bool frictionless = false;
+  bool kinematics = false;
+  std::string face;
+  double friction = 0;  // deg; 0: that of the joints
   int top = 20;
   bool overwrite = false;
 };
+
+fs::path folder_of(const BlocksArguments& arguments) {
+  return arguments.out.empty() ? fs::path("results") / (arguments.scene.scene.stem().string() + "_blocks")
+                               : arguments.out;
+}
 
 // numbers separated by a slash
 std::vector<double> slashed(const std::string& text, const char* option, const char* form) {
@@ -82,17 +91,72 @@ std::optional<std::pair<double, double>> bolt_of(const BlocksArguments& argument
   return std::pair(numbers[0] * degree, numbers[1] * degree);
 }
 
+// Their angles are differences between directions, so a friction for each joint has no meaning.
+double one_friction(const Model<3>& model, const std::vector<int>& joints) {
+  double least = 90 * degree, most = 0;
+  for (const int j : joints) {
+    least = std::min(least, model.properties[model.joints[j].properties].friction);
+    most = std::max(most, model.properties[model.joints[j].properties].friction);
+  }
+  if (least < most)
+    throw BadInput(
+        fmt::format("--kinematics: the joints have friction from {:g} to {:g} deg, and the zones are drawn for one: "
+                    "state --friction",
+                    to_degrees(least), to_degrees(most)));
+  return least;
+}
+
+// pairs grow with the square: a table of two million rows is 200 MB
+constexpr std::size_t most_joints = 2000;
+
+ExitCode analyse_directions(const BlocksArguments& arguments, const LoadedScene& scene) {
+  constexpr const char* form = "dip/dip direction of the rock face in degrees, for example 70/180";
+  if (arguments.face.empty()) throw BadInput(fmt::format("--kinematics needs --face {}", form));
+  const std::vector<double> face = slashed(arguments.face, "--face", form);
+  if (face.size() != 2 || face[0] <= 0 || face[0] >= 180 || face[1] < 0 || face[1] > 360)
+    throw BadInput(fmt::format("--face {}: write {}; a face that overhangs dips more than 90", arguments.face, form));
+  if (scene.dimension == 2) throw BadInput("--kinematics compares directions in space; the scene has dimension = 2");
+  const auto& prepared = std::get<Prepared<3>>(scene.prepared);
+  std::vector<int> chosen;
+  std::vector<KinematicJoint> joints;
+  std::vector<std::string> names;
+  for (std::size_t j = 0; j < prepared.model.joints.size(); ++j) {
+    const Joint<3>& joint = prepared.model.joints[j];
+    if (joint.holds) continue;
+    chosen.push_back(static_cast<int>(j));
+    joints.push_back({joint.plane.normal, prepared.joint_sets.set_of(static_cast<int>(j))});
+    names.push_back(joint.name);
+  }
+  if (joints.size() < 2 || joints.size() > most_joints)
+    throw BadInput(
+        fmt::format("--kinematics judges pairs of 2 to {} joints; the scene has {}", most_joints, joints.size()));
+  const KinematicRequest request{
+      .face = {face[0] * degree, face[1] * degree},
+      .friction = arguments.friction > 0 ? arguments.friction * degree : one_friction(prepared.model, chosen)};
+  const std::vector<PairVerdict> pairs = judge_pairs(request, joints);
+  const fs::path folder = folder_of(arguments);
+  const ClaimedFolder claim(folder, Outputs{"blocks", {"kinematic_pairs.csv"}}, scene.files, arguments.overwrite);
+  tell_remarks(*scene.stated);
+  write_file(folder / "kinematic_pairs.csv", kinematic_pairs_csv(pairs, names));
+  fmt::print("{}table: {}\n", kinematics_summary(request, count_kinematic(request, joints), pairs, scene.title),
+             (folder / "kinematic_pairs.csv").string());
+  return ExitCode::done;
+}
+
 template <int Dim>
 ExitCode judge_scene(const BlocksArguments& arguments, const SurveyRequest& request, const LoadedScene& scene) {
   const Survey<Dim> survey = survey_blocks(std::get<Prepared<Dim>>(scene.prepared), request);
-  const fs::path folder =
-      arguments.out.empty() ? fs::path("results") / (arguments.scene.scene.stem().string() + "_blocks") : arguments.out;
-  const Outputs outputs{"blocks", {"blocks_verdicts.json", "blocks_verdicts.csv", "blocks.vtp"}};
+  const fs::path folder = folder_of(arguments);
+  const Outputs outputs{
+      "blocks", {"blocks_verdicts.json", "blocks_verdicts.csv", "blocks.vtp", "key_blocks.geojson", "results.json"}};
   const ClaimedFolder claim(folder, outputs, scene.files, arguments.overwrite);
   tell_remarks(*scene.stated);
   write_file(folder / "blocks_verdicts.csv", blocks_csv(survey));
   write_file(folder / "blocks.vtp", vtp(block_verdict_faces(survey)));
   write_file(folder / "blocks_verdicts.json", blocks_json(survey, scene.title, scene.hash, {this_origin()}));
+  if constexpr (Dim == 3) write_file(folder / "key_blocks.geojson", key_blocks_geojson(survey));
+  // results.json comes last: if it exists, everything is complete
+  write_file(folder / "results.json", blocks_results_json(survey, scene.title, scene.hash, {this_origin()}));
   fmt::print("{}results: {}\n", blocks_summary(survey, scene.title, arguments.top), folder.string());
   ExitCode code = ExitCode::done;
   for (const auto* list : {&survey.rows, &survey.clusters})
@@ -117,6 +181,8 @@ ExitCode blocks_command(const BlocksArguments& arguments) {
   request.after = arguments.after;
   request.frictionless = arguments.frictionless;
   const LoadedScene scene = load_blocks(arguments.scene.scene, arguments.scene.overrides);
+  if (arguments.kinematics) return analyse_directions(arguments, scene);
+  if (!arguments.face.empty() || arguments.friction > 0) throw BadInput("--face and --friction belong to --kinematics");
   return scene.dimension == 2 ? judge_scene<2>(arguments, request, scene) : judge_scene<3>(arguments, request, scene);
 }
 
@@ -129,7 +195,9 @@ void add_blocks(CLI::App& program, Action& action) {
                                                 blocks_command);
   add_scene(command, arguments.scene);
   add_out(command, arguments.out,
-          "folder of blocks_verdicts.csv, blocks_verdicts.json and blocks.vtp (default: results/<scene>_blocks)");
+          "folder of blocks_verdicts.csv, blocks_verdicts.json, blocks.vtp, results.json and in space "
+          "key_blocks.geojson (default: "
+          "results/<scene>_blocks)");
   command->add_option("--required", arguments.required, "factor of safety for which forces are found (default 1.5)")
       ->check(finite(least_positive, 1000));
   command
@@ -163,6 +231,14 @@ void add_blocks(CLI::App& program, Action& action) {
       ->check(plain_text());
   command->add_flag("--frictionless", arguments.frictionless,
                     "successive failure of all blocks that move without friction, too");
+  command->add_flag("--kinematics", arguments.kinematics,
+                    "instead: the zones of plane sliding, wedge sliding and toppling of a rock face, with counts, and "
+                    "block theory on every pair of joints (kinematic_pairs.csv)");
+  command->add_option("--face", arguments.face, "DIP/DIRECTION (deg) of that face")->check(plain_text());
+  command
+      ->add_option("--friction", arguments.friction,
+                   "deg: of every joint in the kinematic analysis (default: that of the joints)")
+      ->check(finite(least_positive, 89));
   command->add_option("--top", arguments.top, "most lines of the table of blocks (default 20)")
       ->check(CLI::Range(1, 1'000'000));
   add_overwrite(command, arguments.overwrite);

@@ -31,6 +31,9 @@ TEST_F(Program, BlocksFindsThePairOfTheTutorial) {
                            "lower than its blocks", "least factor 1.0694 (cluster 2+5)", "elastic shear closes B1"})
     EXPECT_NE(ended.out.find(part), std::string::npos) << part << "\n" << ended.out;
   EXPECT_TRUE(fs::exists(folder_ / "out/blocks.vtp"));
+  const std::string map = read(folder_ / "out/key_blocks.geojson");
+  EXPECT_NE(map.find("\"blocks\": \"2+5\""), std::string::npos);
+  EXPECT_EQ(map.find("\"blocks\": \"2\""), std::string::npos) << "its factor is 23";
   const fs::path table = folder_ / "out/blocks_verdicts.csv";
   EXPECT_EQ(column(table, "blocks"), (std::vector<std::string>{"2", "5", "2 5"}));
   EXPECT_EQ(column(table, "joints"), (std::vector<std::string>{"A1;A2", "A2;B1", "A1;B1"}));
@@ -97,6 +100,29 @@ TEST_F(Program, BlocksAfterAStageWithBolts) {
   EXPECT_NEAR(std::stod(column(table, "factor_passive").at(0)), 300 / 48.15, 1e-2);
   ASSERT_EQ(run(scene + "--after rock").code, 0);
   EXPECT_EQ(column(table, "verdict").at(0), "enclosed") << "by the rock of the tunnel";
+}
+
+TEST_F(Program, BlocksCountsTheZonesOfAFace) {
+  const std::string scene = "blocks " + quoted("examples/tutorial/slope.toml") + "--out out --kinematics ";
+  expect_one_line(run(scene), 2, "needs --face");
+  expect_one_line(run(scene + "--face 70"), 2, "dip/dip direction");
+  expect_one_line(run(scene + "--face 70/170"), 2, "friction from 29 to 41 deg");
+  const Ended ended = run(scene + "--face 70/170 --friction 29");
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_NE(ended.out.find("kinematic analysis of 4 joints: face 70/170, friction 29 deg"), std::string::npos)
+      << ended.out;
+  const fs::path table = folder_ / "out/kinematic_pairs.csv";
+  EXPECT_EQ(column(table, "motion").size(), column(table, "factor").size());
+  const std::vector<std::string> first = column(table, "joint_a"), second = column(table, "joint_b");
+  for (std::size_t k = 0; k < first.size(); ++k)
+    if (first[k] == "A1" && second[k] == "B1")
+      EXPECT_NEAR(std::stod(column(table, "line_plunge_deg")[k]), 37.960792, 1e-5);
+  EXPECT_NE(std::find(first.begin(), first.end(), "A1"), first.end());
+  expect_one_line(
+      run("blocks " + quoted("examples/wet_slope.toml") + "--out out --overwrite --kinematics --face 70/90"), 2,
+      "directions in space");
+  expect_one_line(run("blocks " + quoted("examples/tutorial/slope.toml") + "--out out --overwrite --face 70/170"), 2,
+                  "belong to --kinematics");
 }
 
 TEST_F(Program, BlocksRefusesWhatItCannotJudge) {

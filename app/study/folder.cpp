@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "core/base/bad_input.hpp"
 #include "app/base/digest.hpp"
 #include "app/study/findings.hpp"
+#include "core/base/bad_input.hpp"
 #include "core/output/atomic_file.hpp"
 #include "core/run/checkpoint.hpp"
 #include "core/scene/scene.hpp"
@@ -54,7 +54,7 @@ fs::path copy_of(const fs::path& file, const std::vector<InputFile>& input) {
 
 Json json_of(const PlannedRow& row) {
   Json json = {{"row", row.row}, {"hash", row.run.name}, {"scene", row.run.scene.string()}, {"set", row.run.overrides}};
-  if (row.run.limit) json["limit"] = *row.run.limit;
+  if (row.run.other) json["other"] = {{"command", row.run.other->name}, {"options", row.run.other->options}};
   if (!row.run.begin.empty()) json["begin"] = row.run.begin.string();
   json["cost"] = row.cost;
   return json;
@@ -65,7 +65,8 @@ PlannedRow row_of(const Json& json, const fs::path& folder) {
   row.run.name = json.at("hash");
   row.run.scene = folder / json.at("scene").get<std::string>();
   row.run.overrides = json.at("set").get<std::vector<std::string>>();
-  if (json.contains("limit")) row.run.limit = json.at("limit").get<std::vector<std::string>>();
+  if (json.contains("other"))
+    row.run.other = OtherCommand{json.at("other").at("command"), json.at("other").at("options")};
   if (json.contains("begin")) row.run.begin = json.at("begin").get<std::string>();
   return row;
 }

@@ -8,13 +8,13 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "core/base/bad_input.hpp"
 #include "app/base/message.hpp"
 #include "app/base/row_ranges.hpp"
 #include "app/run_folder/run_folder.hpp"
 #include "app/study/findings.hpp"
 #include "app/study/found.hpp"
 #include "app/study/idle.hpp"
+#include "core/base/bad_input.hpp"
 #include "core/output/atomic_file.hpp"
 #include "text/plain_text.hpp"
 #include "text/read_file.hpp"

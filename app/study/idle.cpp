@@ -130,10 +130,21 @@ Node part_of_limit(const Scene& scene, const std::vector<std::string>& options) 
   return tree;
 }
 
+// block theory uses no time and no stiffness, but what stages change
+Node part_of_blocks(const Scene& scene) {
+  Node tree = shared_part(scene, static_cast<int>(scene.stages.size()));
+  for (const char* key :
+       {"accuracy", "statics", "static_increments", "damping", "time", "equilibrium", "initial_velocity", "contact"})
+    forget(tree, key);
+  forget_unused_properties(scene, tree);
+  return tree;
+}
+
 std::string text_of_part(const StudyPlan& plan, const Sweep& sweep, const std::vector<std::string>& overrides) {
   const Scene scene = read_scene(sweep.scene, overrides);
-  return canonical_text(sweep.limit ? part_of_limit(scene, *sweep.limit)
-                                    : part_of_run(scene, plan.history.has_value()));
+  if (!sweep.other) return canonical_text(part_of_run(scene, plan.history.has_value()));
+  return canonical_text(sweep.other->name == "limit" ? part_of_limit(scene, sweep.other->options)
+                                                     : part_of_blocks(scene));
 }
 
 // ---- keys ---------------------------------------------------------------------------------------------------------
@@ -252,7 +263,7 @@ std::vector<std::string> idle_keys(const StudyPlan& plan) {
             "{} '{}': {} acts in no {} of '{}': its values change nothing, because nothing uses it, or a stage "
             "replaces it "
             "by its own value; name the key that acts",
-            kind_of_sweep(sweep), one_line(sweep.name, 60), one_line(key.key, 100), sweep.limit ? "part" : "stage",
+            kind_of_sweep(sweep), one_line(sweep.name, 60), one_line(key.key, 100), sweep.other ? "part" : "stage",
             sweep.scene.string()));
   return lines;
 }

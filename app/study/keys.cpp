@@ -21,6 +21,9 @@ constexpr StudyKey study_keys[] = {
     {"", "set", "list of texts", "`\"key=value\"` as after --set, for every run"},
     {"", "limit", "table",
      "runs by `voussoir limit` instead of `voussoir run`; `{}` for the critical friction under gravity"},
+    {"", "blocks", "table",
+     "runs by `voussoir blocks`, in space or in the plane: `quantity` is `least_factor`, `volume_below_1`, "
+     "`blocks_below_1` or `least_critical_coefficient`"},
     {"", "begin", "text",
      "a stage of the scene: runs that are the same up to its end begin with the last state of one shared run, which "
      "the study "
@@ -44,6 +47,7 @@ constexpr StudyKey study_keys[] = {
      "adds the result that each two neighbouring runs give at a value of 0, if the error is proportional to a power of "
      "the value"},
     {"sweep", "limit", "table", "runs of this sweep by `voussoir limit`, instead of the study's own `limit`"},
+    {"sweep", "blocks", "table", "likewise by `voussoir blocks`"},
     {"with", "key", "text, required", "key of the scene as after --set"},
     {"with", "values", "list, required", "its values, one for each of the sweep's values"},
     {"grid", "name", "text, required", "in the table and the figure"},
@@ -53,6 +57,7 @@ constexpr StudyKey study_keys[] = {
     {"grid", "scene", "text", "another scene for this grid"},
     {"grid", "set", "list of texts", "`\"key=value\"` for every run of this grid, after the study's own"},
     {"grid", "limit", "table", "as of a sweep"},
+    {"grid", "blocks", "table", "as of a sweep"},
     {"grid.keys", "key", "text, required", "key of the scene as after --set"},
     {"grid.keys", "values", "list, required", "its values, at least two"},
     {"grid.keys", "unit", "text", "of the values"},
@@ -70,6 +75,7 @@ constexpr StudyKey study_keys[] = {
     {"sample", "scene", "text", "another scene for this sample"},
     {"sample", "set", "list of texts", "`\"key=value\"` for every run of this sample, after the study's own"},
     {"sample", "limit", "table", "as of a sweep"},
+    {"sample", "blocks", "table", "as of a sweep"},
     {"sample.keys", "key", "text, required", "key of the scene as after --set"},
     {"sample.keys", "law", "one of `\"normal\"` `\"lognormal\"` `\"uniform\"` `\"triangular\"` `\"seed\"`, required",
      "seed: a whole number for the `seed` of a joint set"},
@@ -90,6 +96,9 @@ constexpr StudyKey study_keys[] = {
     {"limit", "factor", "true or false", "`--factor`"},
     {"limit", "joint", "list of texts", "names as after `--joint`"},
     {"limit", "cohesion", "true or false", "`--cohesion`"},
+    {"blocks", "strength_of", "text", "as after `voussoir blocks --strength-of`"},
+    {"blocks", "after", "text", "`--after`"},
+    {"blocks", "seismic", "text", "`--seismic`"},
 };
 
 // as --set takes it; a text in quotes, so that it is never read as a number

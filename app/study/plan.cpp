@@ -56,8 +56,8 @@ bool flag_of(const Subject& table, const char* key) {
   return node && node->boolean;
 }
 
-// options of `voussoir limit`, which checks their combination itself
-std::optional<std::vector<std::string>> read_limit(const Subject& table) {
+// the options are those of `voussoir limit`, which checks their combination itself
+std::optional<OtherCommand> read_limit(const Subject& table) {
   const Node* node = table.node->find("limit");
   if (!node) return std::nullopt;
   if (node->kind != Node::Kind::table)
@@ -83,7 +83,32 @@ std::optional<std::vector<std::string>> read_limit(const Subject& table) {
   for (const char* key : {"friction", "joint"})
     for (const std::string& name : texts_of(limit, key, "must be a list of names of joint_properties"))
       options.insert(options.end(), {fmt::format("--{}", key), name});
-  return options;
+  return OtherCommand{"limit", options};
+}
+
+// likewise of `voussoir blocks`
+std::optional<OtherCommand> read_blocks(const Subject& table) {
+  const Node* node = table.node->find("blocks");
+  if (!node) return std::nullopt;
+  if (node->kind != Node::Kind::table)
+    refuse(table, "blocks", "must be a table, e.g. blocks = { after = \"tunnel\" }, or blocks = {}");
+  const Subject blocks{node, key_path(table.path, "blocks")};
+  refuse_unknown_keys(blocks, "blocks");
+  std::vector<std::string> options;
+  for (const auto& [key, option] : {std::pair{"strength_of", "--strength-of"}, {"after", "--after"}})
+    if (node->find(key))
+      options.insert(options.end(), {option, text_of(blocks, key, "must name a stage of the scene")});
+  if (node->find("seismic"))
+    options.insert(options.end(),
+                   {"--seismic", text_of(blocks, "seismic", "must be a text as after --seismic, e.g. \"0.12/180\"")});
+  return OtherCommand{"blocks", options};
+}
+
+std::optional<OtherCommand> read_other(const Subject& table) {
+  if (table.node->find("limit") && table.node->find("blocks"))
+    refuse(table, "blocks", "contradicts limit; state one of them");
+  const std::optional<OtherCommand> limit = read_limit(table);
+  return limit ? limit : read_blocks(table);
 }
 
 void read_numbers(const Subject& table, Sweep& sweep) {
@@ -129,7 +154,7 @@ void read_common(const Subject& table, const std::string& scene, const fs::path&
   sweep.scene = folder / scene;
   if (table.node->find("scene"))
     sweep.scene = folder / text_of(table, "scene", "must be a scene's file name, relative to the study");
-  sweep.limit = read_limit(table);
+  sweep.other = read_other(table);
   sweep.overrides = read_overrides(table);
 }
 
@@ -171,12 +196,14 @@ StudyPlan read_study_plan(const fs::path& path) {
   if (plan.sweeps.size() == 1)
     refuse(top, "sweep", "must be at least one table; begin it with [[sweep]], [[grid]] or [[sample]]");
   const std::vector<std::string> everywhere = read_overrides(top);
-  const std::optional<std::vector<std::string>> limit = read_limit(top);
+  const std::optional<OtherCommand> other = read_other(top);
   for (Sweep& sweep : plan.sweeps) {
     sweep.overrides.insert(sweep.overrides.begin(), everywhere.begin(), everywhere.end());
-    if (!sweep.limit) sweep.limit = limit;
-    if (sweep.limit && plan.history)
-      refuse(top, "history", "a run of `voussoir limit` has no history; name a value of its results.json in quantity");
+    if (!sweep.other) sweep.other = other;
+    if (sweep.other && plan.history)
+      refuse(
+          top, "history",
+          fmt::format("`voussoir {}` has no history; name a value of its results.json in quantity", sweep.other->name));
   }
   return plan;
 }

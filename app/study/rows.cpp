@@ -1,14 +1,15 @@
 #include "app/study/rows.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <set>
 
-#include "core/base/bad_input.hpp"
 #include "app/base/digest.hpp"
 #include "app/base/run_scene.hpp"
 #include "app/check/assess.hpp"
+#include "core/base/bad_input.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/shared_stages.hpp"
 
@@ -32,8 +33,8 @@ std::string shared_text(const StudyPlan& plan, const Sweep& sweep, const Scene& 
   return text;
 }
 
-double expected_cost(const LoadedScene& scene, bool limit) {
-  if (limit)
+double expected_cost(const LoadedScene& scene, bool steps_are_taken) {
+  if (!steps_are_taken)
     return std::visit([](const auto& prepared) { return static_cast<double>(prepared.model.bodies.size()); },
                       scene.prepared);
   const Forecast forecast = assess(scene).forecast;
@@ -44,16 +45,16 @@ double expected_cost(const LoadedScene& scene, bool limit) {
 }
 
 PlannedRow row_at(const StudyPlan& plan, const Sweep& sweep, std::size_t place, const std::string& program) {
-  PlannedRow row{.run = {sweep.scene, overrides_of(sweep, place), sweep.limit, {}, ""}};
-  const LoadedScene scene = load_scene(row.run.scene, row.run.overrides);
+  PlannedRow row{.run = {sweep.scene, overrides_of(sweep, place), sweep.other, {}, ""}};
+  const bool blocks = sweep.other && sweep.other->name == "blocks";
+  const LoadedScene scene =
+      (blocks ? load_blocks(row.run.scene, row.run.overrides) : load_scene(row.run.scene, row.run.overrides));
   row.run.files = scene.files;
-  row.cost = expected_cost(scene, sweep.limit.has_value());
+  row.cost = expected_cost(scene, !sweep.other);
   std::string what = canonical_text(*scene.stated) + program;
-  for (const std::string& option : sweep.limit.value_or(std::vector<std::string>()))
-    what += " " + option;
-  if (sweep.limit) what += " limit";
+  if (sweep.other) what += fmt::format(" {} {}", fmt::join(sweep.other->options, " "), sweep.other->name);
   row.run.name = digest(what);
-  if (!plan.begin.empty() && !sweep.limit)
+  if (!plan.begin.empty() && !sweep.other)
     row.run.begin = digest("until " + shared_text(plan, sweep, *scene.stated) + program);
   return row;
 }

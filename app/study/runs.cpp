@@ -13,13 +13,13 @@
 #include <memory>
 #include <thread>
 
-#include "core/base/bad_input.hpp"
 #include "app/base/exit_codes.hpp"
 #include "app/base/interruption.hpp"
 #include "app/base/message.hpp"
 #include "app/base/progress_line.hpp"
 #include "app/run_folder/child_process.hpp"
 #include "app/run_folder/claimed_folder.hpp"
+#include "core/base/bad_input.hpp"
 #include "core/output/atomic_file.hpp"
 #include "text/read_file.hpp"
 
@@ -156,14 +156,14 @@ class Runs {
     if (resume) {
       arguments = {"resume", folder.string()};
     } else {
-      arguments = {run.limit ? "limit" : "run", run.scene.string(), "--overwrite", "--out", folder.string()};
+      arguments = {run.other ? run.other->name : "run", run.scene.string(), "--overwrite", "--out", folder.string()};
       for (const std::string& text : run.overrides)
         arguments.insert(arguments.end(), {"--set", text});
-      if (run.limit) arguments.insert(arguments.end(), run.limit->begin(), run.limit->end());
+      if (run.other) arguments.insert(arguments.end(), run.other->options.begin(), run.other->options.end());
     }
     if (!resume && !run.until.empty()) arguments.insert(arguments.end(), {"--until", run.until});
     if (!resume && !run.begin.empty()) arguments.insert(arguments.end(), {"--begin", run.begin.string()});
-    if (!run.limit) arguments.insert(arguments.end(), {"--quiet", "--threads", std::to_string(options_.threads)});
+    if (!run.other) arguments.insert(arguments.end(), {"--quiet", "--threads", std::to_string(options_.threads)});
     active_.push_back(
         {&run, std::move(lock), std::make_unique<ChildProcess>(arguments, messages_of(run)), resume, false, {}});
   }

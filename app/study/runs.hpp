@@ -8,17 +8,18 @@
 #include <vector>
 
 #include "app/run_folder/run_folder.hpp"
+#include "app/study/sweep.hpp"
 
 namespace voussoir {
 
 struct StudyRun {
   std::filesystem::path scene;
   std::vector<std::string> overrides;
-  std::optional<std::vector<std::string>> limit;  // by `voussoir limit` with these options, not `voussoir run`
-  std::vector<std::filesystem::path> files;       // that the scene reads
-  std::string name;                               // of its folder: identifies scene and program; equal runs share one
-  std::string until = {};                         // the stage after which it ends, with its state kept; empty: the last
-  std::filesystem::path begin = {};               // the folder of the run at whose end it begins; empty: none
+  std::optional<OtherCommand> other;         // instead of `voussoir run`
+  std::vector<std::filesystem::path> files;  // that the scene reads
+  std::string name;                          // of its folder: identifies scene and program; equal runs share one
+  std::string until = {};                    // the stage after which it ends, with its state kept; empty: the last
+  std::filesystem::path begin = {};          // the folder of the run at whose end it begins; empty: none
 };
 
 // Treatment of a run that another process works at. nobody: there is no other process, and the run's folder has neither

@@ -4,13 +4,13 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "core/base/bad_input.hpp"
 #include "app/base/digest.hpp"
 #include "app/base/row_ranges.hpp"
 #include "app/run_folder/claimed_folder.hpp"
 #include "app/run_folder/origin.hpp"
 #include "app/run_folder/results_hash.hpp"
 #include "app/testing/planned_study.hpp"
+#include "core/base/bad_input.hpp"
 
 namespace voussoir::study_folder_test {
 namespace {

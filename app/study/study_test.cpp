@@ -411,6 +411,54 @@ stage = [{ name = "settle", kind = "settle" }]
   }
 }
 
+// `voussoir blocks` as the run: a block on a plane has F = tan φ / tan δ, and it moves below 1
+TEST_F(Study, MayRunBlockTheory) {
+  write("plane.toml", R"(
+dimension = 3
+gravity = [0, 0, -10]
+density = 2000
+domain = { box = { min = [-2, -2, -3], max = [2, 2, 3] } }
+joints = [{ name = "A", dip = 30, dip_direction = 90, point = [0, 0, -1] }]
+joint_properties = [{ name = "rock", normal_stiffness = 1e9, shear_stiffness = 1e8, friction_deg = 35 }]
+fix = [{ below = ["A"] }]
+)");
+  const std::string begin = "scene = \"plane.toml\"\nblocks = {}\n",
+                    sweep = "[[sweep]]\nname = \"dip\"\nkey = \"joints.A.dip\"\nvalues = [20, 40]\n";
+  const auto results = [&] {
+    std::vector<double> found;
+    for (const std::string& row : rows()) {
+      std::istringstream cells(row);
+      std::string cell;
+      for (int k = 0; k < 6; ++k)
+        std::getline(cells, cell, ',');
+      if (row.find(",ok,") != std::string::npos) found.push_back(std::stod(cell));
+    }
+    return found;
+  };
+  write("study.toml", begin + "quantity = \"least_factor\"\n" + sweep);
+  const Ended first = run("study study.toml --out out");
+  ASSERT_EQ(first.code, 0) << first.err << first.out;
+  ASSERT_EQ(results().size(), 3u);
+  const double deg = std::numbers::pi / 180, dips[] = {30, 20, 40};
+  for (int k = 0; k < 3; ++k)
+    EXPECT_NEAR(results()[k], std::tan(35 * deg) / std::tan(dips[k] * deg), 1e-9);
+
+  write("study.toml", begin + "quantity = \"volume_below_1\"\n" + sweep);
+  const Ended second = run("study study.toml --out out");
+  ASSERT_EQ(second.code, 0) << second.err << second.out;
+  ASSERT_EQ(results().size(), 3u);
+  EXPECT_EQ(results()[0], 0);
+  EXPECT_EQ(results()[1], 0);
+  EXPECT_NEAR(results()[2], 4 * 4 * 4, 1e-9) << "4 m wide, and 4 m high in the mean";
+
+  for (const char* wrong :
+       {"blocks = 3", "blocks = { aftr = \"x\" }", "blocks = { after = 3 }", "blocks = {}\nlimit = {}"}) {
+    write("study.toml", std::string("scene = \"plane.toml\"\nquantity = \"least_factor\"\n") + wrong + "\n" + sweep);
+    expect_one_line(run("study study.toml --out bad"), 2, "");
+    EXPECT_FALSE(fs::exists(folder_ / "bad")) << wrong;
+  }
+}
+
 TEST_F(Study, IsReadStrictly) {
   const std::pair<std::string, std::string> edits[] = {
       {"unit", "units"},

@@ -9,6 +9,12 @@
 
 namespace voussoir {
 
+// a command of the program that takes no steps: limit, blocks
+struct OtherCommand {
+  std::string name;
+  std::vector<std::string> options;
+};
+
 // a key that changes with that of its sweep
 struct TiedKey {
   std::string key;
@@ -50,7 +56,7 @@ struct Sweep {
   std::optional<double> power = {};         // fit result against value^power and extrapolate to value 0
   std::vector<std::size_t> counts = {};     // of a grid: the number of values of each key
   std::optional<Fails> fails = {};
-  std::optional<std::vector<std::string>> limit = {};  // run by `voussoir limit` with these options, not `voussoir run`
+  std::optional<OtherCommand> other = {};  // instead of `voussoir run`
 };
 
 enum class Take { largest, smallest, last };

@@ -7,7 +7,6 @@
 #include <set>
 #include <thread>
 
-#include "core/base/bad_input.hpp"
 #include "app/base/interruption.hpp"
 #include "app/base/message.hpp"
 #include "app/base/row_ranges.hpp"
@@ -15,6 +14,7 @@
 #include "app/run_folder/origin.hpp"
 #include "app/run_folder/run_folder.hpp"
 #include "app/study/found.hpp"
+#include "core/base/bad_input.hpp"
 
 namespace voussoir {
 namespace {

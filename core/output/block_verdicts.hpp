@@ -20,9 +20,18 @@ template <int Dim>
 std::string blocks_json(const Survey<Dim>& survey, const std::string& title, const std::string& input_hash,
                         const std::vector<Origin>& origins);
 
+// Values of the mass, as studies take them: least_factor (none if nothing moves), volume_below_1 and blocks_below_1 (of
+// successive failure and of clusters), least_critical_coefficient (none without an earthquake of any direction).
+template <int Dim>
+std::string blocks_results_json(const Survey<Dim>& survey, const std::string& title, const std::string& input_hash,
+                                const std::vector<Origin>& origins);
+
 // the faces of the blocks with their verdict
 template <int Dim>
 PolyData block_verdict_faces(const Survey<Dim>& survey);
+
+// Outlines in plan of the key blocks and clusters (factor below the required one) as a map, in the scene's coordinates.
+std::string key_blocks_geojson(const Survey<3>& survey);
 
 // the normal force on each face, zero for unloaded ones, N
 template <int Dim>

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "core/base/version.hpp"
 #include "core/key_blocks/direction_cone.hpp"
@@ -94,7 +95,48 @@ Json rounds_of(const SuccessiveFailure& failure) {
   return rounds;
 }
 
+Json program_json(const std::vector<Origin>& origins) {
+  return {{"version", version()}, {"commit", commit()}, {"compiler", compiler()}, {"origins", origins_json(origins)}};
+}
+
+template <int Dim>
+std::set<int> blocks_below_one(const Survey<Dim>& survey) {
+  std::set<int> below;
+  for (const std::vector<int>& round : survey.below_one.rounds)
+    below.insert(round.begin(), round.end());
+  for (const SurveyRow<Dim>& cluster : survey.clusters)
+    if (cluster.bolted.factor.value_or(1) < 1) below.insert(cluster.bodies.begin(), cluster.bodies.end());
+  return below;
+}
+
 }  // namespace
+
+template <int Dim>
+std::string blocks_results_json(const Survey<Dim>& survey, const std::string& title, const std::string& input_hash,
+                                const std::vector<Origin>& origins) {
+  std::optional<double> factor, coefficient;
+  const auto lower = [](std::optional<double>& least, const std::optional<double>& value) {
+    if (value && (!least || *value < *least)) least = value;
+  };
+  for (const auto* list : {&survey.rows, &survey.clusters})
+    for (const SurveyRow<Dim>& row : *list) {
+      if (moves(row.kind())) lower(factor, row.bolted.factor);
+      lower(coefficient, row.critical_coefficient);
+    }
+  const std::set<int> below = blocks_below_one(survey);
+  double volume = 0;
+  for (const SurveyRow<Dim>& row : survey.rows)
+    if (below.contains(row.bodies[0])) volume += row.volume;
+  Json values = Json::object();
+  if (factor) values["least_factor"] = {{"value", *factor}, {"unit", "1"}, {"divides", "tan(friction) and cohesion"}};
+  values["volume_below_1"] = {{"value", volume}, {"unit", Dim == 3 ? "m3" : "m2"}};
+  values["blocks_below_1"] = {{"value", below.size()}, {"unit", "1"}};
+  if (coefficient) values["least_critical_coefficient"] = {{"value", *coefficient}, {"unit", "1"}};
+  const Json json = {
+      {"schema", "voussoir.blocks_values"}, {"schema_version", 1}, {"title", title},  {"input_hash", input_hash},
+      {"program", program_json(origins)},   {"status", "done"},    {"values", values}};
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
 
 template <int Dim>
 std::string blocks_json(const Survey<Dim>& survey, const std::string& title, const std::string& input_hash,
@@ -104,8 +146,7 @@ std::string blocks_json(const Survey<Dim>& survey, const std::string& title, con
   json["schema_version"] = 1;
   json["title"] = title;
   json["input_hash"] = input_hash;
-  json["program"] = {
-      {"version", version()}, {"commit", commit()}, {"compiler", compiler()}, {"origins", origins_json(origins)}};
+  json["program"] = program_json(origins);
   json["dimension"] = Dim;
   json["closing_tolerance"] = closing_tolerance;
   json["strength_of"] = survey.strength;
@@ -131,9 +172,13 @@ std::string blocks_json(const Survey<Dim>& survey, const std::string& title, con
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-template std::string blocks_json<2>(const Survey<2>&, const std::string&, const std::string&,
-                                    const std::vector<Origin>&);
-template std::string blocks_json<3>(const Survey<3>&, const std::string&, const std::string&,
-                                    const std::vector<Origin>&);
+#define VOUSSOIR_INSTANTIATE(Dim)                                                                           \
+  template std::string blocks_json<Dim>(const Survey<Dim>&, const std::string&, const std::string&,         \
+                                        const std::vector<Origin>&);                                        \
+  template std::string blocks_results_json<Dim>(const Survey<Dim>&, const std::string&, const std::string&, \
+                                                const std::vector<Origin>&);
+VOUSSOIR_INSTANTIATE(2)
+VOUSSOIR_INSTANTIATE(3)
+#undef VOUSSOIR_INSTANTIATE
 
 }  // namespace voussoir
