@@ -100,8 +100,8 @@ void Faults::survive_kills(int wanted) const {
   RecordProperty("runs", runs);
 }
 
-TEST_F(Faults, ThirtyKillsLoseNothing) {
-  survive_kills(30);
+TEST_F(Faults, FifteenKillsLoseNothing) {
+  survive_kills(15);
 }
 
 using FaultsLong = Faults;

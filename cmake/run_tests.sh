@@ -18,7 +18,8 @@ if [ "$kind" = long ]; then
 fi
 rm -rf "$build/reports/verdicts.txt" "$build/test_results"
 [ "${VOUSSOIR_NO_SKIP:-}" != 1 ] || export GTEST_OUTPUT="xml:$build/test_results/"
-(cd "$build" && ctest --output-on-failure --parallel "$jobs" --output-log ctest.log --output-junit test_results.xml)
+# one more at a time than there are cores: several wait for disks, clocks and browsers
+(cd "$build" && ctest --output-on-failure --parallel "$((jobs + 1))" --output-log ctest.log --output-junit test_results.xml)
 status=$?
 if [ "${VOUSSOIR_NO_SKIP:-}" = 1 ]; then
   skipped=$("$here/refused_skips.sh" "$build" "$here/allowed_skips.txt")

@@ -148,11 +148,7 @@ class SteppedRunOf : public SteppedRun {
   }
 
   std::string results() const override {
-    if (done_) {
-      Results complete = progress_.results;
-      add_block_theory(prepared_, complete);
-      return results_json(complete, record());
-    }
+    if (done_) return results_json(complete_results(), record());
     Results so_far = progress_.results;
     so_far.counters = progress_.state.counters;
     so_far.energy = progress_.state.ledger.energy;
@@ -168,16 +164,21 @@ class SteppedRunOf : public SteppedRun {
       saved_ = FrameSeries{.folder = folder, .sets = prepared_.joint_sets};
       write_file(folder / "scene.toml", scene_->text);
     }
-    const Results& results = progress_.results;
     write_history_csv(folder / "history.csv", history());
-    write_support_tables(folder, results);
+    write_support_tables(folder, progress_.results);
     if (const Snapshot<Dim> now = snapshot(prepared_, progress_);
         saved_->times.empty() || saved_->times.back() != now.state.schedule.time)
       write_frame(*saved_, now.model, now.state, now.state.schedule.time);
-    if (done_) write_results_json(folder / "results.json", results, record());
+    if (done_) write_results_json(folder / "results.json", complete_results(), record());
   }
 
  private:
+  Results complete_results() const {
+    Results complete = progress_.results;
+    add_block_theory(prepared_, complete);
+    return complete;
+  }
+
   Model<Dim> model() const { return model_of(prepared_, progress_); }
 
   RunRecord record() const {

@@ -109,7 +109,7 @@ double one_friction(const Model<3>& model, const std::vector<int>& joints) {
 // pairs grow with the square: a table of two million rows is 200 MB
 constexpr std::size_t most_joints = 2000;
 
-ExitCode analyse_directions(const BlocksArguments& arguments, const LoadedScene& scene) {
+ExitCode analyse_directions(const BlocksArguments& arguments, const SurveyRequest& survey, const LoadedScene& scene) {
   constexpr const char* form = "dip/dip direction of the rock face in degrees, for example 70/180";
   if (arguments.face.empty()) throw BadInput(fmt::format("--kinematics needs --face {}", form));
   const std::vector<double> face = slashed(arguments.face, "--face", form);
@@ -130,9 +130,10 @@ ExitCode analyse_directions(const BlocksArguments& arguments, const LoadedScene&
   if (joints.size() < 2 || joints.size() > most_joints)
     throw BadInput(
         fmt::format("--kinematics judges pairs of 2 to {} joints; the scene has {}", most_joints, joints.size()));
-  const KinematicRequest request{
-      .face = {face[0] * degree, face[1] * degree},
-      .friction = arguments.friction > 0 ? arguments.friction * degree : one_friction(prepared.model, chosen)};
+  const KinematicRequest request{.face = {face[0] * degree, face[1] * degree},
+                                 .friction = arguments.friction > 0
+                                                 ? arguments.friction * degree
+                                                 : one_friction(assembly_of_request(prepared, survey).model, chosen)};
   const std::vector<PairVerdict> pairs = judge_pairs(request, joints);
   const fs::path folder = folder_of(arguments);
   const ClaimedFolder claim(folder, Outputs{"blocks", {"kinematic_pairs.csv"}}, scene.files, arguments.overwrite);
@@ -181,7 +182,7 @@ ExitCode blocks_command(const BlocksArguments& arguments) {
   request.after = arguments.after;
   request.frictionless = arguments.frictionless;
   const LoadedScene scene = load_blocks(arguments.scene.scene, arguments.scene.overrides);
-  if (arguments.kinematics) return analyse_directions(arguments, scene);
+  if (arguments.kinematics) return analyse_directions(arguments, request, scene);
   if (!arguments.face.empty() || arguments.friction > 0) throw BadInput("--face and --friction belong to --kinematics");
   return scene.dimension == 2 ? judge_scene<2>(arguments, request, scene) : judge_scene<3>(arguments, request, scene);
 }

@@ -45,7 +45,7 @@ std::string without_line(std::string text, const std::string& key) {
 
 TEST(Wedge, BudgetsEncloseTheClosedForm) {
   CaseReport report("wedge");
-  judge_budgets(report, "wedge", "random wedges", "Hoek & Bray (1974)", draw(41907, 10));
+  judge_budgets(report, "wedge", "random wedges", "Hoek & Bray (1974)", draw(41907, 4));
 }
 
 TEST(WedgeLong, BudgetsEncloseTheClosedForm) {

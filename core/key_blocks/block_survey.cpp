@@ -242,6 +242,11 @@ Assembly<Dim> assembly_of_stage(const Prepared<Dim>& prepared, int stage) {
 }
 
 template <int Dim>
+Assembly<Dim> assembly_of_request(const Prepared<Dim>& prepared, const SurveyRequest& request) {
+  return assembly_at(prepared, choose_stages(prepared.stages, request));
+}
+
+template <int Dim>
 Survey<Dim> survey_blocks(const Prepared<Dim>& prepared, const SurveyRequest& request) {
   const Stages stages = choose_stages(prepared.stages, request);
   refuse_other_models(prepared.model);
@@ -314,12 +319,13 @@ const char* motion_of(const SurveyRow<Dim>& row) {
   return *row.bolted.factor < 1 ? "slides and turns" : "turns";
 }
 
-#define VOUSSOIR_INSTANTIATE(Dim)                                                      \
-  template struct Survey<Dim>;                                                         \
-  template Survey<Dim> survey_blocks<Dim>(const Prepared<Dim>&, const SurveyRequest&); \
-  template Assembly<Dim> assembly_of_stage<Dim>(const Prepared<Dim>&, int);            \
-  template void refuse_other_models<Dim>(const Model<Dim>&);                           \
-  template const char* type_of<Dim>(const SurveyRow<Dim>&, double);                    \
+#define VOUSSOIR_INSTANTIATE(Dim)                                                              \
+  template struct Survey<Dim>;                                                                 \
+  template Survey<Dim> survey_blocks<Dim>(const Prepared<Dim>&, const SurveyRequest&);         \
+  template Assembly<Dim> assembly_of_request<Dim>(const Prepared<Dim>&, const SurveyRequest&); \
+  template Assembly<Dim> assembly_of_stage<Dim>(const Prepared<Dim>&, int);                    \
+  template void refuse_other_models<Dim>(const Model<Dim>&);                                   \
+  template const char* type_of<Dim>(const SurveyRow<Dim>&, double);                            \
   template const char* motion_of<Dim>(const SurveyRow<Dim>&);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)

@@ -72,6 +72,10 @@ struct Survey {
 template <int Dim>
 Survey<Dim> survey_blocks(const Prepared<Dim>& prepared, const SurveyRequest& request);
 
+// the blocks that `survey_blocks` judges
+template <int Dim>
+Assembly<Dim> assembly_of_request(const Prepared<Dim>& prepared, const SurveyRequest& request);
+
 // The blocks at a stage of the scene, from 0: its geometry, strength, loads and bolts.
 template <int Dim>
 Assembly<Dim> assembly_of_stage(const Prepared<Dim>& prepared, int stage);

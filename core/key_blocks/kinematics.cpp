@@ -11,6 +11,7 @@ namespace {
 
 constexpr double right_angle = std::numbers::pi / 2;
 constexpr double parallel_sine = 1e-12;  // below, two joints have no line
+constexpr double level_sine = 1e-12;     // below, a line is horizontal
 
 // rad, from 0 to π: between two directions of the compass
 double apart(double a, double b) {
@@ -31,12 +32,14 @@ Vector<3> down_the_dip(const Vector<3>& normal) {
   return {std::cos(dip) * std::sin(direction), std::cos(dip) * std::cos(direction), -std::sin(dip)};
 }
 
-// of two planes, downward; none if they are parallel
-std::optional<Vector<3>> line_of(const Vector<3>& a, const Vector<3>& b) {
-  const Vector<3> line = a.cross(b);
+// Of two planes, downward; none if they are parallel. A horizontal line has no lower end: the one out of the face.
+std::optional<Vector<3>> line_of(const Vector<3>& a, const Vector<3>& b, const Vector<3>& face) {
+  Vector<3> line = a.cross(b);
   const double length = line.norm();
   if (length < parallel_sine) return {};
-  return line.z() > 0 ? Vector<3>(-line / length) : Vector<3>(line / length);
+  line /= length;
+  const bool turn = std::abs(line.z()) < level_sine ? face.dot(line) < 0 : line.z() > 0;
+  return turn ? Vector<3>(-line) : line;
 }
 
 bool of_different_sets(const KinematicJoint& a, const KinematicJoint& b) {
@@ -80,6 +83,7 @@ void count_pair(const KinematicRequest& request, const Vector<3>& line, bool of_
 }  // namespace
 
 KinematicCounts count_kinematic(const KinematicRequest& request, const std::vector<KinematicJoint>& joints) {
+  const Vector<3> face = upward_normal_3d(request.face.dip, request.face.direction);
   KinematicCounts counts;
   for (std::size_t i = 0; i < joints.size(); ++i) {
     count_joint(request, joints[i].normal, counts);
@@ -87,7 +91,7 @@ KinematicCounts count_kinematic(const KinematicRequest& request, const std::vect
       const bool of_sets = of_different_sets(joints[i], joints[k]);
       ++counts.pairs;
       counts.pairs_of_sets += of_sets;
-      if (const std::optional<Vector<3>> line = line_of(joints[i].normal, joints[k].normal))
+      if (const std::optional<Vector<3>> line = line_of(joints[i].normal, joints[k].normal, face))
         count_pair(request, *line, of_sets, counts);
     }
   }
@@ -99,7 +103,7 @@ std::vector<PairVerdict> judge_pairs(const KinematicRequest& request, const std:
   std::vector<PairVerdict> verdicts;
   for (std::size_t i = 0; i < joints.size(); ++i)
     for (std::size_t k = i + 1; k < joints.size(); ++k) {
-      const std::optional<Vector<3>> line = line_of(joints[i].normal, joints[k].normal);
+      const std::optional<Vector<3>> line = line_of(joints[i].normal, joints[k].normal, face);
       if (!line || face.dot(*line) <= 0) continue;
       const Projection<3> moved = project<3>({joints[i].normal, joints[k].normal}, down);
       PairVerdict pair{.first = static_cast<int>(i),

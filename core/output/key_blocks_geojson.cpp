@@ -9,18 +9,18 @@ namespace voussoir {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Place = std::array<double, 2>;  // m, east and north
+using PlanPoint = std::array<double, 2>;  // m, east and north
 
 // counter-clockwise and closed (Andrew's monotone chain)
-std::vector<Place> outline_of(std::vector<Place> points) {
+std::vector<PlanPoint> outline_of(std::vector<PlanPoint> points) {
   std::ranges::sort(points);
-  const auto turns_left = [](const Place& a, const Place& b, const Place& c) {
+  const auto turns_left = [](const PlanPoint& a, const PlanPoint& b, const PlanPoint& c) {
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) > 0;
   };
-  std::vector<Place> ring;
+  std::vector<PlanPoint> ring;
   for (int side = 0; side < 2; ++side) {
     const std::size_t first = ring.size();
-    for (const Place& point : points) {
+    for (const PlanPoint& point : points) {
       while (ring.size() >= first + 2 && !turns_left(ring[ring.size() - 2], ring.back(), point))
         ring.pop_back();
       ring.push_back(point);
@@ -32,7 +32,7 @@ std::vector<Place> outline_of(std::vector<Place> points) {
   return ring;
 }
 
-Json feature_of(const Survey<3>& survey, const SurveyRow<3>& row, std::vector<Place> corners) {
+Json feature_of(const Survey<3>& survey, const SurveyRow<3>& row, std::vector<PlanPoint> corners) {
   const auto [plunge, trend] = plunge_and_trend(row.bolted.verdict.direction());
   Json properties = {{"blocks", survey.body_names(row)},
                      {"cluster", row.cluster > 0 ? Json(row.cluster) : Json()},
@@ -55,7 +55,7 @@ Json feature_of(const Survey<3>& survey, const SurveyRow<3>& row, std::vector<Pl
 std::string key_blocks_geojson(const Survey<3>& survey) {
   const PolyData faces = block_verdict_faces(survey);
   const auto body = std::ranges::find(faces.cell_data, "body", &DataArray::name);
-  std::vector<std::vector<Place>> corners(survey.assembly.model.bodies.size());
+  std::vector<std::vector<PlanPoint>> corners(survey.assembly.model.bodies.size());
   for (std::size_t c = 0; c < faces.cells.size(); ++c)
     for (const int p : faces.cells[c])
       corners[static_cast<std::size_t>(body->values[c])].push_back({faces.points[p][0], faces.points[p][1]});
@@ -63,7 +63,7 @@ std::string key_blocks_geojson(const Survey<3>& survey) {
   for (const auto* list : {&survey.rows, &survey.clusters})
     for (const SurveyRow<3>& row : *list) {
       if (!moves(row.kind()) || !(*row.bolted.factor < survey.request.required)) continue;
-      std::vector<Place> all;
+      std::vector<PlanPoint> all;
       for (const int b : row.bodies)
         all.insert(all.end(), corners[b].begin(), corners[b].end());
       features.push_back(feature_of(survey, row, std::move(all)));
