@@ -64,7 +64,7 @@ Mechanism mechanism(const Model<2>& model, const State<2>& first, const State<2>
   for (std::size_t place = 0; place < now.contacts.list.size(); ++place) {
     const Contact<2>& c = now.contacts.list[place];
     if (!c.touching()) continue;
-    found.bonds += whole_bonds(now.contacts, place);
+    found.bonds += bonds_of(now.contacts, place).whole;
     found.largest = std::max(found.largest, c.force.norm());
     found.mean += c.force.norm();
     ++count;

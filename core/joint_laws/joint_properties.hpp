@@ -68,6 +68,8 @@ struct JointProperties {
   double residual_cohesion = 0, cohesion_slip = 0;  // Pa, 0 to cohesion; m, 0: at once
   BondsMade bonds = BondsMade::by_stage;
 
+  bool bonds_as_sliced() const { return laws.bond && bonds == BondsMade::as_sliced; }
+
   bool softens_cohesion() const {
     return cohesion_law == CohesionLaw::softening && laws.bond && residual_cohesion < cohesion;
   }

@@ -50,41 +50,37 @@ auto subs_of(AnyContacts& contacts, std::size_t place) {
   return std::span(contacts.subs).subspan(place * stride, std::min<std::size_t>(stride, contacts.list[place].cells));
 }
 
-// how many of a contact's bonds are in this state: its own, or those of its sub-contacts
+struct Bonds {
+  long long whole = 0, slipped = 0;
+
+  long long held() const { return whole + slipped; }  // those that are not lost
+};
+
+// those of a contact: its own, or those of its sub-contacts
 template <int Dim>
-long long bonds_in(Bond state, const ContactsState<Dim>& contacts, std::size_t place) {
+Bonds bonds_of(const ContactsState<Dim>& contacts, std::size_t place) {
+  Bonds bonds;
+  const auto count = [&](Bond state) {
+    bonds.whole += state == Bond::whole;
+    bonds.slipped += state == Bond::slipped;
+  };
   const Contact<Dim>& c = contacts.list[place];
-  if (c.cells == 0) return c.history.bond == state;
-  const auto is_in = [&](const SubContact<Dim>& s) { return s.area > 0 && s.history.bond == state; };
-  return std::ranges::count_if(subs_of(contacts, place), is_in);
-}
-
-// how many are whole
-template <int Dim>
-long long whole_bonds(const ContactsState<Dim>& contacts, std::size_t place) {
-  return bonds_in(Bond::whole, contacts, place);
-}
-
-// how many are not lost
-template <int Dim>
-long long held_bonds(const ContactsState<Dim>& contacts, std::size_t place) {
-  return bonds_in(Bond::whole, contacts, place) + bonds_in(Bond::slipped, contacts, place);
+  if (c.cells == 0) count(c.history.bond);
+  for (const SubContact<Dim>& s : subs_of(contacts, place))
+    if (s.area > 0) count(s.history.bond);
+  return bonds;
 }
 
 // of all contacts
 template <int Dim>
-long long whole_bonds(const ContactsState<Dim>& contacts) {
-  long long whole = 0;
-  for (std::size_t i = 0; i < contacts.list.size(); ++i)
-    whole += whole_bonds(contacts, i);
-  return whole;
-}
-template <int Dim>
-long long held_bonds(const ContactsState<Dim>& contacts) {
-  long long held = 0;
-  for (std::size_t i = 0; i < contacts.list.size(); ++i)
-    held += held_bonds(contacts, i);
-  return held;
+Bonds bonds_of(const ContactsState<Dim>& contacts) {
+  Bonds all;
+  for (std::size_t i = 0; i < contacts.list.size(); ++i) {
+    const Bonds bonds = bonds_of(contacts, i);
+    all.whole += bonds.whole;
+    all.slipped += bonds.slipped;
+  }
+  return all;
 }
 
 // the places of a body's contacts in ContactsState::list

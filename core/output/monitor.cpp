@@ -61,7 +61,7 @@ template <int Dim>
 long long whole_bonds_of(int joint, const State<Dim>& state) {
   long long whole = 0;
   for (std::size_t i = 0; i < state.contacts.list.size(); ++i)
-    if (state.contacts.list[i].joint == joint) whole += whole_bonds(state.contacts, i);
+    if (state.contacts.list[i].joint == joint) whole += bonds_of(state.contacts, i).whole;
   return whole;
 }
 

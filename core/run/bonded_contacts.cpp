@@ -41,7 +41,7 @@ void remember_bonds(const Model<Dim>& model, const State<Dim>& state, BondedCont
   if (bonded.made == 0) return;
   for (std::size_t i = 0; i < state.contacts.list.size(); ++i) {
     const Contact<Dim>& c = state.contacts.list[i];
-    const long long held = held_bonds(state.contacts, i);
+    const long long held = bonds_of(state.contacts, i).held();
     if (held == 0) continue;
     BondedContact& contact = remembered(c.part_a, c.part_b, bonded.contacts);
     if (held < contact.bonds) continue;
@@ -75,8 +75,9 @@ std::vector<JointBonds> bonds_by_joint(const Model<Dim>& model, const State<Dim>
         std::ranges::lower_bound(state.contacts.list, std::pair(contact.part_a, contact.part_b), {}, pair);
     if (found == state.contacts.list.end() || pair(*found) != std::pair(contact.part_a, contact.part_b)) continue;
     const auto place = static_cast<std::size_t>(found - state.contacts.list.begin());
-    bonds.whole += whole_bonds(state.contacts, place);
-    bonds.slipped += bonds_in(Bond::slipped, state.contacts, place);
+    const Bonds now = bonds_of(state.contacts, place);
+    bonds.whole += now.whole;
+    bonds.slipped += now.slipped;
     bonds.held_area += bonded_area(model, state, place);
   }
   std::vector<JointBonds> all;

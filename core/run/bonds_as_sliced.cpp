@@ -8,17 +8,10 @@
 #include "core/step/joint_forces.hpp"
 
 namespace voussoir {
-namespace {
-
-bool bonds_as_sliced(const JointProperties& properties) {
-  return properties.laws.bond && properties.bonds == BondsMade::as_sliced;
-}
-
-}  // namespace
 
 template <int Dim>
 bool has_bonds_as_sliced(const Model<Dim>& model) {
-  return std::ranges::any_of(model.properties, bonds_as_sliced);
+  return std::ranges::any_of(model.properties, &JointProperties::bonds_as_sliced);
 }
 
 template <int Dim>
@@ -26,7 +19,7 @@ void make_bonds_as_sliced(const Model<Dim>& model, const Settings& settings, Sta
   if (!has_bonds_as_sliced(model)) return;
   std::vector<std::pair<int, int>> between;
   for (const RockContact<Dim>& contact : find_rock_contacts(model).list)
-    if (contact.one_joint && contact.joint != no_joint && bonds_as_sliced(model.properties[contact.properties]))
+    if (contact.one_joint && contact.joint != no_joint && model.properties[contact.properties].bonds_as_sliced())
       between.emplace_back(std::minmax({contact.body_a, contact.body_b}));
   std::ranges::sort(between);
   make_bonds(model, settings, state.bodies, state.contacts, state.ledger.bonds, state.counters, &between);

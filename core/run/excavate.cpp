@@ -65,7 +65,7 @@ void carry_contacts(const Model<Dim>& before, const Model<Dim>& model, const Exc
     if (a >= 0)
       order.emplace_back(a, b, i);
     else
-      bonds.removed += held_bonds(contacts, i);
+      bonds.removed += bonds_of(contacts, i).held();
   }
   std::ranges::sort(order);
 

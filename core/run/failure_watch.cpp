@@ -186,7 +186,7 @@ void begin_watch(const State<Dim>& state, double level, FailureWatch<Dim>& watch
   watch.trial = {};
   note_placements(state.bodies, watch.trial.first);
   watch.trial.last = watch.trial.first;
-  watch.trial.bonds = held_bonds(state.contacts);
+  watch.trial.bonds = bonds_of(state.contacts).held();
   watch.trial.target = strength_of(watch.plan.searched, level);
 }
 
@@ -207,7 +207,7 @@ void look(const Model<Dim>& model, const State<Dim>& state, const std::vector<Pl
   const bool goes_on = trial.required.empty() || displacement > trial.required.back().displacement;
   if (work.resistance > 0 && work.most > 0 && goes_on) {
     trial.required.push_back({displacement, required_by(watch.plan, state.schedule, work)});
-    trial.broke = trial.broke || held_bonds(state.contacts) < trial.bonds;
+    trial.broke = trial.broke || bonds_of(state.contacts).held() < trial.bonds;
     judge_line(model, moved_between(model, trial.first, placed), work, moved, (bolts - trial.bolts) * work.most,
                watch.plan.tolerance, trial);
   }

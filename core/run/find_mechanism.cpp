@@ -383,7 +383,7 @@ FailureMechanism find_mechanism(const Model<Dim>& model, const std::vector<Place
     mechanism.free_share += mechanism.clusters.back().free_share;
   }
   std::ranges::stable_sort(mechanism.clusters, std::ranges::greater{}, &MovingCluster::weight);
-  if (const long long held = held_bonds(before); held > 0) mechanism.bonds_broken = held - held_bonds(after);
+  if (const long long held = bonds_of(before).held(); held > 0) mechanism.bonds_broken = held - bonds_of(after).held();
   return mechanism;
 }
 

@@ -28,8 +28,9 @@ std::string name_of_joint(const Prepared<Dim>& scene, const Model<Dim>& model, i
 template <int Dim>
 std::optional<WholeBonds> whole_bonds_of(const Prepared<Dim>& scene, const Model<Dim>& model, const State<Dim>& state,
                                          const BondedContacts& bonded) {
-  WholeBonds bonds{.whole = whole_bonds(state.contacts),
-                   .slipped = held_bonds(state.contacts) - whole_bonds(state.contacts),
+  const Bonds now = bonds_of(state.contacts);
+  WholeBonds bonds{.whole = now.whole,
+                   .slipped = now.slipped,
                    .made = state.ledger.bonds.made - state.ledger.bonds.removed};
   if (bonds.made == 0) return std::nullopt;
   std::map<std::string, JointBonds> by_name;

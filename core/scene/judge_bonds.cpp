@@ -48,9 +48,7 @@ void judge_brittle_searches(const Scene& scene, bool made, std::vector<std::stri
 
 // weight that comes on in true motion overshoots, and a joint that parts loses its strength permanently
 void judge_first_load(const Scene& scene, std::vector<std::string>& warnings) {
-  const auto acts = [](const PropertiesSpec& p) {
-    return p.properties.laws.bond && p.properties.bonds == BondsMade::as_sliced;
-  };
+  const auto acts = [](const PropertiesSpec& p) { return p.properties.bonds_as_sliced(); };
   if (scene.stages.empty() || std::ranges::none_of(scene.properties, acts)) return;
   const auto* timed = std::get_if<RunPlan>(&scene.stages.front().plan.plan);
   if (timed && timed->gravity.to.value_or(1) != 0)

@@ -107,7 +107,7 @@ void resolve(const Model<Dim>& model, const Settings& settings, const BodiesStat
   for (int i = 0; i < pending.count; ++i) {
     Contact<Dim>* const c = resolved[i];
     const std::size_t place = c - contacts.list.data();
-    const long long bonds = c->bond_due ? held_bonds(contacts, place) : 0;
+    const long long bonds = c->bond_due ? bonds_of(contacts, place).held() : 0;
     if (c->touching()) {
       const bool whole = choose_joint(model, settings.contact, pending.pairs[i], *c, planes);
       const int along = model.properties[c->properties].sub_contacts;
@@ -122,7 +122,7 @@ void resolve(const Model<Dim>& model, const Settings& settings, const BodiesStat
       } else {
         c->cells = 0;
       }
-      if (bonds > 0 && held_bonds(contacts, place) < bonds) c->bond_due = false;
+      if (bonds > 0 && bonds_of(contacts, place).held() < bonds) c->bond_due = false;
       continue;
     }
     if (c->unanswered()) ++tally.unconverged;
@@ -156,7 +156,7 @@ void find_contacts_of(const Model<Dim>& model, const Settings& settings, const B
     Contact<Dim>& c = contacts.list[i];
     contacts.loads[i].second = -1;
     if (!is_near(model, bodies, gap, c)) {
-      if (c.bond_due && held_bonds(contacts, i) > 0) c.bond_due = false;  // broken, not to be made again
+      if (c.bond_due && bonds_of(contacts, i).held() > 0) c.bond_due = false;  // broken, not to be made again
       set_apart(c);
       continue;
     }

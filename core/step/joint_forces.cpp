@@ -398,7 +398,7 @@ void remove_bonds(const Model<Dim>& model, ContactsState<Dim>& contacts, BondTal
   for (std::size_t i = 0; i < contacts.list.size(); ++i) {
     Contact<Dim>& c = contacts.list[i];
     if (model.bodies[model.parts[c.part_a].body].present && model.bodies[model.parts[c.part_b].body].present) continue;
-    bonds.removed += held_bonds(contacts, i);
+    bonds.removed += bonds_of(contacts, i).held();
     c.history.bond = Bond::lost;
     for (SubContact<Dim>& s : subs_of(contacts, i))
       s.history.bond = Bond::lost;
@@ -417,11 +417,10 @@ template <int Dim>
 BondCount count_bonds(const ContactsState<Dim>& contacts, const BondTally& bonds) {
   BondCount count{.made = bonds.made, .removed = bonds.removed};
   for (std::size_t i = 0; i < contacts.list.size(); ++i) {
-    const long long whole = whole_bonds(contacts, i);
-    const long long slipped = bonds_in(Bond::slipped, contacts, i);
-    count.whole += whole;
-    count.slipped += slipped;
-    count.due += contacts.list[i].bond_due && whole + slipped == 0;
+    const Bonds now = bonds_of(contacts, i);
+    count.whole += now.whole;
+    count.slipped += now.slipped;
+    count.due += contacts.list[i].bond_due && now.held() == 0;
   }
   count.broken = count.made - count.removed - count.whole - count.slipped;
   return count;

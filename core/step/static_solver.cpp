@@ -297,7 +297,7 @@ struct Newton {
   // A broken bond loses its force suddenly: relaxation finds the path.
   bool breaks_bonds() const {
     const long long expected = base.held_bonds + state.ledger.bonds.made - base.ledger.bonds.made;
-    return expected > 0 && held_bonds(state.contacts) < expected;
+    return expected > 0 && bonds_of(state.contacts).held() < expected;
   }
 
   // Back on the step to the point where its work, interpolated between both ends, is zero.

@@ -41,7 +41,7 @@ StaticBase<Dim> base_of(const State<Dim>& state) {
           .supports = state.supports,
           .ledger = state.ledger,
           .loads = state.loads.by_source,
-          .held_bonds = held_bonds(state.contacts),
+          .held_bonds = bonds_of(state.contacts).held(),
           .listed = state.counters.neighbour_builds};
 }
 
