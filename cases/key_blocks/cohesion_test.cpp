@@ -49,8 +49,8 @@ SceneRun run_wedge(double ratio, const Law& law) {
   return run("hoek_and_bray.toml", sets);
 }
 
-void judge(CaseReport& report, double ratio, const Law& law, double expected, double tolerance,
-           const std::string& because) {
+double judge(CaseReport& report, double ratio, const Law& law, double expected, double tolerance,
+             const std::string& because) {
   const SceneRun done = run_wedge(ratio, law);
   const std::string of = law.slip > 0 ? fmt::format(" over {:g} mm", 1e3 * law.slip) : "";
   report.record({fmt::format("factor, {} cohesion{}, ks/kn = {:g}", law.name, of, ratio),
@@ -61,12 +61,22 @@ void judge(CaseReport& report, double ratio, const Law& law, double expected, do
                  {tolerance, 0},
                  because},
                 value(done, "factor_of_safety"), cost(done));
+  if (law.slip > 0)
+    report.record({fmt::format("relative energy error{}", of),
+                   "1",
+                   Kind::limit,
+                   "conservation",
+                   0,
+                   {1e-6, 0, verification::Bound::at_most},
+                   "demanded of the law (core/joint_laws)"},
+                  done.results.energy.relative_error());
+  return value(done, "factor_of_safety");
 }
 
 const std::string by_bracket = "the bracket";
 
-void judge_plastic(CaseReport& report, double ratio) {
-  judge(report, ratio, {"plastic"}, solve_wedge(elastic_wedge().wedge).factor_of_safety, bracket, by_bracket);
+double judge_plastic(CaseReport& report, double ratio) {
+  return judge(report, ratio, {"plastic"}, solve_wedge(elastic_wedge().wedge).factor_of_safety, bracket, by_bracket);
 }
 
 void judge_softening(CaseReport& report, double slip) {
@@ -80,21 +90,27 @@ void judge_softening(CaseReport& report, double slip) {
 
 TEST(SharedCohesion, PlasticCohesionGivesLimitEquilibriumAtAnyStiffness) {
   CaseReport report("key_blocks", {"factor, plastic cohesion, ks/kn = 1"});
-  for (const double ratio : {1.0, 0.1})
-    judge_plastic(report, ratio);
+  std::vector<double> ratios{1, 0.1}, found;
+  for (const double ratio : ratios)
+    found.push_back(judge_plastic(report, ratio));
+  write_csv("key_blocks", "plastic.csv", {"ratio", "factor"}, {ratios, found});
 }
 
 TEST(SharedCohesion, BrittleCohesionDependsOnStiffness) {
   CaseReport report("key_blocks", {"factor, brittle cohesion, ks/kn = 0.01"});
   const reference::ElasticWedge block = elastic_wedge();
-  for (const double ratio : {1.0, 0.1, 0.01})
-    judge(report, ratio, {"brittle"}, brittle_factor(block, ratio), bracket, by_bracket);
-  std::vector<double> ratios, factors;
+  std::vector<double> ratios{1, 0.1, 0.01}, found;
+  for (const double ratio : ratios)
+    found.push_back(judge(report, ratio, {"brittle"}, brittle_factor(block, ratio), bracket, by_bracket));
+  write_csv("key_blocks", "brittle.csv", {"ratio", "factor"}, {ratios, found});
+  ratios.clear();
+  std::vector<double> brittle, plastic;
   for (double exponent = -4; exponent <= 0.301; exponent += 0.05) {
     ratios.push_back(std::pow(10, exponent));
-    factors.push_back(brittle_factor(block, ratios.back()));
+    brittle.push_back(brittle_factor(block, ratios.back()));
+    plastic.push_back(solve_wedge(block.wedge).factor_of_safety);
   }
-  write_csv("key_blocks", "brittle_form.csv", {"ratio", "factor"}, {ratios, factors});
+  write_csv("key_blocks", "cohesion_form.csv", {"ratio", "brittle", "plastic"}, {ratios, brittle, plastic});
 }
 
 TEST(SharedCohesion, SofteningCohesionHasItsPeak) {
