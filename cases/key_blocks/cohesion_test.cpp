@@ -37,7 +37,9 @@ struct Law {
 };
 
 SceneRun run_wedge(double ratio, const Law& law) {
-  std::vector<std::string> sets;
+  // the crack has a hundred thousandth of the joints' stiffnesses
+  std::vector<std::string> sets{
+      fmt::format("joint_properties.crack.shear_stiffness={:g}", 1e-5 * ratio * normal_stiffness)};
   for (const char* joint : {"A", "B"}) {
     const std::string table = fmt::format("joint_properties.{}.", joint);
     sets.push_back(table + fmt::format("shear_stiffness={:g}", ratio * normal_stiffness));

@@ -186,14 +186,15 @@ TEST(MoversLong, AllHaveTheFactorOfBlockTheoryOnStiffJoints) {
       std::vector<std::string> closed;
       for (const int face : row->closed_faces)
         closed.push_back(mass.survey.joint_name(row->faces[face]));
+      double pressing = 0;
+      for (int k = 0; k < row->bolted.verdict.loaded; ++k)
+        pressing += row->bolted.verdict.forces[k];
       report.report(
           "factor on everyday joints, " + label(mass, *row), "1", found.factor,
-          fmt::format("block theory {:.4f}; opens by {:.2f} deg; elastic shear closes: {}; forces {:.1f} of its "
-                      "weight; faces {:.3f} m2 below {:.3f} m3",
-                      *row->bolted.factor, row->opening.value_or(0) / degree,
-                      closed.empty() ? "none" : fmt::format("{}", fmt::join(closed, ", ")),
-                      (row->bolted.load - row->bolted.verdict.motion).norm() / row->weight, row->contact_area,
-                      row->volume));
+          fmt::format("block theory {:.4f}; normal forces {:.1f} times its weight; the least face opens by {:.2f} "
+                      "deg; elastic shear closes {}",
+                      *row->bolted.factor, pressing / row->weight, row->opening.value_or(0) / degree,
+                      closed.empty() ? "none" : fmt::format("{}", fmt::join(closed, ", "))));
     }
   }
   report.record({"blocks that move", "1", Kind::exact, "comparison with another program", 49, {0, 0}, "a count"},
