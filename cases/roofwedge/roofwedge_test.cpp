@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "app/blocks/block_survey.hpp"
 #include "cases/case_tools.hpp"
 #include "reference/roofwedge/roofwedge.hpp"
 #include "text/angle.hpp"
@@ -51,6 +52,23 @@ constexpr double tight = 0.005;
 constexpr const char* why =
     "half the bracket is 0.0004; the wedge sinks by 3 micrometres into overlaps of 40, and the resulting change of its "
     "faces and stresses is worth less than 0.002";
+
+// block theory has no stress: the wedge falls, whatever the friction
+TEST(RoofWedge, FallsWithoutStressByBlockTheory) {
+  CaseReport report("roofwedge", {"factor without stress, block theory"});
+  const Survey<3> survey =
+      survey_blocks<3>(load_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / "scene.toml"), SurveyRequest{});
+  ASSERT_EQ(survey.rows.size(), 1u);
+  EXPECT_EQ(survey.rows[0].kind(), BlockKind::falls);
+  report.record({"factor without stress, block theory",
+                 "1",
+                 Kind::exact,
+                 "equilibrium: no joint is pressed",
+                 0,
+                 {0, 0},
+                 "nothing resists"},
+                *survey.rows[0].bolted.factor);
+}
 
 TEST(RoofWedge, FallsAtTheAngleOfJointRelaxation) {
   CaseReport report("roofwedge", {"critical friction"});

@@ -6,6 +6,7 @@
 #include <boost/random/uniform_real_distribution.hpp>
 #include <cmath>
 
+#include "app/blocks/block_survey.hpp"
 #include "cases/case_tools.hpp"
 #include "cases/wedge/wedge_scene.hpp"
 #include "core/base/accuracy.hpp"
@@ -42,6 +43,28 @@ TEST(Wedge, BisectionFindsTheClosedForm) {
                   "bracket 0.005, elastic settlement lowers the angle by 0.002 at ks = kn/10, overlap of 0.1 % of the "
                   "height rotates no plane; the remainder is a margin for the sliver contact below the edge"),
       value(scene, "critical_friction"), cost(scene));
+}
+
+// Block theory on the same scene: no stiffness, no time. Its friction is that of the stage that it is told of.
+TEST(Wedge, BlockTheoryFindsTheClosedForm) {
+  CaseReport report("wedge", {"critical friction, block theory"});
+  const Survey<3> survey =
+      survey_blocks<3>(load_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / "scene.toml"), SurveyRequest{});
+  ASSERT_EQ(survey.rows.size(), 1u);
+  const Verdict<3>& verdict = survey.rows[0].bolted.verdict;
+  const double friction = survey.assembly.model.properties[0].friction;
+  report.record(angle_check("critical friction, block theory", Kind::exact,
+                            "Hoek & Bray (1974), equal to Itasca's \"Sliding Wedge\"",
+                            *reference::critical_friction(thesis_wedge) / degree, 1e-9, "rounding"),
+                std::atan(std::tan(friction) / *survey.rows[0].bolted.factor) / degree);
+  const reference::WedgeSolution expected = reference::solve_wedge(thesis_wedge);
+  const Vector<3> along = verdict.direction();
+  report.record(angle_check("plunge of the motion, block theory", Kind::exact, "Hoek & Bray (1974)",
+                            expected.line_plunge / degree, 1e-9, "rounding"),
+                -std::asin(along[2]) / degree);
+  report.record(angle_check("trend of the motion, block theory", Kind::exact, "Hoek & Bray (1974)",
+                            expected.line_trend / degree, 1e-9, "rounding"),
+                std::atan2(along[0], along[1]) / degree);
 }
 
 TEST(Wedge, OnIntegratedFacesItIsTheSame) {

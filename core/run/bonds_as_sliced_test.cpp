@@ -1,4 +1,4 @@
-// A stated cohesion against limit equilibrium: a block on one plane, Hoek and Bray's wedge on two.
+// A stated cohesion against limit equilibrium: a block on one plane. A wedge on two: cases/key_blocks.
 #include "core/run/bonds_as_sliced.hpp"
 
 #include <fmt/format.h>
@@ -115,63 +115,6 @@ TEST(BondsAsSliced, ACheckpointKeepsSlippedBonds) {
   const Prepared<3> scene = scene_of<3>(slope.text());
   const Results whole = whole_run(scene).results;
   EXPECT_EQ(continued(scene, whole.counters.steps - 40).results.state_hash, whole.state_hash);
-}
-
-// Hoek and Bray's wedge (Wyllie & Mah, Rock Slope Engineering, 2004, Appendix III) in SI; the crack carries nothing.
-std::string wedge(double ratio, const std::string& law, const std::string& failure) {
-  const double normal = 1e11;
-  const auto joint = [](const char* name, double dip, double direction, const char* point) {
-    return fmt::format(
-        "[[joints]]\nname = \"{0}\"\ndip = {1}\ndip_direction = {2}\npoint = {3}\nproperties = \"{0}\"\n", name, dip,
-        direction, point);
-  };
-  const auto properties = [&](const char* name, double friction, double part, const std::string& keys) {
-    return fmt::format(
-        "[[joint_properties]]\nname = \"{}\"\nnormal_stiffness = {}\nshear_stiffness = {}\nfriction_deg = {}\n{}\n",
-        name, part * normal, part * normal * ratio, friction, keys);
-  };
-  return "dimension = 3\ngravity = [0, 0, -9.81]\ndensity = 2562.078921\n"
-         "[domain]\nbox = { min = [-200, -50, -60], max = [100, 200, 120] }\n"
-         "planes = [{ dip = 65, dip_direction = 185, point = [0, 0, 0], keep = \"below\" },\n"
-         "          { dip = 12, dip_direction = 195, point = [-27.0970698257, 16.6380354154, 30.48], keep = \"below\" "
-         "}]\n" +
-         joint("A", 45, 105, "[0, 0, 0]") + joint("B", 70, 235, "[0, 0, 0]") +
-         joint("crack", 70, 165, "[-26.4723494774, 28.5584097721, 32.9617863897]") +
-         properties("A", 20, 1, "cohesion = 23940.12949\n" + law) +
-         properties("B", 30, 1, "cohesion = 47880.25898\n" + law) + properties("crack", 0, 1e-5, "") +
-         "[[fix]]\nbelow = [\"A\"]\n[[fix]]\nbelow = [\"B\"]\n[[fix]]\nbelow = [\"crack\"]\n"
-         "[[restrain]]\nabove = [\"A\", \"B\", \"crack\"]\nrotation = true\n"
-         "[[stage]]\nname = \"settle\"\nkind = \"settle\"\ngravity_ramp_s = 0.5\nfriction_deg = 85\n"
-         "[[stage]]\nname = \"safety\"\nkind = \"reduce\"\nsearch = \"factor\"\njoint_properties = [\"A\", \"B\"]\n"
-         "friction = [{ name = \"A\", friction_deg = 20 }, { name = \"B\", friction_deg = 30 },\n"
-         "            { name = \"crack\", friction_deg = 0 }]\n"
-         "from_factor = 0.5\nto_factor = 3\ntolerance_factor = 0.0002\n" +
-         failure + "[accuracy]\nerror_bar = \"bracket\"\n[output]\nframes = false\n";
-}
-
-double factor_of_wedge(double ratio, const std::string& law, const std::string& failure = "") {
-  const Results results = whole_run(scene_of<3>(wedge(ratio, law, failure))).results;
-  if (!failure.empty()) EXPECT_LE(results.energy.relative_error(), 1e-6);
-  return results.find("factor_of_safety")->value;
-}
-
-// plastic: limit equilibrium for any stiffness; brittle: the joint that breaks first, by elasticity, then the rest
-TEST(BondsAsSliced, HoekAndBraysWedge) {
-  for (const double ratio : {1.0, 0.1, 0.01})
-    EXPECT_NEAR(factor_of_wedge(ratio, ""), 1.735577, 2e-4) << ratio;
-  EXPECT_NEAR(factor_of_wedge(1, "cohesion_law = \"brittle\""), 1.106620, 2e-4);
-  EXPECT_NEAR(factor_of_wedge(0.01, "cohesion_law = \"brittle\""), 1.599971, 2e-4);
-}
-
-// Σ T_i(u) of both joints has its peak; shear across the line at ks/kn = 0.001 takes 0.0016, as it does of 1.617707
-TEST(BondsAsSliced, HoekAndBraysWedgeWithCohesionThatSlipTakes) {
-  const auto softening = [](double slip) {
-    return factor_of_wedge(0.001, fmt::format("cohesion_law = \"softening\"\ncohesion_slip_m = {}", slip),
-                           "failure_displacement = 0.02\n");
-  };
-  EXPECT_NEAR(softening(1e-2), 1.73415 - 0.0016, 3e-4);
-  EXPECT_NEAR(softening(1e-3), 1.71987 - 0.0016, 3e-4);
-  EXPECT_NEAR(softening(3e-4), 1.67034 - 0.0016, 3e-4);
 }
 
 }  // namespace

@@ -1,14 +1,14 @@
-// Blocks whose inputs and results are published, or follow from a closed form: README.md names the sources.
+// One block under forces, bolts and water, against closed forms. Published wedges and pyramids: cases/key_blocks.
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
+#include <optional>
 
 #include "core/key_blocks/block_forces.hpp"
 #include "core/testing/stated_block.hpp"
 #include "text/angle.hpp"
 
-namespace voussoir::published_blocks_test {
+namespace voussoir::verdict_test {
 namespace {
 
 const Vector<3> down(0, 0, -9.81), nothing(0, 0, 0);
@@ -21,44 +21,24 @@ double trend(const Vector<3>& v) {
   return angle < 0 ? angle + 360 : angle;
 }
 
-constexpr double computed = 1e-9;  // of the numbers written with ten digits
-
 // Hoek & Bray (1981), comprehensive solution; Wyllie & Mah (2004), Appendix III, in feet and pounds
 struct HoekAndBray {
   double area_a = 5565.007845, area_b = 6428.125399, crack = 1846.538547, weight = 28272195.4;
   Vector<3> a = above(45, 105), b = above(70, 235), c = above(70, 165);
 
-  explicit HoekAndBray(double pressure = 0) {
+  explicit HoekAndBray(double pressure) {
     block = block_of({{a, area_a, 20, 500}, {b, area_b, 30, 1000}, {c, crack, 0, 0}}, weight);
     block.water.force = pressure * (area_a * a + area_b * b + crack * c);
   }
   Block<3> block;
 };
 
-TEST(PublishedBlocks, HoekAndBrayWedgeDry) {
-  const HoekAndBray wedge;
-  const Verdict<3> verdict = judge(wedge.block, load_without_bolts(wedge.block), down);
-  ASSERT_EQ(verdict.kind, BlockKind::slides);
-  ASSERT_EQ(verdict.loaded, 2);
-  EXPECT_NEAR(*verdict.factor(), 1.735576747, 5e-8);  // areas and weight written with nine digits
-  EXPECT_NEAR(*verdict.factor(), 1.7360, 5e-4 * 1.736);
-  EXPECT_NEAR(plunge(verdict.motion), 31.196514, 1e-6);
-  EXPECT_NEAR(trend(verdict.motion), 157.732407, 1e-6);
-  EXPECT_NEAR(verdict.driving() / 1e6, 14.644289, 1e-6);
-  EXPECT_NEAR(verdict.forces[verdict.faces[0] == 0 ? 0 : 1] / 1e6, 22.557121, 2e-6);
-  EXPECT_NEAR(verdict.forces[verdict.faces[0] == 0 ? 1 : 0] / 1e6, 13.848679, 2e-6);
-}
-
-TEST(PublishedBlocks, HoekAndBrayWedgeWithWaterAndItsLeastBoltForce) {
+TEST(Verdict, TheLeastForceAsABoltAndTheCriticalWater) {
   const HoekAndBray wedge(1084.266440);
   const BoltedVerdict<3> bolted = judge_bolted(wedge.block, nothing, down);
-  EXPECT_NEAR(*bolted.factor, 1.137822923, 5e-8);
   const std::optional<RequiredForce<3>> bolt = least_force(wedge.block, bolted, 1.5, down);
   ASSERT_TRUE(bolt);
   EXPECT_TRUE(bolt->least);
-  EXPECT_NEAR(bolt->force.norm() / 1e6, 3.430451463, 1e-6);
-  EXPECT_NEAR(plunge(bolt->force), -6.978046, 1e-5);
-  EXPECT_NEAR(trend(bolt->force), 349.431770, 1e-5);
   EXPECT_NEAR(*judge(wedge.block, Vector<3>(bolted.load + bolt->force), down).factor(), 1.5, 1e-12);
   EXPECT_NEAR(*force_along(wedge.block, bolted, 1.5, Vector<3>(bolt->force.normalized()), down), bolt->force.norm(), 1);
 
@@ -75,72 +55,7 @@ TEST(PublishedBlocks, HoekAndBrayWedgeWithWaterAndItsLeastBoltForce) {
               1, 1e-9);
 }
 
-TEST(PublishedBlocks, HoekAndBrayWedgeInTheWorstEarthquake) {
-  const HoekAndBray wedge;
-  const Vector<3> load = load_without_bolts(wedge.block);
-  const Vector<3> along(std::sin(157.732407 * degree), std::cos(157.732407 * degree), 0);
-  struct Row {
-    double k, along_the_line, worst, worst_trend;
-  };
-  for (const Row& row : {Row{0.05, 1.572249281, 1.569271413, 169.032}, Row{0.15, 1.310446436, 1.301508793, 170.748},
-                         Row{0.3, 1.026159514, 1.008256854, 173.326}}) {
-    const double size = row.k * wedge.weight;
-    EXPECT_NEAR(*judge(wedge.block, Vector<3>(load + size * along), down).factor(), row.along_the_line, 1e-7);
-    const WorstDirection<3> worst = worst_direction<3>(wedge.block, load, size, down);
-    EXPECT_NEAR(*worst.factor, row.worst, 1e-7);
-    EXPECT_NEAR(trend(worst.direction), row.worst_trend, 1e-3);
-  }
-  const double k = *critical_coefficient<3>(wedge.block, load, Vector<3>::Zero(), down);
-  EXPECT_NEAR(*worst_direction<3>(wedge.block, load, k * wedge.weight, down).factor, 1, 1e-9);
-}
-
-TEST(PublishedBlocks, SlidingWedgeOfThreeDec) {
-  // Itasca, "Sliding Wedge": equal friction at which it slides
-  const Block<3> wedge = block_of({{above(40, 130)}, {above(60, 220)}}, 1);
-  const Verdict<3> verdict = judge(wedge, wedge.stated.force, down);
-  EXPECT_NEAR(verdict.driving(), 0.602627281, computed);
-  EXPECT_NEAR(std::atan(std::tan(30 * degree) / *verdict.factor()) / degree, 33.357221409, 1e-8);
-  EXPECT_NEAR(plunge(verdict.motion), 37.058295, 1e-6);
-  EXPECT_NEAR(trend(verdict.motion), 155.848072, 1e-6);
-}
-
-// Goodman (1989): sets 30/090, 60/045, 20/330; a pyramid is above (0) or below (1) the plane of each set
-TEST(PublishedBlocks, RemovablePyramidsOfGoodman) {
-  const std::array<Vector<3>, 3> sets{above(30, 90), above(60, 45), above(20, 330)};
-  const auto removable = [&](const Vector<3>& into_rock) {
-    std::string found;
-    for (int code = 0; code < 8; ++code) {
-      std::vector<Vector<3>> normals;
-      for (int s = 0; s < 3; ++s)
-        normals.push_back(code >> (2 - s) & 1 ? Vector<3>(-sets[s]) : sets[s]);
-      std::vector<Vector<3>> into = normals;
-      into.push_back(into_rock);
-      if (find_removability(normals).removable && !find_removability(into).removable)
-        for (int s = 2; s >= 0; --s)
-          found += code >> s & 1 ? '1' : '0';
-    }
-    return found;
-  };
-  EXPECT_EQ(removable({0, 0, 1}), "101");
-  EXPECT_EQ(removable({0, -1, 0}), "100");
-  EXPECT_EQ(removable({0, 1, 0}), "011");
-  EXPECT_EQ(removable({0, 0, -1}), "010");
-  const auto judged = [&](const char* code) {
-    std::vector<StatedFace> faces;
-    for (int s = 0; s < 3; ++s)
-      faces.push_back({code[s] == '1' ? Vector<3>(-sets[s]) : sets[s]});
-    const Block<3> block = block_of(faces, 1);
-    return judge(block, block.stated.force, down);
-  };
-  EXPECT_NEAR(*judged("101").factor(), 0.333333333, computed);
-  EXPECT_EQ(judged("101").loaded, 1);
-  EXPECT_NEAR(*judged("100").factor(), 1.586256828, computed);
-  EXPECT_NEAR(*judged("011").factor(), 1.782316790, computed);
-  EXPECT_EQ(judged("011").loaded, 2);
-  EXPECT_EQ(judged("010").kind, BlockKind::stable);
-}
-
-TEST(PublishedBlocks, ABlockOnAPlaneWithABolt) {
+TEST(Verdict, ABlockOnAPlaneWithABolt) {
   // 49.05 kN on 40 degrees, friction 30, a bolt of 20 kN at 45 degrees to the plane
   Block<3> block = block_of({{above(40, 90)}}, 49.05e3);
   const Vector<3> downhill(std::cos(40 * degree), 0, -std::sin(40 * degree)), n = above(40, 90);
@@ -152,7 +67,7 @@ TEST(PublishedBlocks, ABlockOnAPlaneWithABolt) {
   EXPECT_NEAR(*judge_bolted(block, nothing, down).factor_passive, 1.71733, 1e-5);
 }
 
-TEST(PublishedBlocks, LeastForceOnAPlane) {
+TEST(Verdict, LeastForceOnAPlane) {
   Block<3> block = block_of({{above(35, 120), 1, 30, 0.05}}, 1);
   const BoltedVerdict<3> bolted = judge_bolted(block, nothing, down);
   const RequiredForce<3> bolt = *least_force(block, bolted, 1.5, down);
@@ -162,7 +77,7 @@ TEST(PublishedBlocks, LeastForceOnAPlane) {
   EXPECT_NEAR(*judge(block, Vector<3>(block.stated.force + bolt.force), down).factor(), 1.5, 1e-12);
 }
 
-TEST(PublishedBlocks, ABlockThatFallsStaysThatUnderBolts) {
+TEST(Verdict, ABlockThatFallsStaysThatUnderBolts) {
   // three joints of a roof, 60/030, 60/150, 60/270: the block below all of them
   Block<3> block =
       block_of({{Vector<3>(-above(60, 30))}, {Vector<3>(-above(60, 150))}, {Vector<3>(-above(60, 270))}}, 10);
@@ -179,7 +94,7 @@ TEST(PublishedBlocks, ABlockThatFallsStaysThatUnderBolts) {
   EXPECT_EQ(judge(lifted, load_without_bolts(lifted), down).kind, BlockKind::lifts);
 }
 
-TEST(PublishedBlocks, AFactorMayRiseWhenAFaceIsRemoved) {
+TEST(Verdict, AFactorMayRiseWhenAFaceIsRemoved) {
   const std::vector<StatedFace> faces{{Vector<3>(2, 3, -1).normalized(), 1, 35},
                                       {Vector<3>(4, -6, 8).normalized(), 1, 35},
                                       {Vector<3>(2, -8, 8).normalized(), 1, 35}};
@@ -188,7 +103,7 @@ TEST(PublishedBlocks, AFactorMayRiseWhenAFaceIsRemoved) {
   EXPECT_NEAR(*judge(without, without.stated.force, down).factor(), 1.277553, 1e-6);
 }
 
-TEST(PublishedBlocks, ALineThatThreeFacesShareIsIndeterminate) {
+TEST(Verdict, ALineThatThreeFacesShareIsIndeterminate) {
   // a prism on three faces along y, which dips: the least resistance leaves out the rough one in between
   const double fall = 30 * degree;
   const Vector<3> along(0, std::cos(fall), -std::sin(fall)), up(0, std::sin(fall), std::cos(fall)), side(1, 0, 0);
@@ -205,4 +120,4 @@ TEST(PublishedBlocks, ALineThatThreeFacesShareIsIndeterminate) {
 }
 
 }  // namespace
-}  // namespace voussoir::published_blocks_test
+}  // namespace voussoir::verdict_test
