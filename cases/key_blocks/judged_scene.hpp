@@ -6,15 +6,17 @@
 #include <string>
 #include <vector>
 
-#include "app/blocks/block_survey.hpp"
 #include "cases/case_tools.hpp"
+#include "core/key_blocks/block_survey.hpp"
 
 namespace voussoir::cases {
 
 template <int Dim = 3>
 Survey<Dim> judged(const std::string& scene, const std::vector<std::string>& overrides = {},
                    const SurveyRequest& request = {}) {
-  return survey_blocks<Dim>(load_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / scene, overrides), request);
+  return survey_blocks(
+      std::get<Prepared<Dim>>(load_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / scene, overrides).prepared),
+      request);
 }
 
 // of a scene with one block that can move

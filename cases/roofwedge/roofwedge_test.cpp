@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "app/blocks/block_survey.hpp"
 #include "cases/case_tools.hpp"
+#include "core/key_blocks/block_survey.hpp"
 #include "reference/roofwedge/roofwedge.hpp"
 #include "text/angle.hpp"
 
@@ -57,7 +57,8 @@ constexpr const char* why =
 TEST(RoofWedge, FallsWithoutStressByBlockTheory) {
   CaseReport report("roofwedge", {"factor without stress, block theory"});
   const Survey<3> survey =
-      survey_blocks<3>(load_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / "scene.toml"), SurveyRequest{});
+      survey_blocks(std::get<Prepared<3>>(load_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / "scene.toml").prepared),
+                    SurveyRequest{});
   ASSERT_EQ(survey.rows.size(), 1u);
   EXPECT_EQ(survey.rows[0].kind(), BlockKind::falls);
   report.record({"factor without stress, block theory",

@@ -6,10 +6,10 @@
 #include <boost/random/uniform_real_distribution.hpp>
 #include <cmath>
 
-#include "app/blocks/block_survey.hpp"
 #include "cases/case_tools.hpp"
 #include "cases/wedge/wedge_scene.hpp"
 #include "core/base/accuracy.hpp"
+#include "core/key_blocks/block_survey.hpp"
 #include "reference/wedge/wedge.hpp"
 #include "reference/wedge/wedge_path.hpp"
 #include "text/angle.hpp"
@@ -49,7 +49,8 @@ TEST(Wedge, BisectionFindsTheClosedForm) {
 TEST(Wedge, BlockTheoryFindsTheClosedForm) {
   CaseReport report("wedge", {"critical friction, block theory"});
   const Survey<3> survey =
-      survey_blocks<3>(load_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / "scene.toml"), SurveyRequest{});
+      survey_blocks(std::get<Prepared<3>>(load_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / "scene.toml").prepared),
+                    SurveyRequest{});
   ASSERT_EQ(survey.rows.size(), 1u);
   const Verdict<3>& verdict = survey.rows[0].bolted.verdict;
   const double friction = survey.assembly.model.properties[0].friction;
