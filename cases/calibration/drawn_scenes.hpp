@@ -36,6 +36,7 @@ struct SceneKind {
   std::string source;
   DrawnScene (*draw)(Draws&);  // the next one that is neither near a change of mode nor beyond its search's range
   int few;                     // scenes of every build
+  bool has_error = true;       // false: found to rounding and the criterion of equilibrium, which no bar is made for
 };
 
 // joints' stiffnesses, Pa/m: the shear stiffness is a tenth of the normal one to all of it
