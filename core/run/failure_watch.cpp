@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/joint_laws/joint_law.hpp"
 #include "core/step/elastic_displacement.hpp"
 
 namespace voussoir {
@@ -62,6 +63,23 @@ Moved<Dim> moved_between(const Model<Dim>& model, const std::vector<Placement<Di
   return moved;
 }
 
+// N: the cohesion in force of a contact's bonds
+template <int Dim>
+double cohesion_of(const Model<Dim>& model, const State<Dim>& state, std::size_t place) {
+  const Contact<Dim>& c = state.contacts.list[place];
+  const JointProperties& joint = model.properties[c.properties];
+  if (!joint.laws.bond) return 0;
+  const std::vector<double>& divided = state.schedule.strength_factor;
+  double sum = 0;
+  const auto add = [&](const JointState<Dim>& h) {
+    sum += cohesion_answer(joint, h.bond, h.bond_slip, divided.empty() ? 1 : divided[c.properties]).stress * h.area;
+  };
+  if (c.cells == 0) add(c.history);
+  for (const SubContact<Dim>& s : subs_of(state.contacts, place))
+    if (s.area > 0) add(s.history);
+  return sum;
+}
+
 template <int Dim>
 Work work_of(const Model<Dim>& model, const State<Dim>& state, const WatchPlan& plan, const Moved<Dim>& moved) {
   Work work;
@@ -69,7 +87,9 @@ Work work_of(const Model<Dim>& model, const State<Dim>& state, const WatchPlan& 
     work.power += state.loads.total[b].force.dot(moved.by[b]) + state.loads.total[b].moment.dot(moved.turned[b]);
     work.most = std::max(work.most, moved.by[b].norm());
   }
-  for (const Contact<Dim>& c : state.contacts.list) {
+  const bool factor = plan.searched == Searched::factor;
+  for (std::size_t place = 0; place < state.contacts.list.size(); ++place) {
+    const Contact<Dim>& c = state.contacts.list[place];
     if (!c.touching() || !std::ranges::binary_search(plan.properties, c.properties)) continue;
     const int a = model.parts[c.part_a].body, b = model.parts[c.part_b].body;
     const Vector<Dim>& arm_a = c.geometry.point;
@@ -77,8 +97,9 @@ Work work_of(const Model<Dim>& model, const State<Dim>& state, const WatchPlan& 
     const Vector<Dim> slip = moved.by[b] + cross(moved.turned[b], arm_b) - moved.by[a] - cross(moved.turned[a], arm_a);
     const Vector<Dim>& normal = c.geometry.normal;
     const double pressed = std::max(0.0, c.force.dot(normal));
-    const double friction = plan.searched == Searched::factor ? std::tan(state.schedule.friction[c.properties]) : 1;
-    work.resistance += pressed * friction * (slip - slip.dot(normal) * normal).norm();
+    const double strength =
+        factor ? pressed * std::tan(state.schedule.friction[c.properties]) + cohesion_of(model, state, place) : pressed;
+    work.resistance += strength * (slip - slip.dot(normal) * normal).norm();
   }
   return work;
 }

@@ -5,10 +5,10 @@
 //   P = Σ R·Δq,   D = Σ N |Δs|  (N: normal force of a contact, Δs: its slip within Δq; joints that are reduced)
 //
 // the same motion would be in balance at tan φ_req = tan φ + P/D; in a search for a factor F, at
-// 1/F_req = (1 + P/D)/F with D = Σ N tan φ |Δs|. In equilibrium P = 0. As a trial that fails moves on, the elastic
-// displacement of its joints and bolts is spent, φ_req falls ever more slowly and at last in a straight line, by which
-// loads change with the motion. The trial has failed then, and the line taken to no displacement is the critical
-// strength (core/NOTES.md has measurements).
+// 1/F_req = (1 + P/D)/F with D = Σ (N tan φ + c A) |Δs|, with the cohesion c of bonds over areas A. In equilibrium P =
+// 0. As a trial that fails moves on, the elastic displacement of its joints and bolts is spent, φ_req falls ever more
+// slowly and at last in a straight line, by which loads change with the motion. The trial has failed then, and the line
+// taken to no displacement is the critical strength (core/NOTES.md has measurements).
 #pragma once
 
 #include <string>

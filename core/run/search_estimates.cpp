@@ -58,11 +58,11 @@ Law law_of(std::span<const StableTrial> trials) {
   return {x[0], x[1], x[2]};
 }
 
-// those whose faces have turned, by displacement; none of two that are hardly apart
-std::vector<StableTrial> turned_trials(const std::vector<StableTrial>& trials) {
+// those that have moved by more than this part of the failure displacement, by displacement; none of two that are
+// hardly apart
+std::vector<StableTrial> turned_trials(const std::vector<StableTrial>& trials, double beyond = least_turned) {
   std::vector<StableTrial> turned;
-  std::ranges::copy_if(trials, std::back_inserter(turned),
-                       [](const StableTrial& t) { return t.of_failure > least_turned; });
+  std::ranges::copy_if(trials, std::back_inserter(turned), [&](const StableTrial& t) { return t.of_failure > beyond; });
   std::ranges::sort(turned, {}, &StableTrial::displacement);
   turned.erase(std::unique(turned.begin(), turned.end(),
                            [](const StableTrial& a, const StableTrial& b) {
@@ -189,8 +189,9 @@ CriticalLevel critical_level(const Levels& levels, const Bracket& bracket, const
   }
   const double level = levels.level_of(fit->critical), from_bracket = std::abs(level - middle.level);
   const double change = std::abs(levels.level_of(fit->critical + fit->change) - level);
-  return {level, fit->of_three ? from_bracket + turning : 2 * change + error_of_line * from_bracket,
-          CriticalBy::stable_fit, from_bracket};
+  // no fit tells the strength more finely than its trials
+  const double of_fit = fit->of_three ? from_bracket + turning : 2 * change + error_of_line * from_bracket;
+  return {level, std::hypot(of_fit, middle.error_bar), CriticalBy::stable_fit, from_bracket};
 }
 
 std::optional<StableFit> fit_stable(const std::vector<StableTrial>& trials) {
@@ -206,12 +207,18 @@ std::optional<StableFit> fit_stable(const std::vector<StableTrial>& trials) {
 }
 
 double error_of_turning(const std::vector<StableTrial>& trials) {
-  const std::vector<StableTrial> turned = turned_trials(trials);
+  std::vector<StableTrial> turned = turned_trials(trials);
+  // bodies that fall after they have hardly moved: the trial before the last tells what their faces still lacked
+  const bool sudden = turned.size() < 2;
+  if (sudden) {
+    turned = turned_trials(trials, 0);
+    if (turned.size() > 2) turned.erase(turned.begin(), turned.end() - 2);
+  }
   if (turned.size() < 2) return 0;
   const StableTrial& last = turned.back();
   // a u at the last displacement, by the trial before: those of far less displacement contain b u^(-1/2)
   const StableTrial& before = turned[turned.size() - 2];
-  double most = (before.level - last.level) / (1 - before.displacement / last.displacement);
+  double most = sudden ? 0 : (before.level - last.level) / (1 - before.displacement / last.displacement);
   // 3/2 b u^(-1/2) at the last displacement, by one other trial
   const auto elastic = [&](const StableTrial& t) {
     const double x = std::sqrt(last.displacement / t.displacement);

@@ -64,8 +64,8 @@ std::optional<double> level_for_fit(const Levels& levels, const Bracket& bracket
 // The critical level: the strength required at no displacement; of bodies that turn, the fit through the stable trials;
 // else the middle of the bracket. Error bar of the first: a tenth of what the extrapolation changed, and the difference
 // of the last two estimates (half the bracket if there is one only); of the fit: twice its change by one trial more,
-// and a tenth of its distance from the bracket, or of three trials all of that and the error of turning; of the
-// bracket: half of it, and the error of turning.
+// and a tenth of its distance from the bracket, or of three trials all of that and the error of turning, and by squares
+// half the bracket; of the bracket: half of it, and the error of turning.
 CriticalLevel critical_level(const Levels& levels, const Bracket& bracket, const SearchEstimates& known);
 
 // The strength at no displacement of bodies that turn.
@@ -85,7 +85,8 @@ std::optional<StableFit> fit_stable(const std::vector<StableTrial>& trials);
 // By how much the strength at which bodies that turn fail on elastic faces may differ from that of rigid ones at no
 // displacement; 0 of fewer than two trials. If the arm of the loads grows with the motion, a < 0, the last stable trial
 // is at the least strength of the law, at which b u^(-1/2) = -2 a u, and another trial tells b; else the bodies have
-// moved until a u is what counts, and another trial tells a. The larger of the two, and a third of it.
+// moved until a u is what counts, and another trial tells a. The larger of the two, and a third of it. If one trial at
+// most has turned on its faces, b by the trial before it.
 double error_of_turning(const std::vector<StableTrial>& trials);
 
 }  // namespace voussoir

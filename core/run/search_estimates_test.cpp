@@ -76,6 +76,13 @@ TEST(SearchEstimates, BodiesThatToppleFailAboveTheStrengthOfRigidOnes) {
   EXPECT_NEAR(error_of_turning(trials), 4.0 / 3 * 3 * c * least, 1e-9);
   EXPECT_EQ(error_of_turning({trials.front()}), 0) << "one trial";
 
+  // the last has moved far enough for the fit, those before not
+  std::vector<StableTrial> sudden = turning(s0, b, -c, {0.002 * least, 0.04 * least, least});
+  for (StableTrial& t : sudden)
+    t.of_failure = 0.01 * t.displacement / least;
+  ASSERT_LT(sudden[1].of_failure, 0.003);
+  EXPECT_NEAR(error_of_turning(sudden), 4.0 / 3 * 3 * c * least, 1e-9);
+
   const Levels levels = friction_levels();
   SearchEstimates known;
   known.stable = trials;
