@@ -40,8 +40,9 @@ struct BlocksArguments {
 };
 
 fs::path folder_of(const BlocksArguments& arguments) {
-  return arguments.out.empty() ? fs::path("results") / (arguments.scene.scene.stem().string() + "_blocks")
-                               : arguments.out;
+  if (!arguments.out.empty()) return arguments.out;
+  return fs::path("results") /
+         (arguments.scene.scene.stem().string() + (arguments.kinematics ? "_kinematics" : "_blocks"));
 }
 
 // numbers separated by a slash
@@ -234,7 +235,7 @@ void add_blocks(CLI::App& program, Action& action) {
                     "successive failure of all blocks that move without friction, too");
   command->add_flag("--kinematics", arguments.kinematics,
                     "instead: the zones of plane sliding, wedge sliding and toppling of a rock face, with counts, and "
-                    "block theory on every pair of joints (kinematic_pairs.csv)");
+                    "block theory on every pair of joints (kinematic_pairs.csv in results/<scene>_kinematics)");
   command->add_option("--face", arguments.face, "DIP/DIRECTION (deg) of that face")->check(plain_text());
   command
       ->add_option("--friction", arguments.friction,

@@ -8,13 +8,13 @@
 namespace voussoir {
 namespace {
 
-const char* word_of(PairMotion motion) {
+const char* word_of(WedgeMotion motion) {
   switch (motion) {
-    case PairMotion::on_both:
+    case WedgeMotion::on_both:
       return "slides on both";
-    case PairMotion::on_one:
+    case WedgeMotion::on_one:
       return "slides on one";
-    case PairMotion::buried:
+    case WedgeMotion::buried:
       break;
   }
   return "buried";
@@ -72,7 +72,7 @@ std::string kinematics_summary(const KinematicRequest& request, const KinematicC
   text += primary.row("line steeper than the friction (primary zone)");
   text += others.row("line flatter");
   text += fmt::format(
-      "the overlay is safe on neither side: {} pairs outside the primary zone have F < 1, {} inside do not\n",
+      "the overlay is safe on neither side: pairs with F < 1 outside of the primary zone: {}; without inside: {}\n",
       others.below_one, primary.at_least_one + primary.buried);
   return text;
 }

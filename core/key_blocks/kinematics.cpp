@@ -114,7 +114,7 @@ std::vector<PairVerdict> judge_pairs(const KinematicRequest& request, const std:
         double normal_force = 0;
         for (int f = 0; f < moved.loaded; ++f)
           normal_force += moved.forces[f];
-        pair.motion = moved.loaded == 2 ? PairMotion::on_both : PairMotion::on_one;
+        pair.motion = moved.loaded == 2 ? WedgeMotion::on_both : WedgeMotion::on_one;
         pair.direction = moved.motion.normalized();
         pair.factor = normal_force * std::tan(request.friction) / moved.motion.norm();
       }

@@ -48,19 +48,19 @@ struct KinematicCounts {
 };
 
 // what block theory says of the block above both planes, under weight and friction alone
-enum class PairMotion {
+enum class WedgeMotion {
   buried,  // the line leaves the face, but the block's motion does not: it lies under one of the planes
   on_both,
   on_one
 };
 
 struct PairVerdict {
-  int first = 0, second = 0;                // joints
-  Vector<3> line = Vector<3>::Zero();       // unit, downward; it leaves the face
-  bool primary = false;                     // its zone: it plunges more than φ
-  PairMotion motion = PairMotion::buried;   // of the block
-  Vector<3> direction = Vector<3>::Zero();  // unit, of its motion
-  std::optional<double> factor{};           // none: buried
+  int first = 0, second = 0;                 // joints
+  Vector<3> line = Vector<3>::Zero();        // unit, downward; it leaves the face
+  bool primary = false;                      // its zone: it plunges more than φ
+  WedgeMotion motion = WedgeMotion::buried;  // of the block
+  Vector<3> direction = Vector<3>::Zero();   // unit, of its motion
+  std::optional<double> factor{};            // none: buried
 };
 
 KinematicCounts count_kinematic(const KinematicRequest& request, const std::vector<KinematicJoint>& joints);

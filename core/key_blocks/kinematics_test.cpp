@@ -76,7 +76,7 @@ TEST(Kinematics, BlockTheoryFindsWhatTheOverlayMisses) {
     PairTable found{};
     for (const PairVerdict& pair : judge_pairs(request, joints)) {
       const int place =
-          pair.motion == PairMotion::buried ? 4 : 2 * (pair.motion == PairMotion::on_one) + (*pair.factor >= 1);
+          pair.motion == WedgeMotion::buried ? 4 : 2 * (pair.motion == WedgeMotion::on_one) + (*pair.factor >= 1);
       ++found[!pair.primary][place];
     }
     EXPECT_EQ(found, expected);
@@ -88,7 +88,7 @@ TEST(Kinematics, APairHasTheFactorOfItsWedge) {
                                            {upward_normal_3d(60 * degree, 230 * degree)}};
   const auto pairs = judge_pairs(request_of(75, 180, 30), joints);
   ASSERT_EQ(pairs.size(), 1u);
-  EXPECT_EQ(pairs[0].motion, PairMotion::on_both);
+  EXPECT_EQ(pairs[0].motion, WedgeMotion::on_both);
   // Hoek & Bray: F = sin β / sin(ξ/2) · tan φ / tan ψ, by the two normal forces in the plane normal to the line
   const Vector<3>&a = joints[0].normal, &b = joints[1].normal, &l = pairs[0].line;
   const Vector<3> across = Vector<3>(0, 0, -1) - l * -l.z();
