@@ -136,7 +136,7 @@ TEST(Matrix, ReportsATestOfAnEquationThatIsLeftOut) {
 TEST(Matrix, ReportsAMissingTestOrCase) {
   const Copy copy;
   const auto found = problems(read_matrix(copy.root));
-  EXPECT_TRUE(holds(found, "there is no test Faults.ThirtyKillsLoseNothing"));
+  EXPECT_TRUE(holds(found, "there is no test Faults.FifteenKillsLoseNothing"));
   EXPECT_TRUE(holds(found, "thesis_cases.toml: 4.8, Fig. 4.11: CTest knows no case.wedge"));
   EXPECT_TRUE(holds(found, "is found neither in README.md nor in a page of docs"));
 }
@@ -214,7 +214,7 @@ TEST(MatrixPage, SetsFormulasAndLinksToChecks) {
                            "<a href=\"#beam\">beam: 1 check</a>", "not verified", "left out", "Instead"})
     EXPECT_NE(page.find(part), std::string::npos) << part;
   EXPECT_NE(thesis_page(matrix).find("<a href=\"#hingedbeam\">hingedbeam</a>"), std::string::npos);
-  EXPECT_NE(promises_page(matrix).find("Faults.<wbr>Thirty<wbr>Kills<wbr>Lose<wbr>Nothing"), std::string::npos);
+  EXPECT_NE(promises_page(matrix).find("Faults.<wbr>Fifteen<wbr>Kills<wbr>Lose<wbr>Nothing"), std::string::npos);
   EXPECT_NE(grounds_page(matrix, verdicts).find("Newmark (1965)"), std::string::npos);
 }
 

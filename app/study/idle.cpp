@@ -130,11 +130,11 @@ Node part_of_limit(const Scene& scene, const std::vector<std::string>& options) 
   return tree;
 }
 
-// block theory uses no time and no stiffness, but what stages change
+// Block theory takes no steps; its scene need not have a stage.
 Node part_of_blocks(const Scene& scene) {
-  Node tree = shared_part(scene, static_cast<int>(scene.stages.size()));
-  for (const char* key :
-       {"accuracy", "statics", "static_increments", "damping", "time", "equilibrium", "initial_velocity", "contact"})
+  Node tree = *scene.tree;
+  for (const char* key : {"title", "base", "output", "monitors", "accuracy", "statics", "static_increments", "damping",
+                          "time", "equilibrium", "initial_velocity", "contact"})
     forget(tree, key);
   forget_unused_properties(scene, tree);
   return tree;

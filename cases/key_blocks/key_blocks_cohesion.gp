@@ -4,7 +4,7 @@ set ylabel 'factor of safety'
 set logscale x
 set xrange [1e-4:2]
 set yrange [1:1.85]
-set key bottom left
+set key maxrows 4
 plot 'cohesion_form.csv' using 'ratio':'plastic' @theory title 'limit equilibrium, all cohesion', \
      '' using 'ratio':'brittle' @theory dt 2 title 'the first slip takes the cohesion', \
      'plastic.csv' using 'ratio':'factor' @computed title 'distinct elements, plastic', \
