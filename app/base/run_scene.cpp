@@ -1,7 +1,7 @@
 #include "app/base/run_scene.hpp"
 
-#include "core/base/bad_input.hpp"
 #include "app/base/message.hpp"
+#include "core/base/bad_input.hpp"
 #include "core/base/version.hpp"
 #include "core/scene/effective_scene.hpp"
 #include "core/scene/judge_values.hpp"

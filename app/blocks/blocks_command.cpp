@@ -13,6 +13,7 @@
 #include "app/blocks/kinematics_text.hpp"
 #include "app/run_folder/claimed_folder.hpp"
 #include "app/run_folder/origin.hpp"
+#include "app/run_folder/results_hash.hpp"
 #include "core/base/bad_input.hpp"
 #include "core/output/atomic_file.hpp"
 #include "core/output/block_verdicts.hpp"
@@ -158,7 +159,7 @@ ExitCode judge_scene(const BlocksArguments& arguments, const SurveyRequest& requ
   write_file(folder / "blocks_verdicts.json", blocks_json(survey, scene.title, scene.hash, {this_origin()}));
   if constexpr (Dim == 3) write_file(folder / "key_blocks.geojson", key_blocks_geojson(survey));
   // results.json comes last: if it exists, everything is complete
-  write_file(folder / "results.json", blocks_results_json(survey, scene.title, scene.hash, {this_origin()}));
+  write_results(folder, blocks_results_json(survey, scene.title, scene.hash, {this_origin()}));
   fmt::print("{}results: {}\n", blocks_summary(survey, scene.title, arguments.top), folder.string());
   ExitCode code = ExitCode::done;
   for (const auto* list : {&survey.rows, &survey.clusters})

@@ -11,7 +11,6 @@
 #include <new>
 #include <system_error>
 
-#include "core/base/bad_input.hpp"
 #include "app/base/exit_codes.hpp"
 #include "app/base/interruption.hpp"
 #include "app/base/message.hpp"
@@ -29,6 +28,7 @@
 #include "app/slice/slice_command.hpp"
 #include "app/study/study_command.hpp"
 #include "app/view/view_command.hpp"
+#include "core/base/bad_input.hpp"
 #include "core/base/version.hpp"
 #include "core/output/origin.hpp"
 #include "core/output/output_error.hpp"

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include "app/base/arguments.hpp"
-#include "core/base/bad_input.hpp"
 #include "app/base/run_scene.hpp"
 #include "app/export/formats.hpp"
 #include "app/run_folder/claimed_folder.hpp"
+#include "core/base/bad_input.hpp"
 #include "core/output/atomic_file.hpp"
 #include "core/scene/scene.hpp"
 

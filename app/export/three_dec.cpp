@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <map>
 
-#include "core/base/bad_input.hpp"
 #include "app/base/dip_angles.hpp"
 #include "app/export/formats.hpp"
+#include "core/base/bad_input.hpp"
 
 namespace voussoir {
 namespace {

@@ -5,8 +5,8 @@
 #include <limits>
 #include <map>
 
-#include "core/base/bad_input.hpp"
 #include "app/export/formats.hpp"
+#include "core/base/bad_input.hpp"
 #include "text/angle.hpp"
 
 namespace voussoir {

@@ -9,12 +9,12 @@
 #include <map>
 
 #include "app/base/arguments.hpp"
-#include "core/base/bad_input.hpp"
 #include "app/base/message.hpp"
 #include "app/base/orientation.hpp"
 #include "app/base/svg_figure.hpp"
 #include "app/import/formats.hpp"
 #include "app/run_folder/claimed_folder.hpp"
+#include "core/base/bad_input.hpp"
 #include "core/output/atomic_file.hpp"
 #include "core/scene/scene_text.hpp"
 #include "text/plain_text.hpp"

@@ -6,10 +6,10 @@
 #include <cstdlib>
 
 #include "app/base/arguments.hpp"
-#include "core/base/bad_input.hpp"
 #include "app/base/message.hpp"
 #include "app/base/shown_unit.hpp"
 #include "app/run_folder/claimed_folder.hpp"
+#include "core/base/bad_input.hpp"
 #include "core/joint_laws/joint_path.hpp"
 #include "core/output/atomic_file.hpp"
 #include "core/scene/scene.hpp"

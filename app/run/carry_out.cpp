@@ -5,17 +5,17 @@
 #include <algorithm>
 #include <optional>
 
-#include "core/base/bad_input.hpp"
 #include "app/base/interruption.hpp"
 #include "app/base/message.hpp"
 #include "app/base/progress_line.hpp"
 #include "app/run/accuracy_on_order.hpp"
-#include "core/run/block_theory.hpp"
 #include "app/run/error_budget.hpp"
 #include "app/run/run_files.hpp"
 #include "app/run/run_summary.hpp"
 #include "app/run_folder/results_hash.hpp"
+#include "core/base/bad_input.hpp"
 #include "core/output/results_json.hpp"
+#include "core/run/block_theory.hpp"
 #include "text/plain_text.hpp"
 
 namespace voussoir {

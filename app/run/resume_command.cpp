@@ -6,10 +6,10 @@
 #include <system_error>
 
 #include "app/base/arguments.hpp"
-#include "core/base/bad_input.hpp"
 #include "app/run/carry_out.hpp"
 #include "app/run_folder/origin.hpp"
 #include "app/run_folder/run_folder.hpp"
+#include "core/base/bad_input.hpp"
 
 namespace voussoir {
 namespace {

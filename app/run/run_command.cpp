@@ -5,13 +5,13 @@
 #include <optional>
 
 #include "app/base/arguments.hpp"
-#include "core/base/bad_input.hpp"
 #include "app/base/message.hpp"
 #include "app/check/assess.hpp"
 #include "app/run/carry_out.hpp"
 #include "app/run/error_budget.hpp"
 #include "app/run_folder/begin_run.hpp"
 #include "app/run_folder/origin.hpp"
+#include "core/base/bad_input.hpp"
 #include "core/output/atomic_file.hpp"
 #include "core/scene/toml_text.hpp"
 

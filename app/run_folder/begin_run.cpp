@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "core/base/bad_input.hpp"
 #include "app/run_folder/claimed_folder.hpp"
 #include "app/run_folder/run_folder.hpp"
+#include "core/base/bad_input.hpp"
 #include "core/run/begin.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/shared_stages.hpp"

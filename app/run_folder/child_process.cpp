@@ -9,8 +9,8 @@
 #include <csignal>
 #include <cstdlib>
 
-#include "core/base/bad_input.hpp"
 #include "app/base/digest.hpp"
+#include "core/base/bad_input.hpp"
 #include "core/output/atomic_file.hpp"
 #include "text/read_file.hpp"
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "core/base/bad_input.hpp"
 #include "app/run_folder/child_process.hpp"
+#include "core/base/bad_input.hpp"
 
 namespace voussoir {
 namespace {

@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "core/base/bad_input.hpp"
 #include "app/run_folder/claimed_folder.hpp"
+#include "core/base/bad_input.hpp"
 #include "core/output/results_json.hpp"
 #include "core/run/checkpoint.hpp"
 

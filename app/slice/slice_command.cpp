@@ -7,11 +7,11 @@
 #include <limits>
 
 #include "app/base/arguments.hpp"
-#include "core/base/bad_input.hpp"
 #include "app/base/run_scene.hpp"
 #include "app/run_folder/claimed_folder.hpp"
 #include "app/slice/slice_report.hpp"
 #include "app/view/page.hpp"
+#include "core/base/bad_input.hpp"
 #include "core/exchange/mesh.hpp"
 #include "core/exchange/tables.hpp"
 #include "core/output/atomic_file.hpp"

@@ -7,8 +7,8 @@
 #include <limits>
 #include <new>
 
-#include "core/base/bad_input.hpp"
 #include "app/view/asset.hpp"
+#include "core/base/bad_input.hpp"
 #include "core/output/view.hpp"
 #include "text/read_file.hpp"
 

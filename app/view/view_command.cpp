@@ -5,10 +5,10 @@
 #include <limits>
 
 #include "app/base/arguments.hpp"
-#include "core/base/bad_input.hpp"
 #include "app/run_folder/claimed_folder.hpp"
 #include "app/run_folder/run_folder.hpp"
 #include "app/view/page.hpp"
+#include "core/base/bad_input.hpp"
 #include "core/output/atomic_file.hpp"
 #include "core/output/view.hpp"
 #include "text/read_file.hpp"

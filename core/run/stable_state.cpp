@@ -29,9 +29,8 @@ template <int Dim>
 std::optional<WholeBonds> whole_bonds_of(const Prepared<Dim>& scene, const Model<Dim>& model, const State<Dim>& state,
                                          const BondedContacts& bonded) {
   const Bonds now = bonds_of(state.contacts);
-  WholeBonds bonds{.whole = now.whole,
-                   .slipped = now.slipped,
-                   .made = state.ledger.bonds.made - state.ledger.bonds.removed};
+  WholeBonds bonds{
+      .whole = now.whole, .slipped = now.slipped, .made = state.ledger.bonds.made - state.ledger.bonds.removed};
   if (bonds.made == 0) return std::nullopt;
   std::map<std::string, JointBonds> by_name;
   for (const JointBonds& joint : bonds_by_joint(model, state, bonded)) {
