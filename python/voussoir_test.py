@@ -316,10 +316,10 @@ class Blocks(unittest.TestCase):
             subprocess.run([PROGRAM, "blocks", slope, "--required", "1.3", "--seismic", "0.1/180", "--out", out], check=True,
                            stdout=subprocess.DEVNULL)
             expected = json.loads((Path(out) / "blocks_verdicts.json").read_text())
-            rows = list(csv.DictReader((Path(out) / "blocks_verdicts.csv").open()))
+            rows = list(csv.DictReader((Path(out) / "blocks_verdicts.csv").read_text().splitlines()))
         found = voussoir.blocks(voussoir.Scene(slope), required=1.3, seismic=(0.1, 180))
         for content in (expected, found.verdicts):
-            content["program"].pop("origins")
+            content.pop("program")
         self.assertEqual(found.verdicts, expected)
         factors = [float(row["factor"] or "nan") for row in rows]
         np.testing.assert_array_equal(found.table["factor"], factors)
