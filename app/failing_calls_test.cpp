@@ -52,8 +52,8 @@ class FailingCalls : public FaultTest {
     expect_equal(contents_of(at("out")), complete_, what);
   }
 
-  // The first call fails, then the one `apart` after it, … until none is left to fail; returns how many there were, or
-  // up to `apart` more.
+  // The first call fails, then the one `apart` after it, … until none is left to fail; returns the last one that
+  // failed: there were as many at least.
   int sweep(const std::string& call, int error, int code, int apart) const {
     for (int k = 1;; k += apart) {
       const std::string what = fmt::format("{} {} fails with errno {}: ", call, k, error);
@@ -62,7 +62,7 @@ class FailingCalls : public FaultTest {
       if (!failed()) {
         EXPECT_EQ(ended.code, 0) << ended.err;
         expect_equal(contents_of(at("out")), complete_, what);
-        return k - 1;
+        return k - apart;
       }
       expect_one_line(ended, code, "cannot write '" + at("out"), what);
       // a temporary file that cannot be removed is all that may be left

@@ -94,11 +94,12 @@ std::optional<std::pair<double, double>> bolt_of(const BlocksArguments& argument
 }
 
 // Their angles are differences between directions, so a friction for each joint has no meaning.
-double one_friction(const Model<3>& model, const std::vector<int>& joints) {
+double one_friction(const Model<3>& model) {
   double least = 90 * degree, most = 0;
-  for (const int j : joints) {
-    least = std::min(least, model.properties[model.joints[j].properties].friction);
-    most = std::max(most, model.properties[model.joints[j].properties].friction);
+  for (const Joint<3>& joint : model.joints) {
+    if (joint.holds) continue;
+    least = std::min(least, model.properties[joint.properties].friction);
+    most = std::max(most, model.properties[joint.properties].friction);
   }
   if (least < most)
     throw BadInput(
@@ -119,13 +120,11 @@ ExitCode analyse_directions(const BlocksArguments& arguments, const SurveyReques
     throw BadInput(fmt::format("--face {}: write {}; a face that overhangs dips more than 90", arguments.face, form));
   if (scene.dimension == 2) throw BadInput("--kinematics compares directions in space; the scene has dimension = 2");
   const auto& prepared = std::get<Prepared<3>>(scene.prepared);
-  std::vector<int> chosen;
   std::vector<KinematicJoint> joints;
   std::vector<std::string> names;
   for (std::size_t j = 0; j < prepared.model.joints.size(); ++j) {
     const Joint<3>& joint = prepared.model.joints[j];
     if (joint.holds) continue;
-    chosen.push_back(static_cast<int>(j));
     joints.push_back({joint.plane.normal, prepared.joint_sets.set_of(static_cast<int>(j))});
     names.push_back(joint.name);
   }
@@ -135,7 +134,7 @@ ExitCode analyse_directions(const BlocksArguments& arguments, const SurveyReques
   const KinematicRequest request{.face = {face[0] * degree, face[1] * degree},
                                  .friction = arguments.friction > 0
                                                  ? arguments.friction * degree
-                                                 : one_friction(assembly_of_request(prepared, survey).model, chosen)};
+                                                 : one_friction(assembly_of_request(prepared, survey).model)};
   const std::vector<PairVerdict> pairs = judge_pairs(request, joints);
   const fs::path folder = folder_of(arguments);
   const ClaimedFolder claim(folder, Outputs{"blocks", {"kinematic_pairs.csv"}}, scene.files, arguments.overwrite);
@@ -154,12 +153,13 @@ ExitCode judge_scene(const BlocksArguments& arguments, const SurveyRequest& requ
       "blocks", {"blocks_verdicts.json", "blocks_verdicts.csv", "blocks.vtp", "key_blocks.geojson", "results.json"}};
   const ClaimedFolder claim(folder, outputs, scene.files, arguments.overwrite);
   tell_remarks(*scene.stated);
+  const std::vector<Origin> origins{this_origin()};
   write_file(folder / "blocks_verdicts.csv", blocks_csv(survey));
   write_file(folder / "blocks.vtp", vtp(block_verdict_faces(survey)));
-  write_file(folder / "blocks_verdicts.json", blocks_json(survey, scene.title, scene.hash, {this_origin()}));
+  write_file(folder / "blocks_verdicts.json", blocks_json(survey, scene.title, scene.hash, origins));
   if constexpr (Dim == 3) write_file(folder / "key_blocks.geojson", key_blocks_geojson(survey));
   // results.json comes last: if it exists, everything is complete
-  write_results(folder, blocks_results_json(survey, scene.title, scene.hash, {this_origin()}));
+  write_results(folder, blocks_results_json(survey, scene.title, scene.hash, origins));
   fmt::print("{}results: {}\n", blocks_summary(survey, scene.title, arguments.top), folder.string());
   ExitCode code = ExitCode::done;
   for (const auto* list : {&survey.rows, &survey.clusters})
@@ -199,8 +199,7 @@ void add_blocks(CLI::App& program, Action& action) {
   add_scene(command, arguments.scene);
   add_out(command, arguments.out,
           "folder of blocks_verdicts.csv, blocks_verdicts.json, blocks.vtp, results.json and in space "
-          "key_blocks.geojson (default: "
-          "results/<scene>_blocks)");
+          "key_blocks.geojson (default: results/<scene>_blocks)");
   command->add_option("--required", arguments.required, "factor of safety for which forces are found (default 1.5)")
       ->check(finite(least_positive, 1000));
   command

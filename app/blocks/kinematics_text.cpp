@@ -38,15 +38,13 @@ struct PairCounts {
 std::string kinematics_summary(const KinematicRequest& request, const KinematicCounts& counts,
                                const std::vector<PairVerdict>& pairs, const std::string& title) {
   const auto& [face, friction, limits] = request;
-  const auto within = [](const char* mode, double limit) {
-    return fmt::format("{}, within {:g} deg of the face's direction", mode, to_degrees(limit));
-  };
   std::string text = fmt::format(
       "{} - kinematic analysis of {} joints: face {:g}/{:03g}, friction {:g} deg\n"
       "a screen of directions: neither the joints' places and sizes, nor water, cohesion and supports are counted\n",
       title, counts.joints, to_degrees(face.dip), to_degrees(face.direction), to_degrees(friction));
   text += row("plane sliding, any direction", counts.plane_sliding, counts.joints);
-  text += row(within("plane sliding", limits.plane_sliding), counts.plane_sliding_within, counts.joints);
+  text += row(fmt::format("plane sliding, within {:g} deg of the face's direction", to_degrees(limits.plane_sliding)),
+              counts.plane_sliding_within, counts.joints);
   text += row("wedge sliding, primary zone", counts.wedge_primary, counts.pairs);
   text +=
       row("wedge sliding, primary zone, joints of different sets", counts.wedge_primary_of_sets, counts.pairs_of_sets);

@@ -29,6 +29,18 @@ class Study : public Program {
   std::vector<std::string> rows(const std::string& out = "out") const {
     return lines_of(read(folder_ / out / "study.csv"));
   }
+  // of the settings that ended well
+  std::vector<double> results() const {
+    std::vector<double> found;
+    for (const std::string& row : rows()) {
+      std::istringstream cells(row);
+      std::string cell;
+      for (int k = 0; k < 6; ++k)
+        std::getline(cells, cell, ',');
+      if (row.find(",ok,") != std::string::npos) found.push_back(std::stod(cell));
+    }
+    return found;
+  }
   // all but the seconds, which come last
   std::string without_seconds(const std::string& out) const {
     std::string text;
@@ -364,25 +376,14 @@ joint_properties = [{ name = "rock", normal_stiffness = 1e9, shear_stiffness = 1
 fix = [{ below = ["A"] }]
 stage = [{ name = "settle", kind = "settle" }]
 )");
-  const auto numbers = [&] {
-    std::vector<double> found;
-    for (const std::string& row : rows()) {
-      std::istringstream cells(row);
-      std::string cell;
-      for (int k = 0; k < 6; ++k)
-        std::getline(cells, cell, ',');
-      if (row.find(",ok,") != std::string::npos) found.push_back(std::stod(cell));
-    }
-    return found;
-  };
   const double dips[] = {30, 10, 20};  // the scene's own, then the sweep's
   const std::string sweep = "[[sweep]]\nname = \"dip\"\nkey = \"joints.A.dip\"\nvalues = [10, 20]\n";
   write("study.toml", "scene = \"plane.toml\"\nquantity = \"critical_friction\"\nlimit = {}\n" + sweep);
   const Ended first = run("study study.toml --out out");
   ASSERT_EQ(first.code, 0) << first.err << first.out;
-  ASSERT_EQ(numbers().size(), 3u);
+  ASSERT_EQ(results().size(), 3u);
   for (int k = 0; k < 3; ++k)
-    EXPECT_NEAR(numbers()[k], dips[k], 1e-5);
+    EXPECT_NEAR(results()[k], dips[k], 1e-5);
   EXPECT_NE(run("study study.toml --out out").out.find("3 of them kept"), std::string::npos);
 
   // another analysis is another run, also for a single sweep
@@ -392,13 +393,13 @@ stage = [{ name = "settle", kind = "settle" }]
             "true, joint = [\"rock\"] }\n");
   const Ended second = run("study study.toml --out out");
   ASSERT_EQ(second.code, 0) << second.err << second.out;
-  ASSERT_EQ(numbers().size(), 4u);
+  ASSERT_EQ(results().size(), 4u);
   const double deg = std::numbers::pi / 180, friction = std::tan(40 * deg);
   for (int k = 0; k < 3; ++k)
-    EXPECT_NEAR(numbers()[k], friction / std::tan(dips[k] * deg), 1e-6);
+    EXPECT_NEAR(results()[k], friction / std::tan(dips[k] * deg), 1e-6);
   // 4 m wide and, in the mean, 4 m high
   const double weight = 2000 * 10 * 4 * 4, length = 4 / std::cos(20 * deg);
-  EXPECT_NEAR(numbers()[3], numbers()[2] + 1e3 * length / (weight * std::sin(20 * deg)), 1e-6);
+  EXPECT_NEAR(results()[3], results()[2] + 1e3 * length / (weight * std::sin(20 * deg)), 1e-6);
 
   const std::string begin = "scene = \"plane.toml\"\nquantity = \"critical_friction\"\n";
   for (const char* wrong :
@@ -424,17 +425,6 @@ fix = [{ below = ["A"] }]
 )");
   const std::string begin = "scene = \"plane.toml\"\nblocks = {}\n",
                     sweep = "[[sweep]]\nname = \"dip\"\nkey = \"joints.A.dip\"\nvalues = [20, 40]\n";
-  const auto results = [&] {
-    std::vector<double> found;
-    for (const std::string& row : rows()) {
-      std::istringstream cells(row);
-      std::string cell;
-      for (int k = 0; k < 6; ++k)
-        std::getline(cells, cell, ',');
-      if (row.find(",ok,") != std::string::npos) found.push_back(std::stod(cell));
-    }
-    return found;
-  };
   write("study.toml", begin + "quantity = \"least_factor\"\n" + sweep);
   const Ended first = run("study study.toml --out out");
   ASSERT_EQ(first.code, 0) << first.err << first.out;

@@ -17,7 +17,6 @@ enum class BarOf { defaults, budget };
 // the share of each scene's bar that its error takes; infinite: the search ended without a value
 struct Bars {
   std::vector<double> used;
-  std::vector<double> evaluations;
 
   int count() const { return static_cast<int>(used.size()); }
   // by bars of this factor times the printed ones
@@ -27,10 +26,7 @@ struct Bars {
   int without_value() const {
     return static_cast<int>(std::ranges::count_if(used, [](double u) { return std::isinf(u); }));
   }
-  void add(const Bars& other) {
-    used.insert(used.end(), other.used.begin(), other.used.end());
-    evaluations.insert(evaluations.end(), other.evaluations.begin(), other.evaluations.end());
-  }
+  void add(const Bars& other) { used.insert(used.end(), other.used.begin(), other.used.end()); }
 };
 
 // of a search that found a value
@@ -91,7 +87,6 @@ inline Bars run_bars(const SceneKind& kind, unsigned seed, int count, BarOf of) 
         results_with({name, file, {}, scene.truth}, of == BarOf::budget ? "--budget" : "", case_name);
     bars.used.push_back(share_of_bar(
         results, scene, fmt::format("{} {}{} ({})", kind.name, n, of == BarOf::budget ? ", budget" : "", scene.label)));
-    bars.evaluations.push_back(results.at("counters").at("contact_evaluations"));
     std::fflush(stdout);
     std::filesystem::remove_all(verification::case_output(case_name) / "budget");
   }

@@ -9,10 +9,6 @@ namespace {
 
 constexpr double duration = 0.02;  // s, in which the stress is applied
 
-std::string numbers(const Vector<3>& v) {
-  return fmt::format("[{:.17g}, {:.17g}, {:.17g}]", v[0], v[1], v[2]);
-}
-
 }  // namespace
 
 DrawnScene draw_roof_wedge(Draws& draws) {
@@ -31,8 +27,8 @@ DrawnScene draw_roof_wedge(Draws& draws) {
         "[[joints]]\nname = \"{0}\"\ndip = {1:.17g}\ndip_direction = {2:.17g}\npoint = [0, 0, {3}]\n"
         "[[fix]]\nabove = [\"{0}\"]\n",
         joint, wedge.planes[i].dip / degree, wedge.planes[i].dip_direction / degree, wedge.height);
-    moves += fmt::format("[[stage.move]]\nname = \"{}\"\ninside = {}\nvelocity = {}\n", joint, numbers(rock[i].inside),
-                         numbers(rock[i].way / duration));
+    moves += fmt::format("[[stage.move]]\nname = \"{}\"\ninside = {}\nvelocity = {}\n", joint, list_of(rock[i].inside),
+                         list_of(rock[i].way / duration));
   }
   // the stiffness is part of the problem: it holds the stress
   text += joint_lines("rock", {wedge.normal_stiffness, wedge.shear_stiffness}, 60) + "measured = true\n" +

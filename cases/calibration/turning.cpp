@@ -16,9 +16,6 @@
 namespace voussoir::cases {
 namespace {
 
-constexpr double reference_bracket = 0.005;  // deg, of slumps
-constexpr double least_area = 0.1;           // of a slump's blocks, in that of the largest: the top cuts off no slivers
-
 int whole_between(Draws& draws, int low, int high) {
   return boost::random::uniform_int_distribution<int>(low, high)(draws);
 }
@@ -40,11 +37,10 @@ std::string blocks_of(const reference::SteppedColumns& slope) {
   return text;
 }
 
-// deg; nothing if the reference does not find it, as of a slope that needs no friction
-std::optional<double> collapse_of(const reference::LayeredSlope& slope) {
+// nothing if the reference does not find it, as of a slope that needs no friction
+std::optional<double> found_collapse(const reference::LayeredSlope& slope) {
   try {
-    const reference::SlopeCollapse collapse = reference::elastoplastic_collapse(slope, reference_bracket * degree);
-    return 0.5 * (collapse.stands + collapse.collapses) / degree;
+    return collapse_of(slope);
   } catch (const std::runtime_error&) {
     return {};
   }
@@ -94,9 +90,8 @@ DrawnScene draw_slope(Draws& draws) {
     slope.density = 2500;
     slope.gravity = gravity;
     slope.normal_stiffness = slope.shear_stiffness = power_between(draws, 5e9, 20e9);
-    const std::vector<double> areas = reference::slope_block_areas(slope);
-    if (std::ranges::min(areas) < least_area * std::ranges::max(areas)) continue;
-    const std::optional<double> truth = collapse_of(slope);
+    if (has_slivers(slope)) continue;
+    const std::optional<double> truth = found_collapse(slope);
     if (!truth || *truth < 4 || *truth > 50) continue;
     const std::string label = fmt::format(
         "dip {:.2f}, base {:.2f}, {} x {:.2f} m, spacing {:.2f} m, height {:.2f} m, {:.2g} Pa/m", slope.dip / degree,

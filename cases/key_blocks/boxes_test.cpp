@@ -6,7 +6,7 @@
 #include <boost/random/uniform_real_distribution.hpp>
 #include <cmath>
 
-#include "cases/key_blocks/judged_scene.hpp"
+#include "cases/judged_scene.hpp"
 #include "text/angle.hpp"
 
 namespace voussoir::cases::boxes_test {

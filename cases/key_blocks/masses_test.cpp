@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "cases/key_blocks/judged_scene.hpp"
+#include "cases/judged_scene.hpp"
 #include "reference/key_blocks/judged_mass.hpp"
 #include "text/angle.hpp"
 

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cases/key_blocks/judged_scene.hpp"
+#include "cases/judged_scene.hpp"
 #include "text/angle.hpp"
 
 namespace voussoir::cases::movers_test {

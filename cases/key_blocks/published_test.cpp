@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "cases/key_blocks/judged_scene.hpp"
+#include "cases/judged_scene.hpp"
 #include "core/testing/stated_block.hpp"
 #include "reference/key_blocks/slope_wedge.hpp"
 #include "reference/water/wet_slopes.hpp"

@@ -11,10 +11,6 @@ using verification::CaseReport;
 
 constexpr double duration = 0.02;  // s, of scene.toml's stage stress
 
-std::string numbers(const Vector<3>& v) {
-  return fmt::format("[{:.17g}, {:.17g}, {:.17g}]", v[0], v[1], v[2]);
-}
-
 std::vector<std::string> overrides(const reference::RoofWedge& wedge) {
   const double tall = 2 * wedge.height;
   std::vector<std::string> sets{fmt::format("domain.box={{ min = [{0}, {0}, 0], max = [{1}, {1}, {2}] }}",
@@ -28,8 +24,8 @@ std::vector<std::string> overrides(const reference::RoofWedge& wedge) {
     const char joint = static_cast<char>('A' + i);
     sets.push_back(fmt::format("joints.{}.dip={:.17g}", joint, wedge.planes[i].dip / degree));
     sets.push_back(fmt::format("joints.{}.dip_direction={:.17g}", joint, wedge.planes[i].dip_direction / degree));
-    sets.push_back(fmt::format("stage.stress.move.{}.inside={}", joint, numbers(moves[i].inside)));
-    sets.push_back(fmt::format("stage.stress.move.{}.velocity={}", joint, numbers(moves[i].way / duration)));
+    sets.push_back(fmt::format("stage.stress.move.{}.inside={}", joint, list_of(moves[i].inside)));
+    sets.push_back(fmt::format("stage.stress.move.{}.velocity={}", joint, list_of(moves[i].way / duration)));
   }
   return sets;
 }

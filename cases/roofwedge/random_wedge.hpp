@@ -1,12 +1,15 @@
 // Random roof wedges whose collapse the reference finds, and the motion of the rock that brings them under stress.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <array>
 #include <boost/random/mersenne_twister.hpp>
 #include <boost/random/uniform_real_distribution.hpp>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
+#include <string>
 
 #include "core/geometry/types.hpp"
 #include "reference/roofwedge/roofwedge.hpp"
@@ -29,6 +32,11 @@ struct RoofMove {
 
 inline Vector<3> roof_vector(const reference::Vector3& v) {
   return {v[0], v[1], v[2]};
+}
+
+// as a scene states it
+inline std::string list_of(const Vector<3>& v) {
+  return fmt::format("[{:.17g}, {:.17g}, {:.17g}]", v[0], v[1], v[2]);
 }
 
 // in the roof, each opposite to the plane of its number

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "cases/case_tools.hpp"
-#include "core/key_blocks/block_survey.hpp"
+#include "cases/judged_scene.hpp"
 #include "reference/roofwedge/roofwedge.hpp"
 #include "text/angle.hpp"
 
@@ -56,9 +56,7 @@ constexpr const char* why =
 // block theory has no stress: the wedge falls, whatever the friction
 TEST(RoofWedge, FallsWithoutStressByBlockTheory) {
   CaseReport report("roofwedge", {"factor without stress, block theory"});
-  const Survey<3> survey =
-      survey_blocks(std::get<Prepared<3>>(load_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / "scene.toml").prepared),
-                    SurveyRequest{});
+  const Survey<3> survey = judged("scene.toml");
   ASSERT_EQ(survey.rows.size(), 1u);
   EXPECT_EQ(survey.rows[0].kind(), BlockKind::falls);
   report.record({"factor without stress, block theory",

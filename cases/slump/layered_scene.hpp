@@ -3,16 +3,31 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "reference/slump/elastoplastic.hpp"
 #include "text/angle.hpp"
 
 namespace voussoir::cases {
+
+// whether the top of a slope cuts blocks off to slivers: below a tenth of the largest
+inline bool has_slivers(const reference::LayeredSlope& slope) {
+  const std::vector<double> areas = reference::slope_block_areas(slope);
+  return std::ranges::min(areas) < 0.1 * std::ranges::max(areas);
+}
+
+// deg: the friction at which blocks that do not dilate fall, to 0.0025; throws as the reference
+inline double collapse_of(const reference::LayeredSlope& slope) {
+  constexpr double bracket = 0.005;  // deg
+  const reference::SlopeCollapse collapse = reference::elastoplastic_collapse(slope, bracket * degree);
+  return 0.5 * (collapse.stands + collapse.collapses) / degree;
+}
 
 inline std::string plane_lines(const std::string& kind, const std::string& name, double dip, double direction, double x,
                                double y) {

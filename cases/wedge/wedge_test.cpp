@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "cases/case_tools.hpp"
+#include "cases/judged_scene.hpp"
 #include "cases/wedge/wedge_scene.hpp"
 #include "core/base/accuracy.hpp"
-#include "core/key_blocks/block_survey.hpp"
 #include "reference/wedge/wedge.hpp"
 #include "reference/wedge/wedge_path.hpp"
 #include "text/angle.hpp"
@@ -48,9 +48,7 @@ TEST(Wedge, BisectionFindsTheClosedForm) {
 // Block theory on the same scene: no stiffness, no time. Its friction is that of the stage that it is told of.
 TEST(Wedge, BlockTheoryFindsTheClosedForm) {
   CaseReport report("wedge", {"critical friction, block theory"});
-  const Survey<3> survey =
-      survey_blocks(std::get<Prepared<3>>(load_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / "scene.toml").prepared),
-                    SurveyRequest{});
+  const Survey<3> survey = judged("scene.toml");
   ASSERT_EQ(survey.rows.size(), 1u);
   const Verdict<3>& verdict = survey.rows[0].bolted.verdict;
   const double friction = survey.assembly.model.properties[0].friction;

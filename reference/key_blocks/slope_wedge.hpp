@@ -4,7 +4,8 @@
 
 #include "reference/wedge/wedge.hpp"
 
-// Wedges of rock slopes as books state them: by the planes that bound them. SI units, radians; x east, y north, z up.
+// Wedges of rock slopes as textbooks state them: by the planes that bound them. SI units, radians; x east, y north, z
+// up.
 namespace voussoir::reference {
 
 struct PlaneAngles {

@@ -1,4 +1,4 @@
-// The verdicts of block theory on a scene of this case, as `voussoir blocks` prints them.
+// The verdicts of block theory on a scene of a case, as `voussoir blocks` prints them.
 #pragma once
 
 #include <algorithm>
