@@ -4,7 +4,7 @@
 add_library(voussoir_flags INTERFACE)
 target_compile_features(voussoir_flags INTERFACE cxx_std_20)
 set(VOUSSOIR_ARITHMETIC -ffp-contract=off $<$<CXX_COMPILER_ID:GNU>:-fno-tree-vectorize>
-  $<$<CXX_COMPILER_ID:Clang>:-fno-vectorize -fno-slp-vectorize>
+  $<$<CXX_COMPILER_ID:Clang>:-fno-vectorize -fno-slp-vectorize -ffp-exception-behavior=maytrap>
   CACHE STRING "flags for the rounding of arithmetic; with any others bits differ; for measurements of their cost only")
 mark_as_advanced(VOUSSOIR_ARITHMETIC)
 target_compile_options(voussoir_flags INTERFACE -Wall -Wextra -Wshadow -Wno-psabi ${VOUSSOIR_ARITHMETIC})
