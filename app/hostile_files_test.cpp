@@ -289,7 +289,8 @@ std::vector<Trial> texts() {
                       {"\xE2\x80\xA8", "\\u2028", "line separator (U+2028)"}};
   const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
   std::vector<Trial> trials;
-  for (const auto& [bytes, toml, what] : bads) {
+  for (const Bad& bad : bads) {
+    const std::string &bytes = bad.bytes, &toml = bad.toml, &what = bad.what;
     const auto scene_with = [&](const std::string& from, const std::string& to) {
       return file("bad.toml", replaced(scene, from, replaced(to, "@", toml)));
     };

@@ -4,6 +4,6 @@ set ylabel 'truths enclosed (%)'
 set xrange [0:2]
 set yrange [0:102]
 set key maxrows 3
-plot for [i=2:8] 'coverage.csv' using 1:i with lines lt i-1 title columnheader(i), \
-     '' using 1:9 with lines lc rgb '#404040' lw 3 title columnheader(9), \
-     '' using 1:10 with lines lc rgb "#404040" lw 3 dt 2 title columnheader(10)
+plot for [i=2:9] 'coverage.csv' using 1:i with lines lt i-1 title columnheader(i), \
+     '' using 1:10 with lines lc rgb "#404040" lw 3 title columnheader(10), \
+     '' using 1:11 with lines lc rgb "#404040" lw 3 dt 2 title columnheader(11)

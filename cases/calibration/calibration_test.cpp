@@ -27,6 +27,7 @@ const std::vector<SceneKind>& kinds() {
       {"wet plane failures", "Hoek & Bray (1981), plane failure with a tension crack", draw_plane_failure, 4},
       {"bolted blocks", "equilibrium: tan = (W sin - F cos)/(W cos + F sin)", draw_bolted_block, 4},
       {"inclined blocks", "equilibrium: the friction angle is the slope", draw_inclined_block, 4, false},
+      {"rounded blocks", "equilibrium: the friction angle is the slope", draw_rounded_block, 2},
       {"roof wedges", "Goodman, Shi & Boyle (1982)", draw_roof_wedge, 2},
       {"toppling columns", "Goodman & Bray (1976): limit equilibrium", draw_columns, 2},
       {"slumps", "elastic, perfectly plastic blocks without dilation, reference/slump", draw_slope, 2},

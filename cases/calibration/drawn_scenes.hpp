@@ -52,6 +52,7 @@ std::string stage_lines(const std::string& settle, const std::string& search);
 // blocks that slide: sliding.cpp
 DrawnScene draw_wedge(Draws& draws);
 DrawnScene draw_plane_failure(Draws& draws);
+DrawnScene draw_rounded_block(Draws& draws);
 DrawnScene draw_bolted_block(Draws& draws);
 DrawnScene draw_inclined_block(Draws& draws);
 

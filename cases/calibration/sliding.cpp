@@ -1,4 +1,4 @@
-// Random blocks that slide: wedges, plane failures with water, bolted blocks, blocks free to turn.
+// Random blocks that slide: wedges, plane failures with water, bolted blocks, blocks free to turn, rounded blocks.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,12 +27,12 @@ std::string inclined_gravity(double slope) {
                      -gravity * std::cos(slope));
 }
 
-// a base below y = 0 and a block of a length and height on it, in the middle
-std::string block_on_base(double length, double height) {
+// a base below y = 0 and a block of a length and height above it, in the middle
+std::string block_on_base(double length, double height, double gap = 0) {
   return fmt::format(
       "[[blocks]]\nname = \"base\"\nbox = {{ min = [{:.17g}, {:.17g}], max = [{:.17g}, 0] }}\nfixed = true\n"
-      "[[blocks]]\nname = \"block\"\nbox = {{ min = [{:.17g}, 0], max = [{:.17g}, {:.17g}] }}\n",
-      -length, -height - 1, length, -0.5 * length, 0.5 * length, height);
+      "[[blocks]]\nname = \"block\"\nbox = {{ min = [{:.17g}, {:.17g}], max = [{:.17g}, {:.17g}] }}\n",
+      -length, -height - 1, length, -0.5 * length, gap, 0.5 * length, gap + height);
 }
 
 const std::string friction_search =
@@ -206,6 +206,22 @@ DrawnScene draw_inclined_block(Draws& draws) {
                         joints.normal),
             text, friction_angle, slope / degree};
   }
+}
+
+// A potential particle that does not turn, its faces a corner radius outside their planes, on 10 MN/m to 10 GN/m.
+DrawnScene draw_rounded_block(Draws& draws) {
+  const double length = between(draws, 0.5, 3), height = between(draws, 0.3, 1) * length,
+               slope = between(draws, 12, 55) * degree, density = between(draws, 2000, 2800),
+               radius = between(draws, 0.05, 0.4) * height, sphericity = power_between(draws, 0.003, 0.3);
+  const JointStiffness joints = draw_stiffness(draws, 1e7, 1e10);
+  const std::string text =
+      inclined_gravity(slope) + fmt::format("density = {:.17g}\n", density) + block_on_base(length, height, radius) +
+      fmt::format("shape = \"potential\"\ncorner_radius = {:.17g}\nsphericity = {:.17g}\n", radius, sphericity) +
+      joint_lines("rock", joints, 80) + "constant_stiffness = true\n" +
+      "[[restrain]]\nbodies = [\"block\"]\nrotation = true\n" + stage_lines("", friction_search);
+  return {fmt::format("{:.1f} x {:.1f} m, r {:.2f} m, k {:.3f}, on {:.0f} deg, {:.2g} N/m", length, height, radius,
+                      sphericity, slope / degree, joints.normal),
+          text, friction_angle, slope / degree};
 }
 
 }  // namespace voussoir::cases

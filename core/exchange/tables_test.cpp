@@ -95,9 +95,11 @@ TEST(JointTable, NamesTheColumnThatIsMeant) {
                                                        {"lenght_m", "length_m"},
                                                        {"Set", "set"},
                                                        {"Nx", "normal_x"}};
-  for (const auto& [stated, column] : meant)
-    expect_fault([&] { read_joint_table(fmt::format("{},b,c\n1,2,3\n", stated), 3); }, 1, 1,
+  for (const auto& [stated, column] : meant) {
+    const std::string table = fmt::format("{},b,c\n1,2,3\n", stated);
+    expect_fault([&] { read_joint_table(table, 3); }, 1, 1,
                  fmt::format("no such column as '{}'; did you mean {}?", stated, column));
+  }
   expect_fault([] { read_joint_table("colour,x_m,y_m,z_m\n", 3); }, 1, 1, "no such column as 'colour'; there are");
   expect_fault([] { read_joint_table("Strike,x_m,y_m\n", 2); }, 1, 1, "no such column as 'Strike'; there are");
   expect_fault([] { read_joint_table("sep=,\nname,x_m,y_m,z_m,dip_deg\n", 3); }, 1, 0, "remove this line");

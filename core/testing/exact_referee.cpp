@@ -145,17 +145,20 @@ struct Chart {
   // true when doubles suffice to show that no corner is beyond the plane: most planes of a large solid
   bool surely_inside(const Rounded& p, const Polygon& polygon) const {
     const double sign = rounded.n[k] > 0 ? 1 : -1;
-    const auto [alpha, alpha_terms] = minor(p.n[i], rounded.n[k], p.n[k], rounded.n[i]);
-    const auto [beta, beta_terms] = minor(p.n[j], rounded.n[k], p.n[k], rounded.n[j]);
-    const auto [gamma, gamma_terms] = minor(p.d, rounded.n[k], p.n[k], rounded.d);
+    const Minor alpha = minor(p.n[i], rounded.n[k], p.n[k], rounded.n[i]);
+    const Minor beta = minor(p.n[j], rounded.n[k], p.n[k], rounded.n[j]);
+    const Minor gamma = minor(p.d, rounded.n[k], p.n[k], rounded.d);
     return std::all_of(polygon.begin(), polygon.end(), [&](const Corner& c) {
-      const double terms = alpha_terms * std::abs(c.x) + beta_terms * std::abs(c.y) + gamma_terms;
-      return sign * (alpha * c.x + beta * c.y - gamma) < -decided * terms;
+      const double terms = alpha.terms * std::abs(c.x) + beta.terms * std::abs(c.y) + gamma.terms;
+      return sign * (alpha.value * c.x + beta.value * c.y - gamma.value) < -decided * terms;
     });
   }
 
   // a b - c d, and the size of its terms
-  static std::pair<double, double> minor(double a, double b, double c, double d) {
+  struct Minor {
+    double value = 0, terms = 0;
+  };
+  static Minor minor(double a, double b, double c, double d) {
     return {a * b - c * d, std::abs(a * b) + std::abs(c * d)};
   }
 
