@@ -37,10 +37,9 @@ void place(TouchingPair& pair, bool face_on_face, double tilt, double overlap, R
   Vector<3> sideways = Vector<3>::Zero();
   if (face_on_face) {
     turn_a = facing(pair.a, up);
-    turn_b =
-        (Eigen::AngleAxisd(tilt, shapes::direction<3>(random)) * Eigen::AngleAxisd(shapes::uniform(random, 0, 6), up))
-            .toRotationMatrix() *
-        facing(pair.b, -up);
+    const double about_up = shapes::uniform(random, 0, 6);
+    const Eigen::AngleAxisd tilted(tilt, shapes::direction<3>(random));
+    turn_b = (tilted * Eigen::AngleAxisd(about_up, up)).toRotationMatrix() * facing(pair.b, -up);
     sideways = {shapes::uniform(random, -0.3, 0.3), shapes::uniform(random, -0.3, 0.3), 0};
   }
   pair.turn = turn_a.transpose() * turn_b;

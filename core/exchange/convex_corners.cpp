@@ -109,10 +109,11 @@ FacetSide side_of(const Mesh& mesh, const Facet& facet, double extent, bool insi
   for (std::size_t k = 0; k < facet.corners.size(); ++k)
     longest = std::max(longest, (mesh.points[facet.corners[k]] - mesh.points[facet.corners[0]]).norm());
   const Vector<3> area = area_vector(mesh, facet);
-  const double length = area.norm(), height = length / longest;
-  const double spacing = std::min(mesh.spacing, largest_spacing * extent);
+  const double length = area.norm();
+  if (!(length > out_of_plane * extent * longest)) return {};
+  const double height = length / longest, spacing = std::min(mesh.spacing, largest_spacing * extent);
   const double turned = 2 * std::numbers::sqrt3 * spacing / height;
-  if (!(height > out_of_plane * extent) || turned > loose_facet) return {};
+  if (turned > loose_facet) return {};
   const double slender = std::max(1.0, extent / height);
   return {inside_out ? Vector<3>(-area / length) : Vector<3>(area / length),
           std::max(out_of_plane * extent, rounded_out * spacing) * slender, rounded_out * mesh.spacing * slender,
