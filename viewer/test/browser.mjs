@@ -18,7 +18,7 @@ const ELEMENT = 'element-6066-11e4-a52e-4f735466cecf';
 const options = (binary, width, height) => ({
   binary,
   args: ['--headless=new', '--no-sandbox', '--disable-gpu-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
-    '--hide-scrollbars', '--force-device-scale-factor=1', `--window-size=${width},${height}`, '--disable-dev-shm-usage'],
+    '--hide-scrollbars', '--force-device-scale-factor=0.7', `--window-size=${width},${height}`, '--disable-dev-shm-usage'],
 });
 
 async function startDriver() {
