@@ -2,6 +2,7 @@
 // continues, the bits of an undisturbed run.
 #include <sys/file.h>
 
+#include <array>
 #include <boost/random/mersenne_twister.hpp>
 #include <boost/random/uniform_real_distribution.hpp>
 #include <chrono>
@@ -24,6 +25,8 @@ constexpr int large_steps = 7;  // between checkpoints
 const std::string small = cubes_scene(2, 2, 3, 0.008, 3);
 constexpr int small_steps = 20;
 
+constexpr std::array stopping{SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1, SIGXCPU};
+
 class Faults : public FaultTest {
  protected:
   // the large undisturbed run, made once for all tests
@@ -33,6 +36,7 @@ class Faults : public FaultTest {
   }
 
   void survive_kills(int wanted) const;
+  void stop_by(int signal, bool continues) const;
 
   Process under_way(const std::string& scene, const std::string& out, Launch launch = {},
                     int steps = large_steps) const {
@@ -112,22 +116,30 @@ TEST_F(FaultsLong, AThousandKillsLoseNothing) {
 
 // ---- signals ------------------------------------------------------------------------------------------------------
 
+void Faults::stop_by(int signal, bool continues) const {
+  const std::string out = at("stopped");
+  fs::remove_all(out);
+  Process process = under_way(write("scene.toml", large), out);
+  ASSERT_TRUE(wait_until([&] { return fs::exists(out + "/checkpoint"); }));
+  process.send(signal);
+  expect_one_line(process.wait(), 128 + signal, "continue with 'voussoir resume " + out + "'");
+  EXPECT_NO_THROW(checkpoint_record(read(out + "/checkpoint")));
+  if (!continues) return;
+  const Ended ended = run({.arguments = resume_arguments(out)});
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_EQ(ended.err, "");
+  expect_equal(contents_of(out), undisturbed_large(), fmt::format("signal {}", signal));
+}
+
+// all have one handler: of one the run that continues is compared, of each in the Long test
 TEST_F(Faults, ASignalStopsWithACheckpoint) {
-  const std::string scene = write("scene.toml", large);
-  const Contents& complete = undisturbed_large();
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1, SIGXCPU}) {
-    const std::string out = at("stopped");
-    fs::remove_all(out);
-    Process process = under_way(scene, out);
-    ASSERT_TRUE(wait_until([&] { return fs::exists(out + "/checkpoint"); }));
-    process.send(signal);
-    expect_one_line(process.wait(), 128 + signal, "continue with 'voussoir resume " + out + "'");
-    EXPECT_NO_THROW(checkpoint_record(read(out + "/checkpoint")));
-    const Ended ended = run({.arguments = resume_arguments(out)});
-    EXPECT_EQ(ended.code, 0) << ended.err;
-    EXPECT_EQ(ended.err, "");
-    expect_equal(contents_of(out), complete, fmt::format("signal {}", signal));
-  }
+  for (const int signal : stopping)
+    stop_by(signal, signal == SIGTERM);
+}
+
+TEST_F(FaultsLong, AfterEachSignalTheRunContinues) {
+  for (const int signal : stopping)
+    stop_by(signal, true);
 }
 
 // all arrive before the program continues: it has no step in which to notice the first
