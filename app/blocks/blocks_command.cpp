@@ -155,9 +155,10 @@ ExitCode judge_scene(const BlocksArguments& arguments, const SurveyRequest& requ
   tell_remarks(*scene.stated);
   const std::vector<Origin> origins{this_origin()};
   write_file(folder / "blocks_verdicts.csv", blocks_csv(survey));
-  write_file(folder / "blocks.vtp", vtp(block_verdict_faces(survey)));
+  const PolyData faces = block_verdict_faces(survey);
+  write_file(folder / "blocks.vtp", vtp(faces));
   write_file(folder / "blocks_verdicts.json", blocks_json(survey, scene.title, scene.hash, origins));
-  if constexpr (Dim == 3) write_file(folder / "key_blocks.geojson", key_blocks_geojson(survey));
+  if constexpr (Dim == 3) write_file(folder / "key_blocks.geojson", key_blocks_geojson(survey, faces));
   // results.json comes last: if it exists, everything is complete
   write_results(folder, blocks_results_json(survey, scene.title, scene.hash, origins));
   fmt::print("{}results: {}\n", blocks_summary(survey, scene.title, arguments.top), folder.string());
