@@ -83,6 +83,7 @@ TEST_F(Program, BlocksInThePlane) {
   EXPECT_NE(ended.out.find("joint 38 deg and 20 kPa"), std::string::npos) << ended.out;
   EXPECT_NEAR(std::stod(column(folder_ / "out/blocks_verdicts.csv", "factor").at(0)), 0.841, 5e-4);
   EXPECT_LT(std::stod(column(folder_ / "out/blocks_verdicts.csv", "critical_water").at(0)), 1);
+  EXPECT_EQ(column(folder_ / "out/blocks_verdicts.csv", "critical_level_m").at(0), "") << "its surface slopes";
 }
 
 TEST_F(Program, BlocksOfABench) {

@@ -138,6 +138,7 @@ Assembly<Dim> make_assembly(Model<Dim> model, const WaterValues& water, const st
   assembly.contacts = find_rock_contacts(model);
   assembly.stated = stated_loads(model);
   assembly.water = water_loads_at_reference<Dim>(model, water);
+  assembly.water_values = water;
   assembly.crossings = crossings_of(model, assembly.contacts, bolts);
   assembly.model = std::move(model);
   return assembly;

@@ -25,6 +25,7 @@ struct Assembly {
   RockContacts<Dim> contacts;
   std::vector<Load<Dim>> stated;  // by body, about its centroid, N: weight and applied forces at the end of their stage
   std::vector<Load<Dim>> water;   // likewise, of the scene's waters
+  WaterValues water_values;       // the numbers of these
   std::vector<BoltCrossing<Dim>> crossings;  // by contact
 };
 

@@ -232,7 +232,9 @@ SurveyRow<Dim> describe(const Survey<Dim>& survey, const std::vector<int>& bodie
   if (!moves(row.kind())) row.removability = find_removability(block.normals);
   if (row.kind() == BlockKind::tapered) row.taper = find_taper(block.normals);
   add_seismic(request, block, gravity, row);
-  row.critical_water = critical_water<Dim>(block, bolted.load - block.water.force, gravity);
+  const Vector<Dim> dry = bolted.load - block.water.force;
+  row.critical_water = critical_water<Dim>(block, dry, gravity);
+  row.critical_level = critical_level<Dim>(assembly, block, dry);
   if (!moves(row.kind())) return row;
   row.force = least_force(block, bolted, request.required, gravity);
   if (request.bolt)

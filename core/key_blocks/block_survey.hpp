@@ -47,6 +47,7 @@ struct SurveyRow {
   std::optional<double> bolt_force{};  // N, along the requested direction
   WorstDirection<Dim> worst{};         // in the earthquake
   std::optional<double> factor_own_trend{}, critical_coefficient{}, critical_own_trend{}, critical_water{};
+  std::optional<double> critical_level{};         // m, elevation
   std::optional<double> opening{};                // rad
   int opening_face = -1;                          // in `faces`
   std::vector<int> closed_faces;                  // by elastic shear, in `faces`
