@@ -27,6 +27,9 @@ struct Assembly {
   std::vector<Load<Dim>> water;   // likewise, of the scene's waters
   WaterValues water_values;       // the numbers of these
   std::vector<BoltCrossing<Dim>> crossings;  // by contact
+  // By body, since the bodies themselves are far from each other in memory.
+  std::vector<char> free;       // it is judged: present, not fixed, and has parts
+  std::vector<double> volumes;  // m³
 };
 
 // `bolts`: by Model::bolts, whether it is installed. No stress acts on the faces of blocks.

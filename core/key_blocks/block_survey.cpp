@@ -291,8 +291,7 @@ Survey<Dim> survey_blocks(const Prepared<Dim>& prepared, const SurveyRequest& re
   const std::vector<BoltedVerdict<Dim>> single = judge_all(survey.assembly, more);
   Block<Dim> block;
   for (int b = 0; b < static_cast<int>(single.size()); ++b)
-    if (model.bodies[b].present && !model.bodies[b].fixed && !model.bodies[b].parts.empty())
-      survey.rows.push_back(describe(survey, {b}, single[b], block));
+    if (survey.assembly.free[b]) survey.rows.push_back(describe(survey, {b}, single[b], block));
   ClusterSearch<Dim> clusters = find_clusters(survey.assembly, single, more);
   survey.pairs = clusters.pairs;
   survey.moving_pairs = clusters.moving_pairs;
