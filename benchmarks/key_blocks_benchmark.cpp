@@ -1,6 +1,8 @@
-// Block theory on the joint sets of Table 4.1, 99,758 blocks: contacts, verdicts, pairs, rounds; a block judged again.
+// Block theory on the joint sets of Table 4.1, 99,758 blocks: contacts, verdicts, pairs, rounds; a block judged again,
+// under another load and cut by other planes.
 #include <benchmark/benchmark.h>
 
+#include "core/key_blocks/recut.hpp"
 #include "core/key_blocks/survey.hpp"
 #include "core/model/water_surfaces.hpp"
 #include "core/scene/scene.hpp"
@@ -63,11 +65,34 @@ void judged_again(benchmark::State& state) {
   }
 }
 
+// cut by planes that have turned by a thousandth of a degree, and judged
+void recut_and_judged(benchmark::State& state) {
+  HalfSpaces<3> planes;
+  for (const Joint<3>& joint : mass().joints) {
+    const Vector<3> turned = joint.plane.normal + 2e-5 * perpendicular(joint.plane.normal);
+    planes.push_back({turned.normalized(), joint.plane.offset});
+  }
+  Recutter<3> recutter(assembly());
+  Block<3> block;
+  const int bodies = static_cast<int>(mass().bodies.size());
+  int next = 0;
+  double cut = 0, attempts = 0;
+  for (auto _ : state) {
+    next = (next + 37) % bodies;
+    ++attempts;
+    if (!recutter.recut(next, planes, block)) continue;
+    ++cut;
+    benchmark::DoNotOptimize(judge<3>(block, block.stated.force, mass().gravity).motion);
+  }
+  state.counters["cut"] = cut / attempts;
+}
+
 BENCHMARK(contacts)->Unit(benchmark::kMillisecond);
 BENCHMARK(verdicts)->Unit(benchmark::kMillisecond);
 BENCHMARK(pairs)->Unit(benchmark::kMillisecond);
 BENCHMARK(rounds)->Unit(benchmark::kMillisecond);
 BENCHMARK(judged_again)->Unit(benchmark::kMicrosecond);
+BENCHMARK(recut_and_judged)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace voussoir

@@ -253,8 +253,6 @@ std::optional<SeismicRequest> seismic_of(const py::object& seismic, double verti
   } else {
     request.coefficient = seismic.cast<double>();
   }
-  if (!(request.coefficient >= 0 && request.coefficient <= 10) || !(vertical >= 0 && vertical <= 10))
-    throw py::value_error("seismic coefficients are from 0 to 10");
   return request;
 }
 
@@ -325,13 +323,13 @@ void bind_blocks(py::module_& module, const py::object& surface) {
       [verdicts, surface](const OpenedScene& scene, double required, const py::object& seismic, double vertical,
                           const std::optional<std::pair<double, double>>& bolt, const std::string& strength_of,
                           const std::string& after, bool frictionless) {
-        if (!(required > 0 && required <= 1000)) throw py::value_error("required is above 0 and at most 1000");
         SurveyRequest request{.required = required,
                               .seismic = seismic_of(seismic, vertical),
                               .strength_of = strength_of,
                               .after = after,
                               .frictionless = frictionless};
         if (bolt) request.bolt = std::pair(bolt->first * degree, bolt->second * degree);
+        refuse_out_of_range(request);
         BlockVerdicts found;
         {
           const py::gil_scoped_release others_may_run;

@@ -334,6 +334,8 @@ class Blocks(unittest.TestCase):
             voussoir.blocks(slope, after="nowhere")
         with self.assertRaises(ValueError):
             voussoir.blocks(slope, required=0)
+        with self.assertRaisesRegex(ValueError, "seismic trend .* is not from 0 to 360"):
+            voussoir.blocks(slope, seismic=(0.1, 400))
 
     def test_stand_beside_the_search_in_results(self):
         scene = voussoir.Scene(SOURCE / "examples" / "tutorial" / "slope.toml")

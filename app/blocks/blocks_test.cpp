@@ -68,7 +68,12 @@ TEST_F(Program, BlocksInAnEarthquakeAndWithABolt) {
   EXPECT_EQ(run(scene + "--seismic 0.1/150 --seismic-vertical 0.05").code, 0);
   expect_one_line(run(scene + "--seismic 0.1/"), 2, "for example 0.12 or 0.12/180");
   expect_one_line(run(scene + "--seismic 0.1/400"), 2, "from 0 to 360");
+  expect_one_line(run(scene + "--seismic 11"), 2, "from 0 to 10");
+  expect_one_line(run(scene + "--seismic-vertical -0.1"), 2, "vertical seismic coefficient -0.1 is not from 0 to 10");
+  expect_one_line(run(scene + "--required nan"), 2, "required factor of safety nan");
+  EXPECT_EQ(run(scene + "--seismic 0.1/360").code, 0);
   expect_one_line(run(scene + "--bolt 10"), 2, "plunge/trend");
+  expect_one_line(run(scene + "--bolt 95/10"), 2, "from -90 to 90");
 }
 
 // closed form 0.841: cohesion counts, and water on both faces
@@ -78,6 +83,7 @@ TEST_F(Program, BlocksInThePlane) {
   EXPECT_NE(ended.out.find("joint 38 deg and 20 kPa"), std::string::npos) << ended.out;
   EXPECT_NEAR(std::stod(column(folder_ / "out/blocks_verdicts.csv", "factor").at(0)), 0.841, 5e-4);
   EXPECT_LT(std::stod(column(folder_ / "out/blocks_verdicts.csv", "critical_water").at(0)), 1);
+  EXPECT_EQ(column(folder_ / "out/blocks_verdicts.csv", "critical_level_m").at(0), "") << "its surface slopes";
 }
 
 TEST_F(Program, BlocksOfABench) {

@@ -110,7 +110,7 @@ template <int Dim>
 void add_bodies(const Assembly<Dim>& assembly, Block<Dim>& block) {
   for (const int body : block.bodies) {
     const Body<Dim>& b = assembly.model.bodies[body];
-    const double size = volume(b);
+    const double size = assembly.volumes[body];
     block.volume += size;
     block.centroid += size * b.reference;
     block.weight += b.mass * assembly.model.gravity.norm();
@@ -138,7 +138,12 @@ Assembly<Dim> make_assembly(Model<Dim> model, const WaterValues& water, const st
   assembly.contacts = find_rock_contacts(model);
   assembly.stated = stated_loads(model);
   assembly.water = water_loads_at_reference<Dim>(model, water);
+  assembly.water_values = water;
   assembly.crossings = crossings_of(model, assembly.contacts, bolts);
+  for (const Body<Dim>& body : model.bodies) {
+    assembly.free.push_back(body.present && !body.fixed && !body.parts.empty());
+    assembly.volumes.push_back(volume(body));
+  }
   assembly.model = std::move(model);
   return assembly;
 }

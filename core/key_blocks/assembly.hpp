@@ -25,7 +25,11 @@ struct Assembly {
   RockContacts<Dim> contacts;
   std::vector<Load<Dim>> stated;  // by body, about its centroid, N: weight and applied forces at the end of their stage
   std::vector<Load<Dim>> water;   // likewise, of the scene's waters
+  WaterValues water_values;       // the numbers of these
   std::vector<BoltCrossing<Dim>> crossings;  // by contact
+  // By body, since the bodies themselves are far from each other in memory.
+  std::vector<char> free;       // it is judged: present, not fixed, and has parts
+  std::vector<double> volumes;  // m³
 };
 
 // `bolts`: by Model::bolts, whether it is installed. No stress acts on the faces of blocks.

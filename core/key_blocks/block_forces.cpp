@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/model/water_surfaces.hpp"
+
 namespace voussoir {
 namespace {
 
@@ -68,6 +70,35 @@ Vector<2> along_trend(double angle, const Vector<2>&) {
 }
 Vector<3> along_trend(double angle, const Vector<3>&) {
   return {std::sin(angle), std::cos(angle), 0};
+}
+
+// the numbers of a horizontal surface: in space h, 0, 0, in the plane x and h of its points
+template <int Dim>
+bool is_level(const Water& water, const std::vector<double>& numbers) {
+  if (water.uniform) return false;
+  if (Dim == 3) return numbers[1] == 0 && numbers[2] == 0;
+  for (std::size_t k = 3; k < numbers.size(); k += 2)
+    if (numbers[k] != numbers[1]) return false;
+  return true;
+}
+
+template <int Dim>
+void set_level(double level, std::vector<double>& numbers) {
+  for (std::size_t k = Dim == 3 ? 0 : 1; k < numbers.size(); k += Dim == 3 ? numbers.size() : 2)
+    numbers[k] = level;
+}
+
+// of all corners, ascending, each once
+template <int Dim>
+std::vector<double> heights_of(const Model<Dim>& model, const std::vector<int>& bodies) {
+  std::vector<double> heights;
+  for (const int b : bodies)
+    for (const Polytope<Dim>& part : model.bodies[b].parts)
+      for (const Vector<Dim>& corner : part.vertices)
+        heights.push_back(model.bodies[b].reference[Dim - 1] + corner[Dim - 1]);
+  std::sort(heights.begin(), heights.end());
+  heights.erase(std::unique(heights.begin(), heights.end()), heights.end());
+  return heights;
 }
 
 }  // namespace
@@ -155,6 +186,43 @@ std::optional<double> critical_water(const Block<Dim>& block, const Vector<Dim>&
   return std::nullopt;
 }
 
+template <int Dim>
+std::optional<double> critical_level(const Assembly<Dim>& assembly, const Block<Dim>& block,
+                                     const Vector<Dim>& load_without_water, double most) {
+  const Model<Dim>& model = assembly.model;
+  if (model.waters.size() != 1 || !is_level<Dim>(model.waters[0], assembly.water_values[0])) return std::nullopt;
+  WaterValues values = assembly.water_values;
+  WaterSurfaces<Dim> surfaces;
+  const auto fails = [&](double level) {
+    set_level<Dim>(level, values[0]);
+    find_surfaces(model, values, 1, surfaces);
+    Vector<Dim> load = load_without_water;
+    for (const int b : block.bodies)
+      load += water_load<Dim>(model, surfaces, b, {.centroid = model.bodies[b].reference}).force;
+    return factor_under<Dim>(block, load, model.gravity) < 1;
+  };
+  const std::vector<double> heights = heights_of(model, block.bodies);
+  const double lowest = heights.front(), highest = heights.back();
+  if (fails(lowest)) return std::nullopt;
+  double stands = lowest;
+  const auto found = [&](double level) {
+    if (fails(level)) return true;
+    stands = level;
+    return false;
+  };
+  const auto elevation = [&](double level) { return bisect(stands, level, fails) + model.origin[Dim - 1]; };
+  for (std::size_t k = 0; k + 1 < heights.size(); ++k)
+    for (int quarter = 1; quarter <= 4; ++quarter) {
+      const double level = heights[k] + 0.25 * quarter * (heights[k + 1] - heights[k]);
+      if (found(level)) return elevation(level);
+    }
+  for (double times = 1; times <= most; times *= 2) {
+    const double level = highest + times * (highest - lowest);
+    if (found(level)) return elevation(level);
+  }
+  return std::nullopt;
+}
+
 #define VOUSSOIR_INSTANTIATE(Dim)                                                                                     \
   template std::optional<RequiredForce<Dim>> least_force<Dim>(const Block<Dim>&, const BoltedVerdict<Dim>&, double,   \
                                                               const Vector<Dim>&);                                    \
@@ -164,7 +232,10 @@ std::optional<double> critical_water(const Block<Dim>& block, const Vector<Dim>&
                                                     const Vector<Dim>&);                                              \
   template std::optional<double> critical_coefficient<Dim>(const Block<Dim>&, const Vector<Dim>&, const Vector<Dim>&, \
                                                            const Vector<Dim>&, double);                               \
-  template std::optional<double> critical_water<Dim>(const Block<Dim>&, const Vector<Dim>&, const Vector<Dim>&, double);
+  template std::optional<double> critical_water<Dim>(const Block<Dim>&, const Vector<Dim>&, const Vector<Dim>&,       \
+                                                     double);                                                         \
+  template std::optional<double> critical_level<Dim>(const Assembly<Dim>&, const Block<Dim>&, const Vector<Dim>&,     \
+                                                     double);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)
 #undef VOUSSOIR_INSTANTIATE

@@ -52,4 +52,11 @@ template <int Dim>
 std::optional<double> critical_water(const Block<Dim>& block, const Vector<Dim>& load_without_water,
                                      const Vector<Dim>& gravity, double most = 1000);
 
+// m, an elevation of the scene: the lowest to which the assembly's one level of water can rise before the block's
+// factor falls below 1. Four levels between the heights of every two corners are tried, then levels up to `most` times
+// the block's height. None without such a level, if the block fails without water, and if none of these levels fails.
+template <int Dim>
+std::optional<double> critical_level(const Assembly<Dim>& assembly, const Block<Dim>& block,
+                                     const Vector<Dim>& load_without_water, double most = 1000);
+
 }  // namespace voussoir

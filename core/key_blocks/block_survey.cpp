@@ -38,6 +38,22 @@ int stage_of_search(const std::vector<StagePlan>& stages) {
 
 }  // namespace
 
+void refuse_out_of_range(const SurveyRequest& request) {
+  const auto check = [](const char* what, double number, double low, double high, double unit) {
+    if (!(number >= low * unit && number <= high * unit))
+      throw BadInput(fmt::format("{} {:g} is not from {:g} to {:g}", what, number / unit, low, high));
+  };
+  check("the required factor of safety", request.required, least_required, most_required, 1);
+  if (request.seismic) {
+    check("the seismic coefficient", request.seismic->coefficient, 0, 10, 1);
+    check("the vertical seismic coefficient", request.seismic->vertical, 0, 10, 1);
+    if (request.seismic->trend) check("the seismic trend (deg)", *request.seismic->trend, 0, 360, degree);
+  }
+  if (!request.bolt) return;
+  check("the plunge of the bolt (deg)", request.bolt->first, -90, 90, degree);
+  check("the trend of the bolt (deg)", request.bolt->second, 0, 360, degree);
+}
+
 template <int Dim>
 void refuse_other_models(const Model<Dim>& model) {
   if (model.particles)
@@ -107,9 +123,19 @@ Stages choose_stages(const std::vector<StagePlan>& stages, const SurveyRequest& 
   return chosen;
 }
 
+// with the friction at a stage
+template <int Dim>
+std::vector<JointProperties> properties_at(const Prepared<Dim>& prepared, int stage) {
+  std::vector<JointProperties> properties = prepared.model.properties;
+  for (int s = 0; s <= stage; ++s)
+    set_friction(prepared.stages[s].change, properties);
+  return properties;
+}
+
 template <int Dim>
 Assembly<Dim> assembly_at(const Prepared<Dim>& prepared, const Stages& stages) {
   Model<Dim> model = prepared.model;
+  model.properties = properties_at(prepared, stages.strength);
   WaterValues water = initial_water(model);
   std::set<std::string> installed;
   for (int s = 0; s < static_cast<int>(prepared.stages.size()); ++s) {
@@ -120,10 +146,6 @@ Assembly<Dim> assembly_at(const Prepared<Dim>& prepared, const Stages& stages) {
       change.release = stage.change.release;
       change.remove = stage.change.remove;
       change.excavate = stage.change.excavate;
-    }
-    if (s <= stages.strength) {
-      change.friction = stage.change.friction;
-      change.friction_of = stage.change.friction_of;
     }
     if (s <= stages.loads) {
       change.force = stage.change.force;
@@ -210,7 +232,9 @@ SurveyRow<Dim> describe(const Survey<Dim>& survey, const std::vector<int>& bodie
   if (!moves(row.kind())) row.removability = find_removability(block.normals);
   if (row.kind() == BlockKind::tapered) row.taper = find_taper(block.normals);
   add_seismic(request, block, gravity, row);
-  row.critical_water = critical_water<Dim>(block, bolted.load - block.water.force, gravity);
+  const Vector<Dim> dry = bolted.load - block.water.force;
+  row.critical_water = critical_water<Dim>(block, dry, gravity);
+  row.critical_level = critical_level<Dim>(assembly, block, dry);
   if (!moves(row.kind())) return row;
   row.force = least_force(block, bolted, request.required, gravity);
   if (request.bolt)
@@ -242,8 +266,8 @@ Assembly<Dim> assembly_of_stage(const Prepared<Dim>& prepared, int stage) {
 }
 
 template <int Dim>
-Assembly<Dim> assembly_of_request(const Prepared<Dim>& prepared, const SurveyRequest& request) {
-  return assembly_at(prepared, choose_stages(prepared.stages, request));
+std::vector<JointProperties> properties_of_request(const Prepared<Dim>& prepared, const SurveyRequest& request) {
+  return properties_at(prepared, choose_stages(prepared.stages, request).strength);
 }
 
 template <int Dim>
@@ -267,8 +291,7 @@ Survey<Dim> survey_blocks(const Prepared<Dim>& prepared, const SurveyRequest& re
   const std::vector<BoltedVerdict<Dim>> single = judge_all(survey.assembly, more);
   Block<Dim> block;
   for (int b = 0; b < static_cast<int>(single.size()); ++b)
-    if (model.bodies[b].present && !model.bodies[b].fixed && !model.bodies[b].parts.empty())
-      survey.rows.push_back(describe(survey, {b}, single[b], block));
+    if (survey.assembly.free[b]) survey.rows.push_back(describe(survey, {b}, single[b], block));
   ClusterSearch<Dim> clusters = find_clusters(survey.assembly, single, more);
   survey.pairs = clusters.pairs;
   survey.moving_pairs = clusters.moving_pairs;
@@ -319,13 +342,13 @@ const char* motion_of(const SurveyRow<Dim>& row) {
   return *row.bolted.factor < 1 ? "slides and turns" : "turns";
 }
 
-#define VOUSSOIR_INSTANTIATE(Dim)                                                              \
-  template struct Survey<Dim>;                                                                 \
-  template Survey<Dim> survey_blocks<Dim>(const Prepared<Dim>&, const SurveyRequest&);         \
-  template Assembly<Dim> assembly_of_request<Dim>(const Prepared<Dim>&, const SurveyRequest&); \
-  template Assembly<Dim> assembly_of_stage<Dim>(const Prepared<Dim>&, int);                    \
-  template void refuse_other_models<Dim>(const Model<Dim>&);                                   \
-  template const char* type_of<Dim>(const SurveyRow<Dim>&, double);                            \
+#define VOUSSOIR_INSTANTIATE(Dim)                                                                               \
+  template struct Survey<Dim>;                                                                                  \
+  template Survey<Dim> survey_blocks<Dim>(const Prepared<Dim>&, const SurveyRequest&);                          \
+  template std::vector<JointProperties> properties_of_request<Dim>(const Prepared<Dim>&, const SurveyRequest&); \
+  template Assembly<Dim> assembly_of_stage<Dim>(const Prepared<Dim>&, int);                                     \
+  template void refuse_other_models<Dim>(const Model<Dim>&);                                                    \
+  template const char* type_of<Dim>(const SurveyRow<Dim>&, double);                                             \
   template const char* motion_of<Dim>(const SurveyRow<Dim>&);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)

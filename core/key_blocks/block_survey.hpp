@@ -27,6 +27,11 @@ struct SurveyRequest {
   bool frictionless = false;                        // rounds of blocks that move without friction, too
 };
 
+inline constexpr double least_required = 1e-9, most_required = 1000;
+
+// Throws BadInput for numbers outside of their ranges.
+void refuse_out_of_range(const SurveyRequest& request);
+
 // of a block, or of a cluster of blocks that move as one
 template <int Dim>
 struct SurveyRow {
@@ -42,6 +47,7 @@ struct SurveyRow {
   std::optional<double> bolt_force{};  // N, along the requested direction
   WorstDirection<Dim> worst{};         // in the earthquake
   std::optional<double> factor_own_trend{}, critical_coefficient{}, critical_own_trend{}, critical_water{};
+  std::optional<double> critical_level{};         // m, elevation
   std::optional<double> opening{};                // rad
   int opening_face = -1;                          // in `faces`
   std::vector<int> closed_faces;                  // by elastic shear, in `faces`
@@ -72,9 +78,9 @@ struct Survey {
 template <int Dim>
 Survey<Dim> survey_blocks(const Prepared<Dim>& prepared, const SurveyRequest& request);
 
-// the blocks that `survey_blocks` judges
+// the properties of joints with which `survey_blocks` judges
 template <int Dim>
-Assembly<Dim> assembly_of_request(const Prepared<Dim>& prepared, const SurveyRequest& request);
+std::vector<JointProperties> properties_of_request(const Prepared<Dim>& prepared, const SurveyRequest& request);
 
 // The blocks at a stage of the scene, from 0: its geometry, strength, loads and bolts.
 template <int Dim>

@@ -81,6 +81,14 @@ void measure(FlatOverlap& overlap) {
   if (overlap.area > 0) overlap.centroid = {o[0] + x / (3 * twice), o[1] + y / (3 * twice)};
 }
 
+// the area (of segments the length) common to their boxes
+double common_box(const FlatFaces::Face& a, const FlatFaces::Face& b) {
+  double area = 1;
+  for (int axis = 0; axis < (a.segment() ? 1 : 2); ++axis)
+    area *= std::max(0.0, std::min(a.high[axis], b.high[axis]) - std::max(a.low[axis], b.low[axis]));
+  return area;
+}
+
 // clips by every edge of the other polygon in turn
 class Clipper {
  public:
@@ -147,10 +155,10 @@ PlaneFrame<Dim>::PlaneFrame(const Vector<Dim>& normal, const Vector<Dim>& edge, 
 template class PlaneFrame<2>;
 template class PlaneFrame<3>;
 
-double FlatFaces::end_face(int body, int part, int face) {
+double FlatFaces::end_face(int body, int part, int face, int joint) {
   const int first = faces_.empty() ? 0 : faces_.back().first + faces_.back().corners;
   const FlatPoint* corner = corners_.data() + first;
-  Face added{body, part, face, first, static_cast<int>(corners_.size()) - first, *corner, *corner, true};
+  Face added{body, part, face, joint, first, static_cast<int>(corners_.size()) - first, *corner, *corner, true};
   double twice = 0;
   for (int k = 0; k < added.corners; ++k) {
     for (int axis = 0; axis < 2; ++axis) {
@@ -177,10 +185,10 @@ void for_overlaps(
       if (seen_by[place] == static_cast<int>(i)) return;
       seen_by[place] = static_cast<int>(i);
       const FlatFaces::Face& other = below.faces()[place];
-      for (int axis = 0; axis < (face.segment() ? 1 : 2); ++axis)
-        if (other.low[axis] >= face.high[axis] || other.high[axis] <= face.low[axis]) return;
+      const double least = negligible * std::min(face.box(), other.box());
+      if (!(common_box(face, other) > least)) return;  // most neighbours within the plane touch by rounding alone
       clipper.overlap(below, other, above, face);
-      if (clipper.found.area > negligible * std::min(face.box(), other.box())) act(other, face, clipper.found);
+      if (clipper.found.area > least) act(other, face, clipper.found);
     });
   }
 }

@@ -37,6 +37,7 @@ class FlatFaces {
  public:
   struct Face {
     int body, part, face;
+    int joint;
     int first, corners;
     FlatPoint low, high;
     bool counter_clockwise;
@@ -46,7 +47,7 @@ class FlatFaces {
 
   void add(const FlatPoint& corner) { corners_.push_back(corner); }
   // of the corners since the last face; returns its area (of a segment its length)
-  double end_face(int body, int part, int face);
+  double end_face(int body, int part, int face, int joint);
 
   const std::vector<Face>& faces() const { return faces_; }
   const FlatPoint* corners(const Face& face) const { return corners_.data() + face.first; }

@@ -16,6 +16,7 @@ constexpr double negligible = 1e-9;      // of the smaller face's box: an area b
 
 struct FaceId {
   int body, part, face;
+  int joint;
 };
 
 // a plane with faces in it
@@ -69,7 +70,7 @@ void for_faces(const Model<Dim>& model, const Act& act) {
       for (std::size_t f = 0; f < body.parts[p].faces.size(); ++f) {
         if (!is_face(body.parts[p], f)) continue;
         const int joint = body.parts[p].joints[f];
-        act(FaceId{static_cast<int>(b), static_cast<int>(p), static_cast<int>(f)},
+        act(FaceId{static_cast<int>(b), static_cast<int>(p), static_cast<int>(f), joint},
             joint == no_joint ? loose++ : static_cast<std::size_t>(joint));
       }
   }
@@ -127,6 +128,8 @@ class ContactFinder {
  public:
   explicit ContactFinder(const Model<Dim>& model) : model_(model) {
     found_.surface.assign(model.bodies.size(), 0);
+    for (const Body<Dim>& body : model.bodies)
+      fixed_.push_back(body.fixed);
     const FacePlanes<Dim> planes = planes_of(model);
     for (const FacePlane<Dim>& plane : planes.list)
       planes_.push_back({plane, frame_along(plane), {}, {}});
@@ -146,7 +149,7 @@ class ContactFinder {
                    [&](const FlatFaces::Face& a, const FlatFaces::Face& b, const FlatOverlap& overlap) {
                      if (a.body == b.body)
                        found_.surface[a.body] -= 2 * sides.frame.unit_area() * overlap.area;
-                     else if (!model_.bodies[a.body].fixed || !model_.bodies[b.body].fixed)
+                     else if (!fixed_[a.body] || !fixed_[b.body])
                        add(a, b, overlap, sides);
                    });
   }
@@ -181,7 +184,7 @@ class ContactFinder {
     FlatFaces& side = part.faces[id.face].normal.dot(sides.plane.plane.normal) > 0 ? sides.below : sides.above;
     for (const int vertex : part.loops[id.face])
       side.add(sides.frame.flat(Vector<Dim>(part.vertices[vertex] + body.reference)));
-    found_.surface[id.body] += sides.frame.unit_area() * side.end_face(id.body, id.part, id.face);
+    found_.surface[id.body] += sides.frame.unit_area() * side.end_face(id.body, id.part, id.face, id.joint);
   }
 
   // along two edges of the first face
@@ -192,19 +195,14 @@ class ContactFinder {
     return {plane.plane.normal, edge, Vector<Dim>(part.vertices[loop.back()] - part.vertices[loop[0]])};
   }
 
-  int joint_of(const FlatFaces::Face& face) const {
-    return model_.bodies[face.body].parts[face.part].joints[face.face];
-  }
-
   void add(const FlatFaces::Face& a, const FlatFaces::Face& b, const FlatOverlap& overlap, const Sides& sides) {
     const FacePlane<Dim>& plane = sides.plane;
     const PlaneFrame<Dim>& frame = sides.frame;
     const double height = plane.plane.offset;
     RockContact<Dim> contact{a.body, b.body, plane.plane.normal};
-    const int joint_a = joint_of(a), joint_b = joint_of(b);
     if (plane.joint == no_joint) contact.normal = model_.bodies[a.body].parts[a.part].faces[a.face].normal;
-    contact.joint = std::max(joint_a, joint_b);
-    contact.one_joint = joint_a == joint_b;
+    contact.joint = std::max(a.joint, b.joint);
+    contact.one_joint = a.joint == b.joint;
     contact.properties =
         contact.joint == no_joint ? model_.default_properties : model_.joints[contact.joint].properties;
     contact.area = frame.unit_area() * overlap.area;
@@ -219,6 +217,7 @@ class ContactFinder {
   const Model<Dim>& model_;
   RockContacts<Dim> found_;
   std::vector<Sides> planes_;
+  std::vector<char> fixed_;  // by body: near each other in memory, as the bodies are not
 };
 
 }  // namespace

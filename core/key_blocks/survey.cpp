@@ -10,8 +10,8 @@ constexpr double no_limit = std::numeric_limits<double>::infinity();
 constexpr double clearly_lower = 1 - 1e-9;  // of a factor: a smaller difference is rounding
 
 template <int Dim>
-bool is_free(const Model<Dim>& model, int body) {
-  return model.bodies[body].present && !model.bodies[body].fixed && !model.bodies[body].parts.empty();
+bool is_enclosed(const BoltedVerdict<Dim>& verdict) {
+  return verdict.verdict.kind == BlockKind::enclosed;
 }
 
 // the other body of each contact of a body, free ones, ascending
@@ -21,7 +21,7 @@ std::vector<int> free_neighbours(const Assembly<Dim>& assembly, int body) {
   for (const int place : assembly.contacts.of(body)) {
     const RockContact<Dim>& contact = assembly.contacts.list[place];
     const int other = contact.body_a == body ? contact.body_b : contact.body_a;
-    if (is_free(assembly.model, other)) neighbours.push_back(other);
+    if (assembly.free[other]) neighbours.push_back(other);
   }
   std::sort(neighbours.begin(), neighbours.end());
   neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
@@ -87,7 +87,7 @@ std::vector<BoltedVerdict<Dim>> judge_all(const Assembly<Dim>& assembly, const F
   Judge<Dim> judged(assembly, more);
   std::vector<BoltedVerdict<Dim>> verdicts(assembly.model.bodies.size());
   for (int b = 0; b < static_cast<int>(verdicts.size()); ++b)
-    if (is_free(assembly.model, b)) verdicts[b] = judged(std::array{b});
+    if (assembly.free[b]) verdicts[b] = judged(std::array{b});
   return verdicts;
 }
 
@@ -98,10 +98,11 @@ ClusterSearch<Dim> find_clusters(const Assembly<Dim>& assembly, const std::vecto
   Judge<Dim> judged(assembly, more);
   std::vector<std::vector<int>> lower;
   for (int a = 0; a < static_cast<int>(single.size()); ++a) {
-    if (!is_free(assembly.model, a)) continue;
+    if (!assembly.free[a]) continue;
     for (const int b : free_neighbours(assembly, a)) {
       if (b < a) continue;
       ++search.pairs;
+      if (is_enclosed(single[a]) && is_enclosed(single[b])) continue;  // so are both as one
       const double pair = judged.factor(std::array{a, b});
       if (pair == no_limit) continue;
       ++search.moving_pairs;
@@ -123,14 +124,14 @@ ClusterSearch<Dim> find_clusters(const Assembly<Dim>& assembly, const std::vecto
 template <int Dim>
 SuccessiveFailure fail_in_rounds(const Assembly<Dim>& assembly, FailureRule rule, double factor,
                                  const FurtherLoad<Dim>& more) {
-  const Model<Dim>& model = assembly.model;
+  const std::size_t bodies = assembly.free.size();
   const double bound = rule == FailureRule::moves ? no_limit : factor;
   SuccessiveFailure failure;
-  failure.round_of.assign(model.bodies.size(), 0);
-  std::vector<char> gone(model.bodies.size(), 0);
+  failure.round_of.assign(bodies, 0);
+  std::vector<char> gone(bodies, 0);
   std::vector<int> waiting;
-  for (int b = 0; b < static_cast<int>(model.bodies.size()); ++b)
-    if (is_free(model, b)) waiting.push_back(b);
+  for (int b = 0; b < static_cast<int>(bodies); ++b)
+    if (assembly.free[b]) waiting.push_back(b);
   Judge<Dim> judged(assembly, more);
   while (true) {
     std::vector<int> failed;
@@ -142,7 +143,7 @@ SuccessiveFailure fail_in_rounds(const Assembly<Dim>& assembly, FailureRule rule
     for (const int body : failed) {
       gone[body] = 1;
       failure.round_of[body] = static_cast<int>(failure.rounds.size()) + 1;
-      removed += volume(model.bodies[body]);
+      removed += assembly.volumes[body];
     }
     for (const int body : failed)
       for (const int other : free_neighbours(assembly, body))

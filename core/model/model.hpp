@@ -184,4 +184,7 @@ void load_boundary(Model<Dim>& model, int body, const DepthStress<Dim>& stress);
 template <int Dim>
 Model<Dim> apply(Model<Dim> model, const Change& change);
 
+// The part of this that needs no model.
+void set_friction(const Change& change, std::vector<JointProperties>& properties);
+
 }  // namespace voussoir

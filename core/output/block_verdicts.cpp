@@ -85,6 +85,7 @@ std::string csv_row(const Survey<Dim>& survey, const SurveyRow<Dim>& row) {
   add(csv_cell(row.critical_coefficient));
   add(csv_cell(row.critical_own_trend));
   add(csv_cell(row.critical_water));
+  add(csv_cell(row.critical_level));
   add(degrees(row.opening));
   add(row.opening ? csv_cell(survey.joint_name(row.faces[row.opening_face])) : "");
   add(csv_cell(fmt::format("{}", fmt::join(closed, ";"))));
@@ -105,7 +106,7 @@ std::string csv_header() {
       "body,name,cluster,blocks,parts,{},verdict,type,motion,faces,joints,plunge_deg,trend_deg,{},"
       "normal_force_N,driving_N,resisting_N,factor,factor_friction_only,factor_passive,bolts,required,force_N,"
       "force_plunge_deg,force_trend_deg,force_is_least,bolt_force_N,worst_trend_deg,factor_worst,factor_own_trend,"
-      "critical_coefficient,critical_coefficient_own_trend,critical_water,opening_deg,opening_joint,"
+      "critical_coefficient,critical_coefficient_own_trend,critical_water,critical_level_m,opening_deg,opening_joint,"
       "closed_by_elastic_shear,pressure_eccentricity,taper_deg,round_below_1,round_moves,indeterminate\n",
       sizes, directions);
 }

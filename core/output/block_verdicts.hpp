@@ -31,7 +31,8 @@ template <int Dim>
 PolyData block_verdict_faces(const Survey<Dim>& survey);
 
 // Outlines in plan of the key blocks and clusters (factor below the required one) as a map, in the scene's coordinates.
-std::string key_blocks_geojson(const Survey<3>& survey);
+// `faces`: block_verdict_faces.
+std::string key_blocks_geojson(const Survey<3>& survey, const PolyData& faces);
 
 // the normal force on each face, zero for unloaded ones, N
 template <int Dim>

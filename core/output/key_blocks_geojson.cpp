@@ -52,8 +52,7 @@ Json feature_of(const Survey<3>& survey, const SurveyRow<3>& row, std::vector<Pl
 
 }  // namespace
 
-std::string key_blocks_geojson(const Survey<3>& survey) {
-  const PolyData faces = block_verdict_faces(survey);
+std::string key_blocks_geojson(const Survey<3>& survey, const PolyData& faces) {
   const auto body = std::ranges::find(faces.cell_data, "body", &DataArray::name);
   std::vector<std::vector<PlanPoint>> corners(survey.assembly.model.bodies.size());
   for (std::size_t c = 0; c < faces.cells.size(); ++c)

@@ -106,6 +106,14 @@ void load_boundary(Model<Dim>& model, int body, const DepthStress<Dim>& stress) 
   model.boundary.insert(after, std::move(loaded));
 }
 
+void set_friction(const Change& change, std::vector<JointProperties>& properties) {
+  for (JointProperties& p : properties) {
+    if (change.friction) p.friction = *change.friction;
+    for (const FrictionPlan& plan : change.friction_of)
+      if (plan.properties == p.name) p.friction = plan.friction;
+  }
+}
+
 template <int Dim>
 Model<Dim> apply(Model<Dim> model, const Change& change) {
   end_prescribed(model);
@@ -126,11 +134,7 @@ Model<Dim> apply(Model<Dim> model, const Change& change) {
     for (int b : select(model, plan.bodies))
       load_boundary(model, b, depth_stress_of<Dim>(plan, model.origin[Dim - 1]));
   apply_forces(model, change.force);
-  for (JointProperties& p : model.properties) {
-    if (change.friction) p.friction = *change.friction;
-    for (const FrictionPlan& plan : change.friction_of)
-      if (plan.properties == p.name) p.friction = plan.friction;
-  }
+  set_friction(change, model.properties);
   for (const StageSupport<Dim>& row : stage_supports<Dim>)
     if (row.add_bodies) row.add_bodies(model, change.install);
   for (const MovePlan& plan : change.move)
