@@ -1,8 +1,10 @@
-// Hoek & Bray's wedge by distinct elements: two joints share a cohesion that slip keeps, softens or takes.
+// Hoek & Bray's wedge by distinct elements: two joints share a cohesion that slip keeps, softens or takes. The closed
+// form by which `check` and the sentence of a search tell what brittle bonds give, against the reference's.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "cases/case_tools.hpp"
+#include "cases/judged_scene.hpp"
+#include "core/run/brittle_factor.hpp"
 #include "reference/key_blocks/shared_cohesion.hpp"
 #include "reference/key_blocks/slope_wedge.hpp"
 #include "text/angle.hpp"
@@ -36,7 +38,7 @@ struct Law {
   double slip = 0;  // m, of softening
 };
 
-SceneRun run_wedge(double ratio, const Law& law) {
+std::vector<std::string> overrides_of(double ratio, const Law& law) {
   // the crack has a hundred thousandth of the joints' stiffnesses
   std::vector<std::string> sets{
       fmt::format("joint_properties.crack.shear_stiffness={:g}", 1e-5 * ratio * normal_stiffness)};
@@ -48,7 +50,11 @@ SceneRun run_wedge(double ratio, const Law& law) {
   }
   // what softens is left to relaxation, and its failure is a displacement
   if (law.slip > 0) sets.push_back("stage.safety.failure_displacement=0.02");
-  return run("hoek_and_bray.toml", sets);
+  return sets;
+}
+
+SceneRun run_wedge(double ratio, const Law& law) {
+  return run("hoek_and_bray.toml", overrides_of(ratio, law));
 }
 
 double judge(CaseReport& report, double ratio, const Law& law, double expected, double tolerance,
@@ -113,6 +119,32 @@ TEST(SharedCohesion, BrittleCohesionDependsOnStiffness) {
     plastic.push_back(solve_wedge(block.wedge).factor_of_safety);
   }
   write_csv("key_blocks", "cohesion_form.csv", {"ratio", "brittle", "plastic"}, {ratios, brittle, plastic});
+}
+
+// of the program, which judges the wedge's faces as it sliced them
+TEST(SharedCohesion, TheProgramsClosedFormIsTheReferences) {
+  CaseReport report("key_blocks", {"closed form of brittle bonds, largest difference"});
+  double largest = 0;
+  for (const double ratio : {1.0, 0.5, 0.1, 0.01, 1e-3, 1e-4}) {
+    const Survey<3> survey = judged("hoek_and_bray.toml", overrides_of(ratio, {"brittle"}));
+    const SurveyRow<3>& row = only_block(survey);
+    Block<3> block;
+    gather<3>(survey.assembly, row.bodies, {}, block);
+    std::vector<int> all;
+    for (int p = 0; p < static_cast<int>(survey.assembly.model.properties.size()); ++p)
+      all.push_back(p);
+    const std::optional<double> found = brittle_factor(survey.assembly, block, row.bolted, all);
+    const double expected = brittle_factor(elastic_wedge(), ratio);
+    largest = std::max(largest, std::abs(found.value_or(0) / expected - 1));
+  }
+  report.record({"closed form of brittle bonds, largest difference",
+                 "1",
+                 Kind::exact,
+                 "closed form, reference/key_blocks/shared_cohesion",
+                 0,
+                 {1e-9, 0, verification::Bound::at_most},
+                 "rounding: 1e-16 of coordinates up to 200 m, which areas of a few m2 magnify"},
+                largest);
 }
 
 TEST(SharedCohesion, SofteningCohesionHasItsPeak) {
