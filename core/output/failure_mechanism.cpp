@@ -85,10 +85,14 @@ std::string on_joints(const MovingCluster& c) {
 
 std::string opening_joints(const MovingCluster& c) {
   std::vector<std::string> names;
+  bool several = false;
   for (const MovingJoint& joint : c.joints)
-    if (joint.opens && !joint.carries) names.push_back(joint_text(joint));
+    if (joint.opens && !joint.carries) {
+      several = !names.empty() || joint.joint.empty();  // faces that no joint made
+      names.push_back(joint_text(joint));
+    }
   if (names.empty()) return "";
-  return fmt::format("; {} open{}", list_of(names, most_joints_in_sentence), names.size() == 1 ? "s" : "");
+  return fmt::format("; {} open{}", list_of(names, most_joints_in_sentence), several ? "" : "s");
 }
 
 // how a cluster moves, after its verb
