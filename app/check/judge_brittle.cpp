@@ -50,6 +50,7 @@ std::optional<LeastBrittle> least_brittle(const Assembly<Dim>& assembly, const R
 
 template <int Dim>
 void judge_brittle_bonds(const Prepared<Dim>& prepared, std::vector<std::string>& warnings) {
+  if (!any_brittle(prepared.model)) return;
   for (std::size_t s = 0; s < prepared.stages.size(); ++s) {
     const auto* search = std::get_if<ReducePlan>(&prepared.stages[s].plan);
     if (!search || search->searched != Searched::factor) continue;
@@ -58,7 +59,7 @@ void judge_brittle_bonds(const Prepared<Dim>& prepared, std::vector<std::string>
       refuse_other_models(prepared.model);
       const Assembly<Dim> assembly = assembly_of_stage(prepared, static_cast<int>(s));
       refuse_other_models(assembly.model);
-      if (any_brittle(assembly.model)) least = least_brittle(assembly, *search);
+      least = least_brittle(assembly, *search);
     } catch (const BadInput&) {  // block theory has no verdict on this scene
     }
     if (!least) continue;
