@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "app/check/judge_blocks.hpp"
+#include "app/check/judge_brittle.hpp"
 #include "app/check/judge_contacts.hpp"
 #include "app/check/judge_loads.hpp"
 #include "app/check/judge_stages.hpp"
@@ -34,6 +35,7 @@ void judge(const Prepared<Dim>& prepared, const Model<Dim>& model, const State<D
   judge_stated_step(settings.time, forecast.step_limit, warnings);
   judge_intervals(prepared.stages, prepared.output, warnings);
   judge_durations(prepared, model, forecast, warnings);
+  judge_brittle_bonds(prepared, warnings);
 }
 
 template <int Dim>

@@ -24,6 +24,19 @@ class Check : public CheckedScene {
   }
 };
 
+// Hoek & Bray's wedge: the closed form's least value at the stiffnesses of the scene
+TEST_F(Check, GivesTheClosedFormOfBrittleBonds) {
+  const std::string scene = "check " + quoted("cases/key_blocks/hoek_and_bray.toml");
+  const std::string brittle =
+      " --set 'joint_properties.A.cohesion_law=\"brittle\"' --set "
+      "'joint_properties.B.cohesion_law=\"brittle\"'";
+  const std::string part =
+      "has the least factor by the closed form at this shear_stiffness / normal_stiffness, 1.434 "
+      "(1.736 if plastic, 1.107 by friction only)";
+  EXPECT_NE(run(scene + brittle).out.find(part), std::string::npos) << run(scene + brittle).out;
+  EXPECT_EQ(run(scene).out.find("by the closed form"), std::string::npos);
+}
+
 // ---- what is active -----------------------------------------------------------------------------------------------
 
 TEST_F(Check, PrintsMotionsAndLoadsThatAStagePrescribes) {

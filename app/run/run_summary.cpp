@@ -94,10 +94,13 @@ void print_values(const std::vector<std::pair<std::string, Value>>& values, cons
     fmt::print("  (±: numerical error; it says nothing of strengths, geometry or water)\n");
 }
 
-void print_stages(const std::vector<StageResult>& stages, const std::vector<StableState>& stable_states) {
-  for (const StageResult& stage : stages) {
+void print_stages(const Results& results) {
+  for (const StageResult& stage : results.stages) {
     fmt::print("  stage {}: {} after {} steps, {:.4g} s simulated\n", stage.name, stage.ended, stage.steps, stage.time);
-    for (const StableState& at : stable_states) {
+    // that of an incomplete stage ends the message
+    if (const std::string sentence = sentence_of(stage.mechanism); !results.message.ends_with(sentence))
+      fmt::print("      {}\n", sentence);
+    for (const StableState& at : results.at_last_stable_state) {
       if (at.stage != stage.name) continue;
       if (at.bonds) fmt::print("      {}: {}\n", moment_text(at), bonds_text(*at.bonds));
       for (const std::string& line : search_text(at))
@@ -139,7 +142,7 @@ void print_summary(const std::string& title, const Results& results, const std::
   const std::string message = results.message.empty() ? "" : ": " + results.message;
   fmt::print("{}{}{}\n", title.empty() ? "" : title + " - ", outcome_name(results.outcome), message);
   print_values(results.values, per_metre);
-  print_stages(results.stages, results.at_last_stable_state);
+  print_stages(results);
   if (const auto& bonds = results.bonds)
     fmt::print(
         "  bonds: {} made, {} whole, {} broken, {} removed with their blocks; {} joints not yet in compression\n",

@@ -1,8 +1,12 @@
-// Hoek & Bray's wedge by distinct elements: two joints share a cohesion that slip keeps, softens or takes.
+// Hoek & Bray's wedge by distinct elements: two joints share a cohesion that slip keeps, softens or takes. The closed
+// form by which `check` and the sentence of a search tell what brittle bonds give, against the reference's.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "cases/case_tools.hpp"
+#include <numeric>
+
+#include "cases/judged_scene.hpp"
+#include "core/run/brittle_factor.hpp"
 #include "reference/key_blocks/shared_cohesion.hpp"
 #include "reference/key_blocks/slope_wedge.hpp"
 #include "text/angle.hpp"
@@ -36,7 +40,7 @@ struct Law {
   double slip = 0;  // m, of softening
 };
 
-SceneRun run_wedge(double ratio, const Law& law) {
+std::vector<std::string> overrides_of(double ratio, const Law& law) {
   // the crack has a hundred thousandth of the joints' stiffnesses
   std::vector<std::string> sets{
       fmt::format("joint_properties.crack.shear_stiffness={:g}", 1e-5 * ratio * normal_stiffness)};
@@ -48,7 +52,11 @@ SceneRun run_wedge(double ratio, const Law& law) {
   }
   // what softens is left to relaxation, and its failure is a displacement
   if (law.slip > 0) sets.push_back("stage.safety.failure_displacement=0.02");
-  return run("hoek_and_bray.toml", sets);
+  return sets;
+}
+
+SceneRun run_wedge(double ratio, const Law& law) {
+  return run("hoek_and_bray.toml", overrides_of(ratio, law));
 }
 
 double judge(CaseReport& report, double ratio, const Law& law, double expected, double tolerance,
@@ -113,6 +121,28 @@ TEST(SharedCohesion, BrittleCohesionDependsOnStiffness) {
     plastic.push_back(solve_wedge(block.wedge).factor_of_safety);
   }
   write_csv("key_blocks", "cohesion_form.csv", {"ratio", "brittle", "plastic"}, {ratios, brittle, plastic});
+}
+
+// Of the program, which judges the wedge's faces as it sliced them; at ks/kn = 1 elastic shear would close the crack,
+// and it gives none.
+TEST(SharedCohesion, TheProgramsClosedFormIsTheReferences) {
+  CaseReport report("key_blocks");
+  for (const double ratio : {0.1, 0.01, 1e-4}) {
+    const Survey<3> survey = judged("hoek_and_bray.toml", overrides_of(ratio, {"brittle"}));
+    const SurveyRow<3>& row = only_block(survey);
+    Block<3> block;
+    gather<3>(survey.assembly, row.bodies, {}, block);
+    std::vector<int> all(survey.assembly.model.properties.size());
+    std::iota(all.begin(), all.end(), 0);
+    report.record({fmt::format("closed form of brittle bonds by the program, ks/kn = {:g}", ratio),
+                   "1",
+                   Kind::exact,
+                   "closed form, reference/key_blocks/shared_cohesion",
+                   brittle_factor(elastic_wedge(), ratio),
+                   {0, 1e-9},
+                   "rounding: 1e-16 of coordinates up to 200 m, which areas of a few m2 magnify"},
+                  brittle_factor(survey.assembly, block, row.bolted, all).value_or(0));
+  }
 }
 
 TEST(SharedCohesion, SofteningCohesionHasItsPeak) {

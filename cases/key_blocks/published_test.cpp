@@ -322,9 +322,10 @@ TEST(PublishedSlopes, PlaneFailureWithATensionCrack) {
     const std::string table =
         water == 0 ? "[[0, -90], [1, -90]]" : fmt::format("[[0, 0], [{:.17g}, {:.17g}]]", back, high);
     const Survey<2> survey = judged<2>(
-        "../water/slope.toml", {"domain.box.max=[28, 12]", fmt::format("joints.crack.point=[{:.17g}, 0]", back),
-                                "water.crack and joint.table=" + table, "joint_properties.joint.friction_deg=37",
-                                "joint_properties.joint.cohesion=25e3", "joint_properties.crack.friction_deg=0"});
+        "../water/slope.toml",
+        {"domain.box.max=[28, 12]", fmt::format("joints.crack.point=[{:.17g}, 0]", back),
+         "water.crack and joint.table=" + table, "joint_properties.joint.friction_deg=37",
+         "joint_properties.joint.cohesion=25e3", "joint_properties.crack.friction_deg=0", "stage.settle.bond=true"});
     const double found = *only_block(survey).bolted.factor;
     report.record({fmt::format("plane failure, {:g} m of water: factor", water),
                    "1",

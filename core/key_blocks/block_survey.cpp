@@ -84,6 +84,12 @@ std::vector<std::string> notes_on(const Prepared<Dim>& prepared, const Model<Dim
     notes.push_back(
         "in-situ stress is not counted: roof and wall blocks are judged as if the rock around were unstressed");
   if (!model.linings.empty()) notes.push_back("linings are not counted");
+  for (std::size_t p = 0; p < model.properties.size(); ++p)
+    if (model.properties[p].cohesion < prepared.model.properties[p].cohesion)
+      notes.push_back(fmt::format(
+          "the cohesion of '{}' is not counted: its bonds are made by a stage (bond = true), and none up to "
+          "this one makes them; a run would not have it either",
+          model.properties[p].name));
   bool several = false, restrained = false, softens = false, fixed = false;
   for (const Body<Dim>& body : model.bodies) {
     if (!body.present) continue;
@@ -132,6 +138,14 @@ std::vector<JointProperties> properties_at(const Prepared<Dim>& prepared, int st
   return properties;
 }
 
+// Until a stage bonds, a cohesion that only a stage bonds does not act, as in a run.
+void leave_out_unbonded(const std::vector<StagePlan>& stages, int last, std::vector<JointProperties>& properties) {
+  const auto bonds = [](const StagePlan& stage) { return stage.change.bond; };
+  if (std::any_of(stages.begin(), stages.begin() + last + 1, bonds)) return;
+  for (JointProperties& joint : properties)
+    if (joint.bonds == BondsMade::by_stage) joint.cohesion = 0;
+}
+
 template <int Dim>
 Assembly<Dim> assembly_at(const Prepared<Dim>& prepared, const Stages& stages) {
   Model<Dim> model = prepared.model;
@@ -155,6 +169,7 @@ Assembly<Dim> assembly_at(const Prepared<Dim>& prepared, const Stages& stages) {
     }
     model = apply(std::move(model), change);
   }
+  leave_out_unbonded(prepared.stages, stages.loads, model.properties);
   std::vector<bool> bolts;
   for (const Bolt<Dim>& bolt : model.bolts)
     bolts.push_back(installed.contains(model.bolt_properties[bolt.properties].name));

@@ -16,8 +16,8 @@ bool carries(const Verdict<Dim>& verdict, int face) {
 }  // namespace
 
 template <int Dim>
-std::vector<int> closed_by_elastic_shear(const Assembly<Dim>& assembly, const Block<Dim>& block,
-                                         const BoltedVerdict<Dim>& bolted) {
+std::optional<Vector<Dim>> elastic_displacement(const Assembly<Dim>& assembly, const Block<Dim>& block,
+                                                const BoltedVerdict<Dim>& bolted) {
   const Verdict<Dim>& verdict = bolted.verdict;
   if (verdict.kind != BlockKind::slides) return {};
   Matrix<Dim> stiffness = Matrix<Dim>::Zero();
@@ -29,10 +29,18 @@ std::vector<int> closed_by_elastic_shear(const Assembly<Dim>& assembly, const Bl
     stiffness += face.area * (joint.normal_stiffness * along_normal +
                               joint.shear_stiffness * (Matrix<Dim>::Identity() - along_normal));
   }
-  const Vector<Dim> displacement = stiffness.inverse() * bolted.load;
+  return Vector<Dim>(stiffness.inverse() * bolted.load);
+}
+
+template <int Dim>
+std::vector<int> closed_by_elastic_shear(const Assembly<Dim>& assembly, const Block<Dim>& block,
+                                         const BoltedVerdict<Dim>& bolted) {
   std::vector<int> closed;
+  const std::optional<Vector<Dim>> displacement = elastic_displacement(assembly, block, bolted);
+  if (!displacement) return closed;
   for (int f = 0; f < static_cast<int>(block.faces.size()); ++f)
-    if (!carries(verdict, f) && block.faces[f].normal.dot(displacement) < -closing_tolerance * displacement.norm())
+    if (!carries(bolted.verdict, f) &&
+        block.faces[f].normal.dot(*displacement) < -closing_tolerance * displacement->norm())
       closed.push_back(f);
   return closed;
 }
@@ -50,6 +58,8 @@ Opening opening_angle(const Block<Dim>& block, const Verdict<Dim>& verdict) {
   return least;
 }
 
+template std::optional<Vector<2>> elastic_displacement<2>(const Assembly<2>&, const Block<2>&, const BoltedVerdict<2>&);
+template std::optional<Vector<3>> elastic_displacement<3>(const Assembly<3>&, const Block<3>&, const BoltedVerdict<3>&);
 template std::vector<int> closed_by_elastic_shear<2>(const Assembly<2>&, const Block<2>&, const BoltedVerdict<2>&);
 template std::vector<int> closed_by_elastic_shear<3>(const Assembly<3>&, const Block<3>&, const BoltedVerdict<3>&);
 template Opening opening_angle<2>(const Block<2>&, const Verdict<2>&);

@@ -1,14 +1,20 @@
 // Unloaded faces that the elastic shear of the loaded ones closes: a run then differs from limit equilibrium.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/key_blocks/verdict.hpp"
 
 namespace voussoir {
 
-// Faces of Block::faces, ascending, into which a sliding block moves by the elastic displacement d of its loaded faces,
-// Σ A_i [kn n nᵀ + ks (I - n nᵀ)] d = load. Empty if a loaded face's stiffness is not constant per area.
+// m, of a sliding block on its loaded faces: d of Σ A_i [kn n nᵀ + ks (I - n nᵀ)] d = load. Nothing if it does not
+// slide, or a loaded face's stiffness is not constant per area.
+template <int Dim>
+std::optional<Vector<Dim>> elastic_displacement(const Assembly<Dim>& assembly, const Block<Dim>& block,
+                                                const BoltedVerdict<Dim>& bolted);
+
+// Faces of Block::faces, ascending, into which a sliding block moves by that displacement; empty without it.
 template <int Dim>
 std::vector<int> closed_by_elastic_shear(const Assembly<Dim>& assembly, const Block<Dim>& block,
                                          const BoltedVerdict<Dim>& bolted);

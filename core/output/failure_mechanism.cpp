@@ -85,10 +85,14 @@ std::string on_joints(const MovingCluster& c) {
 
 std::string opening_joints(const MovingCluster& c) {
   std::vector<std::string> names;
+  bool several = false;
   for (const MovingJoint& joint : c.joints)
-    if (joint.opens && !joint.carries) names.push_back(joint_text(joint));
+    if (joint.opens && !joint.carries) {
+      several = !names.empty() || joint.joint.empty();  // faces that no joint made
+      names.push_back(joint_text(joint));
+    }
   if (names.empty()) return "";
-  return fmt::format("; {} open{}", list_of(names, most_joints_in_sentence), names.size() == 1 ? "s" : "");
+  return fmt::format("; {} open{}", list_of(names, most_joints_in_sentence), several ? "" : "s");
 }
 
 // how a cluster moves, after its verb
@@ -145,6 +149,16 @@ std::vector<std::string> clauses_of(const std::vector<const MovingCluster*>& clu
   return clauses;
 }
 
+// "no bond is broken, 2 have slipped, 1 is whole"
+std::string bonds_clause(const BondsOfMotion& bonds) {
+  std::string text = bonds.broken == 0   ? "no bond is broken"
+                     : bonds.broken == 1 ? "1 bond is broken"
+                                         : fmt::format("{} bonds are broken", bonds.broken);
+  if (bonds.slipped > 0) text += fmt::format(", {} {} slipped", bonds.slipped, bonds.slipped == 1 ? "has" : "have");
+  if (bonds.whole > 0) text += fmt::format(", {} {} whole", bonds.whole, bonds.whole == 1 ? "is" : "are");
+  return text;
+}
+
 }  // namespace
 
 const char* word_of(FailureMotion motion) {
@@ -172,10 +186,7 @@ std::string sentence_of(const FailureMechanism& mechanism) {
       clauses.push_back(std::move(clause));
   }
   if (clauses.empty()) return "";
-  if (mechanism.bonds_broken)
-    clauses.push_back(*mechanism.bonds_broken == 0   ? "no bond is broken"
-                      : *mechanism.bonds_broken == 1 ? "1 bond is broken"
-                                                     : fmt::format("{} bonds are broken", *mechanism.bonds_broken));
+  if (mechanism.bonds) clauses.push_back(bonds_clause(*mechanism.bonds));
   return fmt::format("{}", fmt::join(clauses, "; "));
 }
 

@@ -41,11 +41,16 @@ struct MovingCluster {
   std::vector<MovingJoint> joints{};  // the largest force first
 };
 
+// bonds that a motion has broken, and those at its end that have slipped or are whole
+struct BondsOfMotion {
+  long long broken = 0, slipped = 0, whole = 0;
+};
+
 struct FailureMechanism {
   int dimension = 3;
-  std::vector<MovingCluster> clusters;      // the heaviest first; empty: not known
-  double free_share = 0;                    // of the mass of all free blocks
-  std::optional<long long> bonds_broken{};  // by the motion, if there were any
+  std::vector<MovingCluster> clusters;   // the heaviest first; empty: not known
+  double free_share = 0;                 // of the mass of all free blocks
+  std::optional<BondsOfMotion> bonds{};  // if there were any
 
   bool known() const { return !clusters.empty(); }
   std::vector<int> bodies() const;  // of all clusters, ascending

@@ -63,6 +63,8 @@ struct StageResult {
   // the equilibrium measure of the state at its end, which after a search is the last stable one; infinite if there is
   // no contact force as a reference, negative if equilibrium was not sought
   double unbalanced = 0;
+  // of a stage that settles or runs: its motion, if it has found no equilibrium or has ended away from its begin
+  FailureMechanism mechanism = {};
 };
 
 // Bonds of a joint, or of a set of joints.
@@ -105,8 +107,10 @@ struct FollowedTrial {
 
 // What block theory says of the blocks that a search found to move (core/key_blocks).
 struct BlockTheory {
-  std::string kind;                          // "slides", "stable", …
-  std::optional<double> critical;            // factor or friction angle, in the unit of the search's level
+  std::string kind;                // "slides", "stable", …
+  std::optional<double> critical;  // factor or friction angle, in the unit of the search's level
+  // of a factor with cohesion, which `critical` counts as plastic: friction only; if slip takes it at once
+  std::optional<double> friction_only{}, brittle{};
   std::vector<std::string> joints;           // that carry
   double required = 0;                       // factor of safety of the force below
   std::optional<double> force{};             // N: the least that gives it

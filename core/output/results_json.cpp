@@ -71,23 +71,6 @@ void add_unbalanced(Json& entry, double unbalanced, NumberWriter& number, const 
   if (not_sought) entry["unbalanced_note"] = "equilibrium was not sought";
 }
 
-Json stages_json(const Results& results, NumberWriter& number) {
-  Json stages = Json::array();
-  for (const StageResult& stage : results.stages) {
-    const std::string prefix = "stage " + stage.name + ".";
-    Json& entry = stages.emplace_back();
-    entry = {{"name", stage.name},
-             {"kind", stage.kind},
-             {"ended", stage.ended},
-             {"relaxed", stage.relaxed},
-             {"steps", stage.steps},
-             {"time_s", number(stage.time, prefix + "time_s")},
-             {"time_step_s", number(stage.time_step, prefix + "time_step_s")}};
-    add_unbalanced(entry, stage.unbalanced, number, prefix + "unbalanced");
-  }
-  return stages;
-}
-
 Json counters_json(const Counters& counters) {
   Json json;
   for (const CounterRow& row : counter_table)
@@ -154,11 +137,30 @@ Json cluster_json(const MovingCluster& cluster, NumberWriter& number) {
 Json mechanism_json(const FailureMechanism& mechanism, NumberWriter& number) {
   Json entry = {{"sentence", sentence_of(mechanism)},
                 {"free_mass_share", number(mechanism.free_share, "free_mass_share of a mechanism")}};
-  if (mechanism.bonds_broken) entry["bonds_broken"] = *mechanism.bonds_broken;
+  if (const auto& bonds = mechanism.bonds)
+    entry["bonds"] = {{"broken", bonds->broken}, {"slipped", bonds->slipped}, {"whole", bonds->whole}};
   entry["clusters"] = Json::array();
   for (const MovingCluster& cluster : mechanism.clusters)
     entry["clusters"].push_back(cluster_json(cluster, number));
   return entry;
+}
+
+Json stages_json(const Results& results, NumberWriter& number) {
+  Json stages = Json::array();
+  for (const StageResult& stage : results.stages) {
+    const std::string prefix = "stage " + stage.name + ".";
+    Json& entry = stages.emplace_back();
+    entry = {{"name", stage.name},
+             {"kind", stage.kind},
+             {"ended", stage.ended},
+             {"relaxed", stage.relaxed},
+             {"steps", stage.steps},
+             {"time_s", number(stage.time, prefix + "time_s")},
+             {"time_step_s", number(stage.time_step, prefix + "time_step_s")}};
+    add_unbalanced(entry, stage.unbalanced, number, prefix + "unbalanced");
+    if (stage.mechanism.known()) entry["mechanism"] = mechanism_json(stage.mechanism, number);
+  }
+  return stages;
 }
 
 Json trial_json(const TrialRow& trial, NumberWriter& number) {
@@ -178,6 +180,8 @@ Json trial_json(const TrialRow& trial, NumberWriter& number) {
 Json block_theory_json(const BlockTheory& theory, NumberWriter& number) {
   Json entry = {{"verdict", theory.kind}};
   add_number(entry, "critical", theory.critical, number);
+  add_number(entry, "friction_only", theory.friction_only, number);
+  add_number(entry, "brittle", theory.brittle, number);
   entry["joints"] = theory.joints;
   if (theory.force)
     entry["force"] = {{"required", theory.required},

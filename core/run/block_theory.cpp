@@ -11,6 +11,7 @@
 #include "core/key_blocks/block_survey.hpp"
 #include "core/key_blocks/elastic_shear.hpp"
 #include "core/key_blocks/pressure_eccentricity.hpp"
+#include "core/run/brittle_factor.hpp"
 #include "core/run/failure_watch.hpp"
 #include "text/angle.hpp"
 
@@ -61,6 +62,13 @@ const Value* value_of_search(const Results& results, const std::string& stage, S
 }
 
 template <int Dim>
+bool slip_takes_cohesion(const JudgedSet<Dim>& set) {
+  return std::ranges::any_of(set.block.faces, [&](const RockFace<Dim>& face) {
+    return face.cohesion > 0 && set.assembly.model.properties[face.properties].cohesion_law != CohesionLaw::plastic;
+  });
+}
+
+template <int Dim>
 std::string name_of_face(const JudgedSet<Dim>& set, int face) {
   const int joint = set.block.faces[face].joint;
   return joint == no_joint ? "a face that no joint made" : set.assembly.model.joints[joint].name;
@@ -95,11 +103,6 @@ std::optional<BlockTheory> judge_moving(const Prepared<Dim>& prepared, int place
   }
   const Vector<Dim>& gravity = set.assembly.model.gravity;
   gather<Dim>(set.assembly, mechanism.bodies(), {}, set.block);
-  // bonds of a stage act from that stage on
-  const auto bonds = [](const StagePlan& stage) { return stage.change.bond; };
-  if (std::none_of(prepared.stages.begin(), prepared.stages.begin() + place + 1, bonds))
-    for (RockFace<Dim>& face : set.block.faces)
-      if (set.assembly.model.properties[face.properties].bonds == BondsMade::by_stage) face.cohesion = 0;
   set.bolted = judge_bolted<Dim>(set.block, Vector<Dim>::Zero(), gravity);
   const Verdict<Dim>& verdict = set.bolted.verdict;
   BlockTheory theory;
@@ -108,6 +111,10 @@ std::optional<BlockTheory> judge_moving(const Prepared<Dim>& prepared, int place
     theory.joints.push_back(name_of_face(set, verdict.faces[k]));
   if (moves(verdict.kind) && plan.searched == Searched::factor) {
     theory.critical = set.bolted.factor;
+    if (verdict.cohesion > 0) {
+      if (set.block.bolts.empty()) theory.friction_only = verdict.factor_friction_only();
+      theory.brittle = brittle_factor(set.assembly, set.block, set.bolted, chosen_properties(set.assembly.model, plan));
+    }
     const auto force = least_force(set.block, set.bolted, usual_factor, gravity);
     if (force && force->force.norm() > 0) {
       theory.required = usual_factor;
@@ -118,6 +125,8 @@ std::optional<BlockTheory> judge_moving(const Prepared<Dim>& prepared, int place
     theory.critical = critical_angle(set, chosen_properties(set.assembly.model, plan), gravity);
   }
   theory.reasons = reasons_of(set, mechanism);
+  if (!theory.brittle && slip_takes_cohesion(set))
+    theory.reasons.push_back("it counts cohesion that slip takes as plastic");
   return theory;
 }
 
@@ -134,15 +143,21 @@ void add_block_theory(const Prepared<Dim>& prepared, Results& results) {
     at.block_theory = judge_moving(prepared, place, at.failed->mechanism);
     if (!at.block_theory) continue;
     BlockTheory& theory = *at.block_theory;
-    theory.differs = theory.critical && std::abs(*theory.critical - value->value) > *value->error_bar;
+    const std::optional<double> expected = theory.brittle ? theory.brittle : theory.critical;
+    theory.differs = expected && std::abs(*expected - value->value) > *value->error_bar;
+    if (theory.brittle && value->value > *theory.brittle)
+      theory.reasons.push_back("one joint carries what another loses");
     if (!theory.differs) theory.reasons.clear();
   }
 }
 
 std::string text_of(const BlockTheory& theory, const std::string& unit) {
   std::string text = "block theory: ";
+  if (theory.brittle) text += fmt::format("{:.5g} brittle, ", *theory.brittle);
   if (theory.critical)
-    text += fmt::format("{:.5g}{} for the same blocks", *theory.critical, unit == "1" ? "" : " " + unit);
+    text +=
+        fmt::format("{:.5g}{}{} for the same blocks", *theory.critical, unit == "1" ? "" : " " + unit,
+                    theory.friction_only ? fmt::format(" plastic, {:.5g} friction only,", *theory.friction_only) : "");
   else
     text += fmt::format("{}; it knows the translation of one body only", theory.kind);
   if (theory.force)

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/key_blocks/block_survey.hpp"
+#include "core/run/block_theory.hpp"
 #include "core/testing/whole_runs.hpp"
 
 namespace voussoir::bonds_as_sliced_test {
@@ -108,6 +110,44 @@ TEST(BondsAsSliced, ByStageNothingActsUntilAStageBonds) {
   EXPECT_NEAR(without.find("factor_of_safety")->value, slope.factor(0), 2e-3);
   const Results with = whole_run(scene_of<2>(slope.text(), {"stage.settle.bond=true"})).results;
   EXPECT_NEAR(with.find("factor_of_safety")->value, slope.factor(), 2e-3);
+}
+
+// one rule for `run` and `blocks`
+TEST(BondsAsSliced, BlockTheoryCountsTheCohesionThatActs) {
+  const Slope slope{2, 4, "bonds = \"by_stage\"", "friction_deg = 60\n" + search + "friction_deg = 15\n"};
+  for (const bool bonded : {false, true}) {
+    const std::vector<std::string> sets{bonded ? "stage.settle.bond=true" : "stage.settle.bond=false"};
+    const Survey<2> survey = survey_blocks(scene_of<2>(slope.text(), sets), {});
+    ASSERT_EQ(survey.rows.size(), 1u);
+    EXPECT_NEAR(*survey.rows.front().bolted.factor, slope.factor(bonded ? 20e3 : 0), 1e-9);
+    const auto says = [](const std::string& note) { return note.starts_with("the cohesion of 'rock' is not counted"); };
+    EXPECT_EQ(std::ranges::count_if(survey.notes, says), bonded ? 0 : 1);
+  }
+}
+
+// beside the factor of a search stands the price of its cohesion
+TEST(BondsAsSliced, ASearchStatesTheFactorOfFrictionOnly) {
+  for (const std::string law : {"plastic", "brittle", "softening"}) {
+    const std::string keys =
+        fmt::format("cohesion_law = \"{}\"{}", law, law == "softening" ? "\ncohesion_slip_m = 1e-3" : "");
+    const Slope slope{2, 1, keys, search};
+    const Prepared<2> scene = scene_of<2>(slope.text());
+    Results results = whole_run(scene).results;
+    add_block_theory(scene, results);
+    ASSERT_TRUE(results.at_last_stable_state.back().block_theory);
+    const BlockTheory& theory = *results.at_last_stable_state.back().block_theory;
+    EXPECT_NEAR(theory.friction_only.value_or(0), slope.factor(0), 1e-9);
+    EXPECT_NEAR(theory.critical.value_or(0), slope.factor(), 1e-9);
+    EXPECT_EQ(theory.brittle.has_value(), law == "brittle");
+    if (theory.brittle) {
+      EXPECT_NEAR(*theory.brittle, slope.factor(), 1e-9) << "one joint: that of its peak";
+    }
+    const std::string text = text_of(theory, "1");
+    EXPECT_NE(text.find(fmt::format("{:.5g} plastic, {:.5g} friction only, for the same blocks", slope.factor(),
+                                    slope.factor(0))),
+              std::string::npos)
+        << text;
+  }
 }
 
 TEST(BondsAsSliced, ACheckpointKeepsSlippedBonds) {

@@ -7,7 +7,6 @@
 #include <stdexcept>
 
 #include "core/run/bonds_as_sliced.hpp"
-#include "core/run/find_mechanism.hpp"
 #include "core/run/record.hpp"
 #include "core/run/trial_record.hpp"
 #include "core/step/free_fall.hpp"
@@ -61,16 +60,6 @@ std::optional<StageOutcome> falls_from_begin(const StageInForce<Dim>& stage, con
   return StageOutcome{describe(StopReason::falls_free), std::numeric_limits<double>::infinity()};
 }
 
-// of a stage that sought equilibrium in vain: a sentence; empty if nothing has moved
-template <int Dim>
-std::string what_moves(const StageInForce<Dim>& stage, const Progress<Dim>& progress) {
-  std::vector<Placement<Dim>> placed;
-  note_accepted(stage.model, progress.state, placed);
-  if (progress.settle.placed.size() != placed.size()) return {};
-  return sentence_of(find_mechanism(stage.model, progress.settle.placed, ContactsState<Dim>{}, placed,
-                                    with_forces(stage, progress.state, false).contacts));
-}
-
 template <int Dim>
 std::optional<StageOutcome> run_to(const StageInForce<Dim>& stage, const RunGoal& goal, const GravityPlan& gravity,
                                    StopReason wanted, const Watcher<Dim>& watcher, Progress<Dim>& progress) {
@@ -81,10 +70,14 @@ std::optional<StageOutcome> run_to(const StageInForce<Dim>& stage, const RunGoal
                                record_run(stage, goal.end_time, watcher, progress));
   if (report.reason == StopReason::interrupted) return {};
   judge(stage, report, report.reason == wanted, progress.results);
-  if (goal.rest && report.reason != wanted && progress.results.outcome == Outcome::incomplete)
-    progress.results.message += and_more(what_moves(stage, progress));
   if (report.reason == StopReason::equilibrium) note_stable(stage, progress.state, progress);
   return StageOutcome{describe(report.reason), report.unbalanced};
+}
+
+template <int Dim>
+void note_begin(const StageInForce<Dim>& stage, const State<Dim>& now, Progress<Dim>& progress) {
+  const StagePlan* const before = stage.place > 0 ? &stage.plan() - 1 : nullptr;
+  progress.settle = settle_begin(stage.model, now, before && std::holds_alternative<RunPlan>(before->plan));
 }
 
 template <int Dim>
@@ -92,8 +85,7 @@ std::optional<StageOutcome> execute(const SettlePlan& settle, const StageInForce
                                     const Watcher<Dim>& watcher, Progress<Dim>& progress) {
   if (!progress.run.under_way) {
     const State<Dim> now = with_forces(stage, progress.state, false);
-    const StagePlan* const before = stage.place > 0 ? &stage.plan() - 1 : nullptr;
-    progress.settle = settle_begin(stage.model, now, before && std::holds_alternative<RunPlan>(before->plan));
+    note_begin(stage, now, progress);
     const GravityPlan& gravity = settle.gravity;
     const bool weighs = gravity.to.value_or(gravity.ramp > 0 ? 1 : now.schedule.gravity_factor) != 0;
     if (weighs)
@@ -110,6 +102,7 @@ std::optional<StageOutcome> execute(const SettlePlan& settle, const StageInForce
 template <int Dim>
 std::optional<StageOutcome> execute(const RunPlan& timed, const StageInForce<Dim>& stage, const Watcher<Dim>& watcher,
                                     Progress<Dim>& progress) {
+  if (!progress.run.under_way) note_begin(stage, with_forces(stage, progress.state, false), progress);
   RunGoal goal;
   goal.end_time = progress.stage_began + timed.duration;
   return run_to(stage, goal, timed.gravity, StopReason::end_time, watcher, progress);

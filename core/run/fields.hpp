@@ -131,8 +131,8 @@ void visit_fields(Just<Value> auto& v, auto&& visit) {
 }
 
 void visit_fields(Just<StageResult> auto& s, auto&& visit) {
-  auto& [name, kind, ended, relaxed, steps, time, time_step, unbalanced] = s;
-  visit(Saved{}, name, kind, ended, relaxed, steps, time, time_step, unbalanced);
+  auto& [name, kind, ended, relaxed, steps, time, time_step, unbalanced, mechanism] = s;
+  visit(Saved{}, name, kind, ended, relaxed, steps, time, time_step, unbalanced, mechanism);
 }
 
 void visit_fields(Just<History> auto& h, auto&& visit) {
@@ -175,9 +175,14 @@ void visit_fields(Just<MovingCluster> auto& c, auto&& visit) {
         at_edge, axis, along_line, joints);
 }
 
+void visit_fields(Just<BondsOfMotion> auto& b, auto&& visit) {
+  auto& [broken, slipped, whole] = b;
+  visit(Saved{}, broken, slipped, whole);
+}
+
 void visit_fields(Just<FailureMechanism> auto& m, auto&& visit) {
-  auto& [dimension, clusters, free_share, bonds_broken] = m;
-  visit(Saved{}, dimension, clusters, free_share, bonds_broken);
+  auto& [dimension, clusters, free_share, bonds] = m;
+  visit(Saved{}, dimension, clusters, free_share, bonds);
 }
 
 void visit_fields(Just<TrialRow> auto& t, auto&& visit) {
@@ -218,8 +223,8 @@ void visit_fields(Just<NearBodies> auto& n, auto&& visit) {
 }
 
 void visit_fields(Either<SettleBegin> auto& s, auto&& visit) {
-  auto& [placed, near] = s;
-  visit(Saved{}, placed, near);
+  auto& [placed, near, contacts] = s;
+  visit(Saved{}, placed, near, contacts);
 }
 
 void visit_fields(Either<StageEnd> auto& e, auto&& visit) {
@@ -228,10 +233,10 @@ void visit_fields(Either<StageEnd> auto& e, auto&& visit) {
 }
 
 void visit_fields(Either<Progress> auto& p, auto&& visit) {
-  auto& [state, stage, stage_under_way, stage_began, steps_before, run, settle, reduction, record, next_frame, frames,
-         trial_frames, ends, bonded, results] = p;
-  visit(Saved{}, state, stage, stage_under_way, stage_began, steps_before, run, settle, reduction, record, next_frame,
-        frames, trial_frames, ends, bonded, results);
+  auto& [state, stage, stage_under_way, stage_began, steps_before, run, settle, broken_before_stage, reduction, record,
+         next_frame, frames, trial_frames, ends, bonded, results] = p;
+  visit(Saved{}, state, stage, stage_under_way, stage_began, steps_before, run, settle, broken_before_stage, reduction,
+        record, next_frame, frames, trial_frames, ends, bonded, results);
 }
 
 // all bits of it: two objects are the same if these are equal

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/geometry/plunge_trend.hpp"
+#include "core/step/joint_forces.hpp"
 #include "text/angle.hpp"
 
 namespace voussoir {
@@ -383,10 +384,19 @@ FailureMechanism find_mechanism(const Model<Dim>& model, const std::vector<Place
     mechanism.free_share += mechanism.clusters.back().free_share;
   }
   std::ranges::stable_sort(mechanism.clusters, std::ranges::greater{}, &MovingCluster::weight);
-  if (const long long held = bonds_of(before).held(); held > 0) mechanism.bonds_broken = held - bonds_of(after).held();
   return mechanism;
 }
 
+template <int Dim>
+std::optional<BondsOfMotion> bonds_of_motion(long long broken_before, const State<Dim>& now) {
+  const BondCount bonds = count_bonds(now.contacts, now.ledger.bonds);
+  const BondsOfMotion motion{bonds.broken - broken_before, bonds.slipped, bonds.whole};
+  if (motion.broken + motion.slipped + motion.whole == 0) return {};
+  return motion;
+}
+
+template std::optional<BondsOfMotion> bonds_of_motion<2>(long long, const State<2>&);
+template std::optional<BondsOfMotion> bonds_of_motion<3>(long long, const State<3>&);
 template std::vector<int> moving_set<2>(const Model<2>&, const std::vector<Placement<2>>&,
                                         const std::vector<Placement<2>>&);
 template std::vector<int> moving_set<3>(const Model<3>&, const std::vector<Placement<3>>&,

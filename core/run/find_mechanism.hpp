@@ -18,6 +18,10 @@ FailureMechanism find_mechanism(const Model<Dim>& model, const std::vector<Place
                                 const ContactsState<Dim>& before, const std::vector<Placement<Dim>>& to,
                                 const ContactsState<Dim>& after);
 
+// Of a motion that ends with these forces; the number of bonds that had broken before it. Nothing if there were none.
+template <int Dim>
+std::optional<BondsOfMotion> bonds_of_motion(long long broken_before, const State<Dim>& now);
+
 // the free bodies that have moved, ascending
 template <int Dim>
 std::vector<int> moving_set(const Model<Dim>& model, const std::vector<Placement<Dim>>& from,

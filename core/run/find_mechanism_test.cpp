@@ -103,7 +103,7 @@ TEST(FindMechanism, ABlockThatSlidesOnAPlane) {
   EXPECT_NEAR(block.volume, 2, 1e-12);
   EXPECT_NEAR(block.weight, 40e3, 1e-6);
   EXPECT_NEAR(found.free_share, 1, 1e-12);
-  EXPECT_FALSE(found.bonds_broken);
+  EXPECT_FALSE(found.bonds);
   ASSERT_EQ(block.joints.size(), 1u);
   EXPECT_TRUE(block.joints[0].joint == "plane" && block.joints[0].slips && block.joints[0].carries);
   EXPECT_FALSE(block.joints[0].opens);
@@ -123,6 +123,18 @@ TEST(FindMechanism, ABlockThatSlidesOnAPlane) {
   }
   EXPECT_FALSE(mechanism_between(scene, from, from).known()) << "nothing has moved";
   EXPECT_EQ(sentence_of(FailureMechanism{}), "");
+}
+
+TEST(FindMechanism, TheSentenceCountsBonds) {
+  FailureMechanism mechanism{.dimension = 2, .clusters = {{.bodies = {1}, .motion = FailureMotion::falls}}};
+  for (const auto& [bonds, clause] :
+       {std::pair(BondsOfMotion{0, 0, 1}, "; no bond is broken, 1 is whole"),
+        std::pair(BondsOfMotion{0, 2, 0}, "; no bond is broken, 2 have slipped"),
+        std::pair(BondsOfMotion{1, 1, 3}, "; 1 bond is broken, 1 has slipped, 3 are whole"),
+        std::pair(BondsOfMotion{4, 0, 0}, "; 4 bonds are broken")}) {
+    mechanism.bonds = bonds;
+    EXPECT_TRUE(sentence_of(mechanism).ends_with(clause)) << sentence_of(mechanism);
+  }
 }
 
 TEST(FindMechanism, ABlockThatFalls) {

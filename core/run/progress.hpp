@@ -14,20 +14,21 @@ namespace voussoir {
 template <int Dim>
 struct Progress {
   State<Dim> state;
-  int stage = 0;                     // from 0; the number of stages when all is done
-  bool stage_under_way = false;      // its changes are applied
-  double stage_began = 0;            // s
-  long long steps_before = 0;        // of the stages that ended
-  RunProgress<Dim> run;              // of a stage that settles or runs
-  SettleBegin<Dim> settle;           // of one that settles
-  ReductionProgress<Dim> reduction;  // of a stage that reduces strength
-  StageRecord record;                // rows of the stage under way
-  double next_frame = 0;             // s
-  std::vector<double> frames;        // s: of the frames written
-  std::vector<double> trial_frames;  // of those of undone trials: the trials, counted from 1
-  std::vector<StageEnd<Dim>> ends;   // of stages that have ended and from which monitors measure
-  BondedContacts bonded;             // up to here
-  Results results;                   // of what has ended
+  int stage = 0;                      // from 0; the number of stages when all is done
+  bool stage_under_way = false;       // its changes are applied
+  double stage_began = 0;             // s
+  long long steps_before = 0;         // of the stages that ended
+  RunProgress<Dim> run;               // of a stage that settles or runs
+  SettleBegin<Dim> settle;            // of the same
+  long long broken_before_stage = 0;  // bonds
+  ReductionProgress<Dim> reduction;   // of a stage that reduces strength
+  StageRecord record;                 // rows of the stage under way
+  double next_frame = 0;              // s
+  std::vector<double> frames;         // s: of the frames written
+  std::vector<double> trial_frames;   // of those of undone trials: the trials, counted from 1
+  std::vector<StageEnd<Dim>> ends;    // of stages that have ended and from which monitors measure
+  BondedContacts bonded;              // up to here
+  Results results;                    // of what has ended
 };
 
 }  // namespace voussoir

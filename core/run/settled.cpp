@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <utility>
@@ -52,6 +53,7 @@ struct Settling {
   const Model<Dim>& model;
   const SettleBegin<Dim>& begin;
   const State<Dim>& now;
+  double share;  // of the inscribed radius
   Closures<Dim> closures = closures_of(model, now);
   std::vector<std::vector<int>> near{};  // by body
   std::vector<char> stays{};             // by body
@@ -97,7 +99,7 @@ struct Settling {
       stays[b] = true;
     for (std::size_t k = 0; k < found.size(); ++k)
       for (const int b : near[found[k]]) {
-        if (stays[b] || !counts(b) || against(b, found[k]) > inscribed_radius(model.bodies[b])) continue;
+        if (stays[b] || !counts(b) || against(b, found[k]) > share * inscribed_radius(model.bodies[b])) continue;
         stays[b] = true;
         found.push_back(b);
       }
@@ -146,21 +148,23 @@ SettleBegin<Dim> settle_begin(const Model<Dim>& model, const State<Dim>& state, 
   for (const Contact<Dim>& c : state.contacts.list)
     if (c.status != ContactStatus::apart)
       near[std::minmax(model.parts[c.part_a].body, model.parts[c.part_b].body)] |= !moving && touches(model, c);
+  std::ranges::copy_if(state.contacts.list, std::back_inserter(begin.contacts.list), &Contact<Dim>::touching);
   for (const auto& [pair, touched] : near)
     begin.near.push_back({pair.first, pair.second, touched});
   return begin;
 }
 
 template <int Dim>
-std::vector<MovedBody> moved_bodies(const Model<Dim>& model, const SettleBegin<Dim>& begin, const State<Dim>& now) {
-  Settling<Dim> settling{.model = model, .begin = begin, .now = now};
+std::vector<MovedBody> moved_bodies(const Model<Dim>& model, const SettleBegin<Dim>& begin, const State<Dim>& now,
+                                    double share) {
+  Settling<Dim> settling{.model = model, .begin = begin, .now = now, .share = share};
   settling.find_near();
   settling.find_what_stays();
   std::vector<MovedBody> all;
   for (int b = 0; b < static_cast<int>(begin.placed.size()); ++b) {
     if (!settling.counts(b) || settling.stays[b]) continue;
     MovedBody moved = settling.moved(b);
-    if (moved.distance > moved.inscribed_radius) all.push_back(std::move(moved));
+    if (moved.distance > share * moved.inscribed_radius) all.push_back(std::move(moved));
   }
   std::ranges::stable_sort(all, std::ranges::greater{}, &MovedBody::distance);
   return all;
@@ -183,7 +187,7 @@ template std::string moved_text<2>(const Model<2>&, const std::vector<MovedBody>
 template std::string moved_text<3>(const Model<3>&, const std::vector<MovedBody>&);
 template SettleBegin<2> settle_begin<2>(const Model<2>&, const State<2>&, bool);
 template SettleBegin<3> settle_begin<3>(const Model<3>&, const State<3>&, bool);
-template std::vector<MovedBody> moved_bodies<2>(const Model<2>&, const SettleBegin<2>&, const State<2>&);
-template std::vector<MovedBody> moved_bodies<3>(const Model<3>&, const SettleBegin<3>&, const State<3>&);
+template std::vector<MovedBody> moved_bodies<2>(const Model<2>&, const SettleBegin<2>&, const State<2>&, double);
+template std::vector<MovedBody> moved_bodies<3>(const Model<3>&, const SettleBegin<3>&, const State<3>&, double);
 
 }  // namespace voussoir

@@ -1,4 +1,4 @@
-// Bodies that a settle stage has moved away from those that they were in contact with at its start.
+// Bodies that a stage has moved away from those that they were in contact with at its start.
 #pragma once
 
 #include <string>
@@ -19,6 +19,7 @@ template <int Dim>
 struct SettleBegin {
   std::vector<Placement<Dim>> placed;  // by body
   std::vector<NearBodies> near;        // by a, then b
+  ContactsState<Dim> contacts = {};    // those that touched, without sub-contacts
 };
 
 // Of a state whose contacts have been found. After true motion (`moving`) touching bodies have met during the motion
@@ -26,12 +27,14 @@ struct SettleBegin {
 template <int Dim>
 SettleBegin<Dim> settle_begin(const Model<Dim>& model, const State<Dim>& state, bool moving);
 
-// The free bodies that have moved by more than their own inscribed radius relative to all near bodies that have not,
-// the farthest first. A held or driven body counts as staying, and so does one that has moved by less relative to one
-// that stays: blocks that settle on one another, or ride on a driven body, are not among them. Motion is that of the
-// centroid in the other body's frame, without the closure of their joint. `now`: its contacts have been found.
+// The free bodies that have moved by more than this share of their own inscribed radius relative to all near bodies
+// that have not, the farthest first. A held or driven body counts as staying, and so does one that has moved by less
+// relative to one that stays: blocks that settle on one another, or ride on a driven body, are not among them. Motion
+// is that of the centroid in the other body's frame, without the closure of their joint. `now`: its contacts have been
+// found.
 template <int Dim>
-std::vector<MovedBody> moved_bodies(const Model<Dim>& model, const SettleBegin<Dim>& begin, const State<Dim>& now);
+std::vector<MovedBody> moved_bodies(const Model<Dim>& model, const SettleBegin<Dim>& begin, const State<Dim>& now,
+                                    double share = 1);
 
 // One line on these, at least one: bodies that lost every contact first, then the farthest.
 template <int Dim>

@@ -1,4 +1,4 @@
-// Bodies displaced in a settle stage, and the messages of the run.
+// Bodies displaced in a stage, its sentence on their motion, and the messages of the run.
 #include "core/run/settled.hpp"
 
 #include <fmt/format.h>
@@ -165,6 +165,71 @@ TEST(Settled, AFallThatIsStoppedIsNoFailure) {
   EXPECT_FALSE(after.moved.front().left_all);
 }
 
+std::string sentence_of_stage(const Results& results, const std::string& name) {
+  for (const StageResult& stage : results.stages)
+    if (stage.name == name) return sentence_of(stage.mechanism);
+  ADD_FAILURE() << name;
+  return {};
+}
+
+// A stage that ends away from its begin, by a tenth of an inscribed radius, says what moved and how.
+TEST(MotionOfAStage, ASettleStageThatEndsAwayFromItsBegin) {
+  for (const double gap : {0.04, 0.06, 0.9}) {
+    const Results results = results_of(slider(gap, false) + settle + search);
+    const std::string sentence = sentence_of_stage(results, "settle");
+    EXPECT_EQ(sentence, gap > 0.05 ? "block 0 (1 m³/m, 22.4 kN/m, all of the free mass) slides on faces that no joint "
+                                     "made, 0.0 deg down to the right"
+                                   : "")
+        << gap;
+    EXPECT_EQ(results.message.ends_with("; " + sentence), gap > 0.5) << results.message;
+  }
+}
+
+TEST(MotionOfAStage, ATimedStageThatLosesEquilibrium) {
+  const auto timed = [](double seconds, const std::string& more = "") {
+    return fmt::format("[[stage]]\nname = \"go\"\nkind = \"run\"\nduration_s = {}\n{}", seconds, more);
+  };
+  const auto sentence = [&](const std::string& text) {
+    const Results results = results_of(text);
+    EXPECT_EQ(results.outcome, Outcome::done) << results.message;
+    EXPECT_EQ(results.message, "");
+    return sentence_of_stage(results, "go");
+  };
+  const std::string floor = box("floor", -5, -1, 30, 1, true);
+  // on friction of 20 deg under a load inclined by 27 deg
+  EXPECT_TRUE(sentence(slider(5, false) + timed(0.5))
+                  .starts_with("block 0 (1 m³/m, 22.4 kN/m, all of the free mass) "
+                               "slides on faces that no joint made, 0"));
+  EXPECT_EQ(sentence(slider(5, false) + timed(0.05)), "") << "it has come 2 mm";
+  EXPECT_EQ(sentence(head() + floor + box("block", 0, 2, 1, 1) + timed(0.2)),
+            "block 0 (1 m³/m, 20 kN/m, all of the free mass) falls, straight down");
+  EXPECT_EQ(sentence(head() + floor + box("block", 0, 0, 1, 1) + timed(0.2)), "") << "in equilibrium";
+  // one that rides on a driven base has not lost it
+  EXPECT_EQ(sentence(head() + floor + box("block", 0, 0, 1, 1) +
+                     timed(2, "move = [{ bodies = [\"floor\"], velocity = [0.1, 0] }]\n")),
+            "");
+}
+
+// a block of 160 kN/m is pulled off its joint by 400 kN/m, or held by its tensile strength
+TEST(MotionOfAStage, CountsTheBondsThatItBreaks) {
+  const auto pulled = [](double strength) {
+    const Results results = results_of(fmt::format(
+        "dimension = 2\ndensity = 2000\nstatics = \"local\"\ngravity = [0, -10]\ndomain = {{ box = {{ min = [-2, -2], "
+        "max = [2, 2] }} }}\njoints = [{{ name = \"bed\", dip = 0, dip_direction = 90, point = [0, 0] }}]\n"
+        "joint_properties = [{{ name = \"rock\", normal_stiffness = 1e9, shear_stiffness = 1e8, friction_deg = 40, "
+        "tension = {0}, cohesion = {0} }}]\nfix = [{{ below = [\"bed\"] }}]\n{1}"
+        "[[stage]]\nname = \"go\"\nkind = \"run\"\nduration_s = 0.3\n"
+        "force = [{{ name = \"pull\", inside = [0, 1], force = [0, 4e5] }}]\n",
+        strength, settle));
+    EXPECT_EQ(results.outcome, Outcome::done) << results.message;
+    return sentence_of_stage(results, "go");
+  };
+  EXPECT_EQ(pulled(1e4),
+            "block 1 (8 m³/m, 160 kN/m, all of the free mass) lifts, straight up; bed opens; "
+            "4 bonds are broken");
+  EXPECT_EQ(pulled(1e6), "");
+}
+
 TEST(Settled, AnInterruptedRunNamesTheSameBodies) {
   const Prepared<2> scene = prepare<2>(parse_scene(slider(0.9, false) + settle, "scene.toml"));
   Progress<2> whole = initial_progress(scene);
@@ -182,6 +247,8 @@ TEST(Settled, AnInterruptedRunNamesTheSameBodies) {
   }
   ASSERT_EQ(parts.results.moved.size(), 1u);
   EXPECT_EQ(parts.results.moved.front().distance, whole.results.moved.front().distance);
+  EXPECT_TRUE(whole.results.stages.front().mechanism.known());
+  EXPECT_EQ(sentence_of(parts.results.stages.front().mechanism), sentence_of(whole.results.stages.front().mechanism));
   EXPECT_EQ(parts.results.state_hash, whole.results.state_hash);
 }
 

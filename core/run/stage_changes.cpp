@@ -10,6 +10,7 @@
 #include "core/run/bonds_as_sliced.hpp"
 #include "core/run/doubts.hpp"
 #include "core/run/excavate.hpp"
+#include "core/run/find_mechanism.hpp"
 #include "core/run/history.hpp"
 #include "core/run/record.hpp"
 #include "core/run/stable_state.hpp"
@@ -70,6 +71,21 @@ void judge_moved(const StageInForce<Dim>& stage, const State<Dim>& now, const Se
   if (left || searched)
     fail(stage.plan(), Outcome::incomplete,
          text + (searched ? "; the search that follows needs the blocks in the positions of the scene" : ""), results);
+}
+
+// The motion since the stage began, if it ended without equilibrium or with a body so far away that a search would have
+// judged it failed; relative to its neighbours, so that blocks that ride on a driven one have not moved.
+template <int Dim>
+FailureMechanism motion_of_stage(const StageInForce<Dim>& stage, const State<Dim>& now, const Progress<Dim>& progress) {
+  std::vector<Placement<Dim>> placed;
+  note_accepted(stage.model, progress.state, placed);
+  if (progress.settle.placed.size() != placed.size()) return {};
+  const bool lost = progress.results.outcome == Outcome::incomplete;
+  if (!lost && moved_bodies(stage.model, progress.settle, now, failure_fraction_of_radius).empty()) return {};
+  FailureMechanism mechanism =
+      find_mechanism(stage.model, progress.settle.placed, progress.settle.contacts, placed, now.contacts);
+  mechanism.bonds = bonds_of_motion(progress.broken_before_stage, now);
+  return mechanism;
 }
 
 template <int Dim>
@@ -135,6 +151,8 @@ void begin_stage(const StageInForce<Dim>& stage, Progress<Dim>& progress) {
   progress.record = {};
   progress.record.interval = stage.scene.output.history_interval;
   progress.run = {};
+  progress.settle = {};
+  progress.broken_before_stage = count_bonds(state.contacts, state.ledger.bonds).broken;
   progress.reduction = {};
   progress.stage_under_way = true;
 }
@@ -154,8 +172,11 @@ void end_stage(const StageInForce<Dim>& stage, const StageOutcome& done, const W
   const auto counts = [&](const Monitor& m) { return m.since == stage.place; };
   if (std::ranges::any_of(stage.scene.monitors, counts)) progress.ends.push_back(stage_end(stage.place, state));
   const State<Dim> now = with_forces(stage, state, results.outcome == Outcome::failed);
+  FailureMechanism& mechanism = results.stages.back().mechanism;
+  if (results.outcome != Outcome::failed) mechanism = motion_of_stage(stage, now, progress);
   if (std::holds_alternative<SettlePlan>(plan.plan) && results.outcome == Outcome::done)
     judge_moved(stage, now, progress.settle, results);
+  if (results.outcome == Outcome::incomplete) results.message += and_more(sentence_of(mechanism));
   finish_rows(stage, now, progress);
   for (const OutputSupport<Dim>& row : output_supports<Dim>)
     if (row.add_rows) row.add_rows(stage.model, now, stage.place + 1, results);

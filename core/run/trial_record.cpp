@@ -8,6 +8,7 @@
 #include "core/run/search_levels.hpp"
 #include "core/step.hpp"
 #include "core/step/bolt_forces.hpp"
+#include "core/step/joint_forces.hpp"
 #include "text/angle.hpp"
 
 namespace voussoir {
@@ -64,13 +65,16 @@ void note_supports_and_water(const StageInForce<Dim>& stage, const State<Dim>& n
 
 // from the last stable state, or from where the search began, to bodies at these places with these forces
 template <int Dim>
-FailureMechanism mechanism_of(const Model<Dim>& model, const ReductionProgress<Dim>& search,
+FailureMechanism mechanism_of(const Model<Dim>& model, const Progress<Dim>& progress,
                               const std::vector<Placement<Dim>>& placed, const State<Dim>& now) {
-  if (search.base.bodies.motions.size() != placed.size())
-    return find_mechanism(model, search.begun, ContactsState<Dim>{}, placed, now.contacts);
-  std::vector<Placement<Dim>> from;
-  note_placements(search.base.bodies, from);
-  return find_mechanism(model, from, search.base.contacts, placed, now.contacts);
+  const State<Dim>& base = progress.reduction.base;
+  const bool has_base = base.bodies.motions.size() == placed.size();
+  std::vector<Placement<Dim>> from = progress.reduction.begun;
+  if (has_base) note_placements(base.bodies, from);
+  FailureMechanism mechanism = find_mechanism(model, from, base.contacts, placed, now.contacts);
+  mechanism.bonds = bonds_of_motion(
+      has_base ? count_bonds(base.contacts, base.ledger.bonds).broken : progress.broken_before_stage, now);
+  return mechanism;
 }
 
 }  // namespace
@@ -100,7 +104,7 @@ void note_trial(const StageInForce<Dim>& stage, const State<Dim>& state, double 
   if (outcome != SearchTrial::broken && (held_or_wet || outcome == SearchTrial::failed)) {
     const State<Dim> now = forces_at(stage, placed, state);
     if (held_or_wet) note_supports_and_water(stage, now, search, row);
-    if (outcome == SearchTrial::failed) row.mechanism = mechanism_of(stage.model, search, placed, now);
+    if (outcome == SearchTrial::failed) row.mechanism = mechanism_of(stage.model, progress, placed, now);
   }
   if (outcome == SearchTrial::stable) note_stable(stage, state, progress, row);
   if (outcome == SearchTrial::failed)
