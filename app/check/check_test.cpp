@@ -26,7 +26,7 @@ class Check : public CheckedScene {
 
 // Hoek & Bray's wedge: the closed form's least value at the stiffnesses of the scene
 TEST_F(Check, GivesTheClosedFormOfBrittleBonds) {
-  const std::string scene = "check " + quoted("cases/key_blocks/hoek_and_bray.toml");
+  const std::string scene = "check " VOUSSOIR_SOURCE_DIR "/cases/key_blocks/hoek_and_bray.toml";
   const std::string brittle =
       " --set 'joint_properties.A.cohesion_law=\"brittle\"' --set "
       "'joint_properties.B.cohesion_law=\"brittle\"'";
