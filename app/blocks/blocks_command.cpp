@@ -10,13 +10,16 @@
 #include "app/base/message.hpp"
 #include "app/base/run_scene.hpp"
 #include "app/blocks/blocks_summary.hpp"
+#include "app/blocks/blocks_view.hpp"
 #include "app/blocks/kinematics_text.hpp"
 #include "app/run_folder/claimed_folder.hpp"
 #include "app/run_folder/origin.hpp"
 #include "app/run_folder/results_hash.hpp"
+#include "app/view/page.hpp"
 #include "core/base/bad_input.hpp"
 #include "core/output/atomic_file.hpp"
 #include "core/output/block_verdicts.hpp"
+#include "core/output/view.hpp"
 #include "text/angle.hpp"
 
 namespace voussoir {
@@ -37,6 +40,7 @@ struct BlocksArguments {
   std::string face;
   double friction = 0;  // deg; 0: that of the joints
   int top = 20;
+  bool view = false;  // view.html
   bool overwrite = false;
 };
 
@@ -140,10 +144,14 @@ ExitCode analyse_directions(const BlocksArguments& arguments, const SurveyReques
 
 template <int Dim>
 ExitCode judge_scene(const BlocksArguments& arguments, const SurveyRequest& request, const LoadedScene& scene) {
-  const Survey<Dim> survey = survey_blocks(std::get<Prepared<Dim>>(scene.prepared), request);
+  const auto& prepared = std::get<Prepared<Dim>>(scene.prepared);
+  const Survey<Dim> survey = survey_blocks(prepared, request);
   const fs::path folder = folder_of(arguments);
-  const Outputs outputs{
-      "blocks", {"blocks_verdicts.json", "blocks_verdicts.csv", "blocks.vtp", "key_blocks.geojson", "results.json"}};
+  Outputs outputs{"blocks",
+                  {"blocks_verdicts.json", "blocks_verdicts.csv", "blocks.vtp", "key_blocks.geojson", "results.json"}};
+  if (arguments.view)
+    for (const char* name : {view_file, page_file})
+      outputs.files.emplace_back(name);
   const ClaimedFolder claim(folder, outputs, scene.files, arguments.overwrite);
   tell_remarks(*scene.stated);
   const std::vector<Origin> origins{this_origin()};
@@ -152,9 +160,11 @@ ExitCode judge_scene(const BlocksArguments& arguments, const SurveyRequest& requ
   write_file(folder / "blocks.vtp", vtp(faces));
   write_file(folder / "blocks_verdicts.json", blocks_json(survey, scene.title, scene.hash, origins));
   if constexpr (Dim == 3) write_file(folder / "key_blocks.geojson", key_blocks_geojson(survey, faces));
+  if (arguments.view) write_blocks_view(folder, prepared, survey);
   // results.json comes last: if it exists, everything is complete
   write_results(folder, blocks_results_json(survey, scene.title, scene.hash, origins));
   fmt::print("{}results: {}\n", blocks_summary(survey, scene.title, arguments.top), folder.string());
+  if (arguments.view) fmt::print("page: {}\n", (folder / page_file).string());
   ExitCode code = ExitCode::done;
   for (const auto* list : {&survey.rows, &survey.clusters})
     for (const SurveyRow<Dim>& row : *list) {
@@ -179,6 +189,8 @@ ExitCode blocks_command(const BlocksArguments& arguments) {
   request.frictionless = arguments.frictionless;
   refuse_out_of_range(request);
   const LoadedScene scene = load_blocks(arguments.scene.scene, arguments.scene.overrides);
+  if (arguments.kinematics && arguments.view)
+    throw BadInput("--view shows the verdicts of blocks; --kinematics compares directions: leave out one of the two");
   if (arguments.kinematics) return analyse_directions(arguments, request, scene);
   if (!arguments.face.empty() || arguments.friction > 0) throw BadInput("--face and --friction belong to --kinematics");
   return scene.dimension == 2 ? judge_scene<2>(arguments, request, scene) : judge_scene<3>(arguments, request, scene);
@@ -235,6 +247,8 @@ void add_blocks(CLI::App& program, Action& action) {
       ->check(finite(least_positive, 89));
   command->add_option("--top", arguments.top, "most lines of the table of blocks (default 20)")
       ->check(CLI::Range(1, 1'000'000));
+  command->add_flag("--view", arguments.view,
+                    "write the interactive page view.html: blocks by factor of safety, with each one's verdict");
   add_overwrite(command, arguments.overwrite);
 }
 

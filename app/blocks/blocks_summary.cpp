@@ -4,11 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
-#include "core/geometry/plunge_trend.hpp"
-#include "core/output/block_verdicts.hpp"
+#include "app/blocks/verdict_words.hpp"
 #include "text/angle.hpp"
 
 namespace voussoir {
@@ -16,7 +14,6 @@ namespace {
 
 constexpr double rounding_of_sums = 1e-12;
 constexpr std::size_t most_listed = 8;  // blocks of a line of the table that are listed by number
-constexpr double near_edge = 0.9;       // pressure eccentricity from which a block is near to turning
 
 template <int Dim>
 const char* unit_of_volume() {
@@ -26,14 +23,6 @@ const char* unit_of_volume() {
 // "1 block", "2 blocks"
 std::string count_of(std::size_t count, const char* thing) {
   return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
-}
-
-template <int Dim>
-std::string kind_label(const SurveyRow<Dim>& row) {
-  if (row.kind() != BlockKind::slides) return word_of(row.kind());
-  const int loaded = row.bolted.verdict.loaded;
-  return row.bolted.verdict.indeterminate ? "slides along a line that more than two faces share"
-                                          : fmt::format("slides on {}", loaded == 1 ? "one face" : "two faces");
 }
 
 // a line a class, with numbers and volumes
@@ -72,11 +61,6 @@ std::string classes(const Survey<Dim>& survey) {
   return text;
 }
 
-template <int Dim>
-std::string joints_shown(const Survey<Dim>& survey, const SurveyRow<Dim>& row) {
-  return fmt::format("{}", fmt::join(loaded_joints(survey, row), ", "));
-}
-
 // blocks of the same sets of joints and the same factor are one line
 template <int Dim>
 std::string family_of(const Survey<Dim>& survey, const SurveyRow<Dim>& row) {
@@ -88,43 +72,6 @@ std::string family_of(const Survey<Dim>& survey, const SurveyRow<Dim>& row) {
   }
   std::sort(sets.begin(), sets.end());
   return fmt::format("{}", fmt::join(sets, ", "));
-}
-
-template <int Dim>
-std::string direction_shown(const Vector<Dim>& v) {
-  const auto [plunge, trend] = plunge_and_trend(v);
-  if (Dim == 2 && std::abs(v[0]) <= rounding_of_sums * v.norm()) return plunge > 0 ? "down" : "up";
-  return Dim == 3 ? fmt::format("{:.1f}/{:05.1f}", plunge, trend)
-                  : fmt::format("{:.1f} {}", plunge, trend < 180 ? "right" : "left");
-}
-
-template <int Dim>
-std::string force_shown(const SurveyRow<Dim>& row) {
-  if (!row.force) return "not by a force";
-  const double size = row.force->force.norm();
-  if (size == 0) return "none";
-  return fmt::format("{:.4g} ({}{})", size / 1000, direction_shown<Dim>(row.force->force),
-                     row.force->least ? "" : ", sufficient");
-}
-
-template <int Dim>
-std::string remarks(const Survey<Dim>& survey, const SurveyRow<Dim>& row) {
-  std::vector<std::string> all;
-  const std::string motion = motion_of(row);
-  if (motion != "slides" && !motion.empty())
-    all.push_back(motion);
-  else if (row.eccentricity && *row.eccentricity >= near_edge)
-    all.push_back("near toppling");
-  if (row.cluster > 0) all.push_back("lower than its blocks");
-  if (!row.bolts.empty()) all.push_back(fmt::format("bolts {}", fmt::join(row.bolts, ", ")));
-  if (row.bolted.verdict.indeterminate) all.push_back("indeterminate");
-  if (!row.closed_faces.empty()) {
-    std::vector<std::string> names;
-    for (const int face : row.closed_faces)
-      names.push_back(survey.joint_name(row.faces[face]));
-    all.push_back(fmt::format("elastic shear closes {}", fmt::join(names, ", ")));
-  }
-  return fmt::format("{}", fmt::join(all, "; "));
 }
 
 // a line that several blocks share: their numbers, if they are few, and those that must turn
@@ -155,8 +102,8 @@ std::string table_row(const Survey<Dim>& survey, const std::vector<const SurveyR
   return fmt::format(
       "  {:<10} {:>11}  {:<8} {:<26} {:>12} {:>8}  {:<22} {:>5}  {:>5}  {}", blocks, volumes, word_of(row.kind()),
       one ? joints_shown(survey, row) : family_of(survey, row), direction_shown<Dim>(row.bolted.verdict.motion), factor,
-      one ? force_shown(row) : "", row.opening && one ? fmt::format("{:.1f}", to_degrees(*row.opening)) : "",
-      row.eccentricity && one ? fmt::format("{:.2f}", *row.eccentricity) : "", one ? remarks(survey, row) : "");
+      one ? force_shown(row, "") : "", row.opening && one ? fmt::format("{:.1f}", to_degrees(*row.opening)) : "",
+      row.eccentricity && one ? fmt::format("{:.2f}", *row.eccentricity) : "", one ? verdict_remarks(survey, row) : "");
 }
 
 std::string trimmed(std::string line) {

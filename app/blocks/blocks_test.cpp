@@ -131,6 +131,29 @@ TEST_F(Program, BlocksCountsTheZonesOfAFace) {
                   "belong to --kinematics");
 }
 
+TEST_F(Program, BlocksShowsItsVerdictsInAPage) {
+  write("names.toml",
+        "dimension = 3\ngravity = [0, 0, -10]\ndensity = 2000\n"
+        "domain = { box = { min = [0, 0, 0], max = [2, 2, 2] } }\n"
+        "joint_properties = [{ name = \"r\", normal_stiffness = 1e9, shear_stiffness = 1e8, friction_deg = 30 }]\n"
+        "joints = [{ name = \"</script><b>\", dip = 45, dip_direction = 90, point = [1, 1, 1] }]\n"
+        "fix = [{ below = [\"</script><b>\"] }]\n");
+  const std::string scene = "blocks names.toml --out out --overwrite ";
+  const Ended ended = run(scene + "--view");
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_TRUE(ended.out.ends_with("results: out\npage: out/view.html\n")) << ended.out;
+  const std::string html = read(folder_ / "out/view.html"), data = read(folder_ / "out/view.bin");
+  EXPECT_NE(html.find("<!doctype html>"), std::string::npos);
+  EXPECT_EQ(html.find("</script><b>"), std::string::npos) << "no text of a scene is part of a page";
+  for (const char* part : {"as sliced, strength of joint_properties", "It is fixed.",
+                           "It slides on one face (</script><b>) towards 45.0/090.0 (plunge/trend), type I: factor of "
+                           "safety 0.5774; force for 1.5: "})
+    EXPECT_NE(data.find(part), std::string::npos) << part;
+  EXPECT_EQ(run(scene).code, 0);
+  EXPECT_FALSE(fs::exists(folder_ / "out/view.html")) << "its verdicts would be older than the table";
+  expect_one_line(run(scene + "--view --kinematics --face 70/90"), 2, "leave out one of the two");
+}
+
 TEST_F(Program, BlocksRefusesWhatItCannotJudge) {
   expect_one_line(run("blocks " + quoted("examples/tutorial/slope.toml") + "--out out --strength-of wait"), 2,
                   "there are: weight, safety");

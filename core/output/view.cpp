@@ -25,7 +25,7 @@ static_assert(std::endian::native == std::endian::little,
               "records are little-endian, and written as they are in memory");
 
 constexpr std::string_view view_magic = "VOUSVIEW";
-constexpr std::uint32_t head_tag = 1, shape_tag = 2, frame_tag = 3, again_tag = 4;
+constexpr std::uint32_t head_tag = 1, shape_tag = 2, frame_tag = 3, again_tag = 4, verdicts_tag = 5;
 
 // to single precision; values that it cannot represent are 0
 float single(double value) {
@@ -391,6 +391,18 @@ void add_view_frame(ViewSeries& series, const Model<Dim>& model, const State<Dim
   ++series.frames;
 }
 
+void add_view_verdicts(const ViewSeries& series, const std::string& moment, const std::vector<ViewVerdict>& verdicts) {
+  Record record(verdicts_tag);
+  record.text(moment);
+  record.put(static_cast<std::uint32_t>(verdicts.size()));
+  for (const ViewVerdict& verdict : verdicts) {
+    record.put(static_cast<std::int32_t>(verdict.kind));
+    record.put(verdict.factor.value_or(std::numeric_limits<double>::quiet_NaN()));
+    record.text(verdict.sentence);
+  }
+  append_to_file(series.file, record.finished());
+}
+
 ViewExtent view_extent(std::string_view bytes, int frames) {
   if (!bytes.starts_with(view_magic)) return {};
   ViewExtent extent{view_magic.size(), 0};
@@ -398,7 +410,7 @@ ViewExtent view_extent(std::string_view bytes, int frames) {
     std::array<std::uint32_t, 2> head{};
     std::memcpy(head.data(), bytes.data() + extent.bytes, sizeof head);
     const auto [tag, size] = head;
-    if (tag < head_tag || tag > again_tag || size < 8 || size % 4 != 0 || size > bytes.size() - extent.bytes) break;
+    if (tag < head_tag || tag > verdicts_tag || size < 8 || size % 4 != 0 || size > bytes.size() - extent.bytes) break;
     extent.bytes += size;
     if (tag == frame_tag) ++extent.frames;
   }

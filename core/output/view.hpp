@@ -6,6 +6,7 @@
 #include <array>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -61,6 +62,17 @@ ViewSeries continue_view(const std::filesystem::path& file, const Prepared<Dim>&
 // finite is written as 0. Throws OutputError.
 template <int Dim>
 void add_view_frame(ViewSeries& series, const Model<Dim>& model, const State<Dim>& state, const ViewMoment& moment);
+
+// A block by block theory, for its colour and its text.
+struct ViewVerdict {
+  enum class Kind { judged, stable, immovable, fixed, undecided };  // viewer/src/colours.js has the same order
+  Kind kind = Kind::fixed;
+  std::optional<double> factor{};  // of safety; of judged ones
+  std::string sentence;
+};
+
+// Adds the verdicts of all bodies, and when they hold. Throws OutputError.
+void add_view_verdicts(const ViewSeries& series, const std::string& moment, const std::vector<ViewVerdict>& verdicts);
 
 // Number of these bytes that are complete records, at most up to the end of `frames` frames, and the number of frames
 // in them; nothing if they are not such a file. Further bytes were being written when a program was killed.

@@ -68,7 +68,7 @@ std::vector<std::uint32_t> tags(const std::string& bytes) {
   return found;
 }
 
-constexpr std::uint32_t head = 1, shape = 2, frame = 3, again = 4;
+constexpr std::uint32_t head = 1, shape = 2, frame = 3, again = 4, verdicts = 5;
 
 TEST_F(ViewTest, ShapesAreWrittenOnceAndABodyDividedByAnExcavationGetsANewOne) {
   Prepared<3> scene = cubes();
@@ -121,6 +121,20 @@ TEST_F(ViewTest, AContinuedRunKeepsTheFramesOfItsCheckpointAndWritesAllShapesAga
   fs::remove(file);
   EXPECT_EQ(continue_view(file, scene, 2).frames, 0);
   EXPECT_TRUE(fs::exists(file));
+}
+
+TEST_F(ViewTest, VerdictsAreARecordOfTheirOwn) {
+  const ViewSeries series = begin_view(file, cubes());
+  const std::string without = bytes();
+  add_view_verdicts(series, "as sliced",
+                    {{ViewVerdict::Kind::fixed, {}, "fixed"}, {ViewVerdict::Kind::judged, 1.25, "slides: \xc3\xa9"}});
+  const std::string whole = bytes();
+  EXPECT_EQ(whole.substr(0, without.size()), without);
+  EXPECT_EQ(tags(whole), (std::vector<std::uint32_t>{head, shape, shape, shape, frame, verdicts}));
+  EXPECT_EQ(view_extent(whole, all).bytes, whole.size());
+  double factor = 0;  // after the head of the record, two texts with their lengths, the number of bodies, two kinds
+  std::memcpy(&factor, whole.data() + without.size() + 8 + 4 + 12 + 4 + 4 + 8 + 4 + 8 + 4, sizeof factor);
+  EXPECT_EQ(factor, 1.25);
 }
 
 TEST_F(ViewTest, NumbersThatAreNotFiniteAreWrittenAsZero) {

@@ -8,6 +8,18 @@ export const PRESSED = '#0072b2', PULLED = '#d55e00';
 // from small to large, increasingly dark, so that it can be read in grey
 const RAMP = ['#f2f6fa', '#cfe2f0', '#a3cdea', '#6ab8e8', '#8ca0ac', '#c07f52', '#c85a08', '#8f3500'];
 
+// Of factors of safety, 0, below the first bound, and from each bound: darker is worse, also in grey.
+const BOUNDS = [1, 1.3, 1.5, 2];
+const FACTORS = [['0: nothing holds it', '#4d1a00'], ['below 1', '#a63a00'], ['1 to 1.3', '#de6a3a'], ['1.3 to 1.5', '#ef9c78'],
+  ['1.5 to 2', '#f7c9b4'], ['2 and more', '#fdefe8']];
+// then those without one, in the order of ViewVerdict::Kind
+export const KINDS = [...FACTORS, ['stable without friction', '#7fc4ab'], ['cannot move', '#c3d7ea'], ['fixed', HELD], ['undecided', '#000000']];
+// place of a verdict in this list
+export function kindOf({ kind, factor }) {
+  if (kind > 0) return FACTORS.length - 1 + kind;
+  return factor > 0 ? 1 + BOUNDS.filter((bound) => factor >= bound).length : 0;
+}
+
 export const rgb = (hex) => [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16) / 255);
 
 // the eight, then darker, then lighter ones
@@ -31,8 +43,8 @@ export function share(value, { low, high, logarithmic }) {
   return high > low ? (scale(value) - scale(low)) / (scale(high) - scale(low)) : 0;
 }
 
-// source of the value in the shader: none, of the point, of the body, of the face
-export const FLAT = 0, POINT = 1, BODY = 2, FACE = 3, PROPERTIES = 4;
+// source of the value in the shader: none, of the point, of the body, of the face, its properties, a place in KINDS
+export const FLAT = 0, POINT = 1, BODY = 2, FACE = 3, PROPERTIES = 4, KIND = 5;
 
 export function choices(run, bodies) {
   const plane = run.head.dimension === 2;
@@ -52,6 +64,17 @@ export function choices(run, bodies) {
       label: plane ? 'block area' : 'block volume', unit: plane ? 'm²' : 'm³', mode: BODY, value: (shape) => shape.volume,
       range: () => sizes(run),
     },
+    ...(run.verdicts && { factor: byFactor(run) }),
+  };
+}
+
+// the kinds that occur, with numbers of blocks
+function byFactor(run) {
+  const value = (shape) => kindOf(run.verdicts.bodies[shape.body]), counts = KINDS.map(() => 0);
+  for (const shape of run.shapes) ++counts[value(shape)];
+  return {
+    label: 'factor of safety', note: 'least, alone or in a cluster', mode: KIND, value,
+    rows: KINDS.map(([name, colour], i) => [`${name} (${counts[i]})`, colour]).filter((_, i) => counts[i]),
   };
 }
 

@@ -1,6 +1,6 @@
 // The file that a run keeps for the viewer (core/output/view.cpp writes it): a head, shapes of bodies, frames.
 
-export const HEAD = 1, SHAPE = 2, FRAME = 3, AGAIN = 4;
+export const HEAD = 1, SHAPE = 2, FRAME = 3, AGAIN = 4, VERDICTS = 5;
 export const START = 0, TRIAL = 2;
 export const PRESENT = 1, FIXED = 2;
 // the columns of a pair of faces in contact
@@ -101,9 +101,16 @@ function readHead(reader) {
   return head;
 }
 
+// of block theory: when they hold, and by body a kind, the factor of safety (NaN: none) and a sentence
+function readVerdicts(reader) {
+  const moment = reader.text();
+  return { moment, bodies: Array.from({ length: reader.int() }, () =>
+    ({ kind: reader.int(), factor: reader.double(), sentence: reader.text() })) };
+}
+
 export function readRun(buffer) {
   const reader = new Reader(buffer);
-  const run = { head: null, shapes: [], frames: [], pairs: Object.fromEntries(PAIR.map((name) => [name, []])) };
+  const run = { head: null, verdicts: null, shapes: [], frames: [], pairs: Object.fromEntries(PAIR.map((name) => [name, []])) };
   let latest = new Map(), base = 0;
   while (reader.more) {
     const begin = reader.at, tag = reader.int(), size = reader.int();
@@ -116,6 +123,7 @@ export function readRun(buffer) {
       run.shapes.push(shape);
     }
     if (tag === FRAME) run.frames.push(readFrame(reader, run.head.dimension, run.pairs, base));
+    if (tag === VERDICTS) run.verdicts = readVerdicts(reader);
     if (tag === AGAIN) base = run.pairs.bodyA.length;
     reader.at = begin + size;
   }

@@ -21,7 +21,7 @@ export function describe({ run, bodies, look, faces, plane }) {
   const joint = look.face >= 0 && faces[look.face].shape === look.shape ? faces[look.face].joint : -1;
   if (look.face >= 0 && faces[look.face].face >= 0)
     lines.push(['face', joint < 0 ? 'no joint' : `${run.head.joints[joint].name}, ${orientationText(run.head.joints[joint], plane)}`]);
-  return { title: shape.name || `block ${b}`, lines, table: contactTable(run, frame, b) };
+  return { title: shape.name || `block ${b}`, text: run.verdicts?.bodies[b].sentence, lines, table: contactTable(run, frame, b) };
 }
 
 function contactTable(run, { contacts }, body) {

@@ -2,7 +2,7 @@
 // are some pixels wide (forces, bolts, edges in the plane); one for the faces of a section.
 import { Color, DataTexture, DoubleSide, FloatType, NearestFilter, RedFormat, RGBAFormat, ShaderMaterial, UnsignedByteType, Vector2, Vector3, Vector4 } from 'three';
 import { bodyShader } from './bodies.js';
-import { EDGE, HELD, ramp, ROCK } from './colours.js';
+import { EDGE, HELD, KINDS, ramp, rgb, ROCK } from './colours.js';
 
 const LIST = 1024; // a row of a texture that is a list
 
@@ -24,6 +24,7 @@ export function sharedUniforms(bodies, groups, properties, faceValues) {
     cut: u(new Vector4(0, 0, 0, 1)), showFixed: u(true),
     groups: u(groups.texture), propertyColours: u(properties.texture), faceValues: u(faceValues.texture),
     mode: u(0), low: u(0), high: u(1), logarithmic: u(false), ramp: u(ramp.map((c) => new Vector3(...c))),
+    kinds: u(KINDS.map(([, colour]) => new Vector3(...rgb(colour)))),
     chosenGroup: u(-1), picked: u(-1), opacity: u(1), light: u(new Vector3(0, 0, 1)),
     viewport: u(new Vector2(1, 1)), widest: u(0),
   };
@@ -58,7 +59,7 @@ const faceVertex = `
     which = vec4(number, group, properties, shape);
     held = more.y;
     int n = int(number);
-    value = mode == 1 ? length(moved) : mode == 2 ? more.x
+    value = mode == 1 ? length(moved) : mode == 2 || mode == 5 ? more.x
       : mode == 3 ? texelFetch(faceValues, ivec2(n % ${LIST}, n / ${LIST}), 0).r : 0.0;
   }
 `;
@@ -82,7 +83,7 @@ const faceFragment = `
   uniform int mode;
   uniform float low, high, chosenGroup, picked, opacity;
   uniform bool logarithmic;
-  uniform vec3 ramp[${ramp.length}];
+  uniform vec3 ramp[${ramp.length}], kinds[${KINDS.length}];
   flat varying vec4 which;
   flat varying float held;
   varying float value;
@@ -106,6 +107,7 @@ const faceFragment = `
       bool bare = group.a < 0.75;
       vec3 colour = mode == 0 ? (bare ? rock : group.rgb)
         : mode == 4 ? (which.z < 0.5 ? rock : listed(propertyColours, which.z).rgb)
+        : mode == 5 ? kinds[int(value + 0.5)]
         : mode == 3 && value < 0.0 ? rock : rampOf(value);
       if (mode == 0 && held > 0.5 && !bare) colour = mix(colour, vec3(${held()}), 0.35);
       if (chosenGroup >= 0.0 && which.y != chosenGroup) colour = mix(colour, vec3(0.96), 0.82);

@@ -29,10 +29,11 @@ export class Overlay {
     this.element.setAttribute('height', height);
     this.element.setAttribute('viewBox', `0 0 ${width} ${height}`);
     const left = 16, bottom = height - 16, right = width - 16, R = this.net.radius * this.scale;
+    const fitting = (text, pixels) => shortened(text, Math.max(12, Math.floor((width - left - 230) / pixels)));
     net.setAttribute('transform', `translate(${right - R - 8} ${bottom - R - 4}) scale(${this.scale})`);
     this.drawn.replaceChildren(
-      label(left, 26, shortened(scene.title, Math.max(12, Math.floor((width - left - 230) / 8.2))), { 'font-size': 15 }),
-      label(left, 45, scene.moment),
+      label(left, 26, fitting(scene.title, 8.2), { 'font-size': 15 }),
+      label(left, 45, fitting(scene.moment, 6.6)),
       ...(scene.magnified !== 1 ? [label(left, 62, `displacements ×${digits(scene.magnified)}`)] : []),
       this.scaleBar(left, bottom, scene.perPixel),
       this.directions(left + 36, bottom - 62, scene),
@@ -75,10 +76,14 @@ export class Overlay {
       at += 170;
     } else {
       title(choice.label);
-      for (const [name, colour] of rowsOf(run, choice)) {
+      if (choice.note) {
+        at += 16;
+        group.append(label(x, at, choice.note, { 'text-anchor': 'end', 'font-size': 11, fill: '#606060' }));
+      }
+      for (const [name, colour] of choice.rows ?? rowsOf(run, choice)) {
         at += 18;
         group.append(svg('rect', { x: x - 14, y: at - 10, width: 14, height: 11, fill: colour, stroke: '#606060', 'stroke-width': 0.6 }),
-          label(x - 20, at, shortened(name, 24), { 'text-anchor': 'end' }));
+          label(x - 20, at, shortened(name, choice.rows ? 40 : 24), { 'text-anchor': 'end' }));
       }
       at += 26;
     }

@@ -143,11 +143,12 @@ export class Panel {
 
   refresh() { for (const refresh of Object.values(this.inputs)) refresh(); }
 
-  // lines of [name, value], and a table
-  showInfo({ title, lines, table } = {}) {
+  // a text, lines of [name, value], and a table
+  showInfo({ title, text, lines, table } = {}) {
     this.info.replaceChildren();
     if (!title) return;
     this.info.append(node('h2', {}, title));
+    if (text) this.info.append(node('p', {}, text));
     const list = node('dl');
     for (const [name, value] of lines) list.append(node('dt', {}, name), node('dd', {}, value));
     this.info.append(list);

@@ -1,7 +1,7 @@
 // A section: each convex part that the plane cuts gives a polygon, so blocks look solid and their joints show as lines.
 import { BufferAttribute, BufferGeometry } from 'three';
 import { edgesOf } from './geometry.js';
-import { HELD, rampColour, rgb, ROCK, share } from './colours.js';
+import { HELD, KINDS, rampColour, rgb, ROCK, share } from './colours.js';
 
 // the plane's unit normal and the position of the cut along it; everything beyond is removed
 export function cutParts({ run, bodies, look, frame, showFixed }, normal, offset) {
@@ -54,6 +54,7 @@ export function cutGeometry(polygons, { run, bodies, frame, choice, mode, legend
   for (const { shape, corners } of polygons) {
     const own = run.shapes[shape], rock = rgb(bodies.isFixed(own, frame) ? HELD : ROCK);
     const tint = (c) => mode === 'point' ? rampColour(share(c[3], legend))
+      : mode === 'kind' ? rgb(KINDS[choice.value(own)][1])
       : mode === 'body' ? rampColour(share(choice.value(own, frame), legend)) : rock;
     for (let i = 1; i + 1 < corners.length; ++i)
       for (const c of [corners[0], corners[i], corners[i + 1]]) {

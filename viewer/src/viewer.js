@@ -2,7 +2,7 @@
 import { Color, LineSegments, Mesh, Scene, Vector3, WebGLRenderer, WebGLRenderTarget, LineBasicMaterial, LinearSRGBColorSpace } from 'three';
 import { Bodies } from './bodies.js';
 import { bestAzimuth, Camera } from './camera.js';
-import { BODY, choices, digits, EDGE, FACE, frictionByFace, groupColour, listColour, POINT, rgb, withUnit } from './colours.js';
+import { BODY, choices, digits, EDGE, FACE, frictionByFace, groupColour, KIND, listColour, POINT, rgb, withUnit } from './colours.js';
 import { START, TRIAL, nameOf } from './data.js';
 import { boxOf, edgeGeometry, faceGeometry, findInner, listFaces, polygonNormal } from './geometry.js';
 import { describe } from './info.js';
@@ -17,7 +17,7 @@ import { Stereonet } from './stereonet.js';
 const WIDEST = 16, FULL_EDGES = 14;
 
 const initialLook = (run) => ({
-  frame: run.frames.length - 1, magnified: 1, exploded: 0, colour: run.head.joints.length ? 'set' : 'displacement',
+  frame: run.frames.length - 1, magnified: 1, exploded: 0, colour: run.verdicts ? 'factor' : run.head.joints.length ? 'set' : 'displacement',
   forces: 'none', forceSize: 1, section: 'none', cutAt: 0.5, cutOther: false, hidden: new Set(), chosen: -1, showFixed: true,
   edges: true, shape: -1, face: -1,
 });
@@ -193,7 +193,7 @@ export class Viewer {
   update() {
     const { look, run, uniforms: u } = this, choice = this.choices[look.colour];
     this.legend = choice.range ? (choice.found ??= choice.range()) : null;
-    this.bodies.setFrame(look.frame, choice.mode === BODY ? (shape) => choice.value(shape, look.frame) : undefined);
+    this.bodies.setFrame(look.frame, choice.value ? (shape) => choice.value(shape, look.frame) : undefined);
     if (choice.mode === FACE) {
       frictionByFace(run, this.faces, look.frame, this.faceValues.values);
       this.faceValues.texture.needsUpdate = true;
@@ -259,7 +259,7 @@ export class Viewer {
     const sign = look.cutOther ? -1 : 1, n = plane.normal;
     u.cut.value.set(...n.map((c) => sign * c), sign * plane.offset + 1e-6 * this.box.radius);
     const scene = { run: this.run, bodies: this.bodies, look, frame: look.frame, showFixed: look.showFixed };
-    const mode = { [POINT]: 'point', [BODY]: 'body' }[choice.mode];
+    const mode = { [POINT]: 'point', [BODY]: 'body', [KIND]: 'kind' }[choice.mode];
     const { faces, lines } = cutGeometry(cutParts(scene, n, plane.offset), { ...scene, choice, mode, legend: this.legend });
     this.cut.geometry.dispose();
     this.cutLines.geometry.dispose();
@@ -295,7 +295,7 @@ export class Viewer {
 
   moment() {
     const { run, look } = this, frame = run.frames[look.frame], stage = run.head.stages[frame.stage] ?? '';
-    if (frame.kind === START) return 'at the start';
+    if (frame.kind === START) return run.verdicts?.moment ?? 'at the start';
     if (frame.kind === TRIAL) return `stage ${stage}, trial ${frame.trial}, taken back`;
     return `stage ${stage}, t = ${digits(frame.time)} s`;
   }

@@ -284,6 +284,24 @@ async function testOthers() {
   await save('bench');
 }
 
+// ---- verdicts of block theory: blocks 2 and 5 slide together, at 1.0694, on A1 and B1
+
+async function testVerdicts() {
+  const out = join(folder, 'verdicts');
+  execFileSync(program, ['blocks', join(source, 'examples/tutorial/slope.toml'), '--view', '--required', '1.3', '--out', out]);
+  await open(page(out));
+  assert.equal(await viewer('return v.look.colour'), 'factor', 'the first choice');
+  const legend = await viewer('return v.overlay.element.textContent');
+  assert.match(legend, /as sliced, strength of stage "safety".*factor of safety.*1 to 1\.3 \(2\)/);
+  await changes('another colour', () => set('colour', 'size'), { text: /m³/ });
+  await changes('factor of safety', () => set('colour', 'factor'), { text: /factor of safety/ });
+  await changes('a moving block', () => browser.type(at('block'), `5${KEY.enter}`), {
+    text: /It slides on two faces \(A2, B1\) towards 38\.9\/170\.4.*factor of safety 1\.0794; force for 1\.3: 50 kN.* As part of 2\+5 it .*1\.0694/ });
+  await changes('a section', () => set('section', 'y'));
+  await save('verdicts');
+  assert.equal(readRun(new Uint8Array(readFileSync(join(out, 'view.bin'))).buffer).verdicts.bodies[2].factor.toFixed(6), '1.069448');
+}
+
 // Given and random names: none runs, none is lost.
 async function testNames() {
   const pieces = ['</script>', "<script>window['broken']++</script>", '"', "'", '`', '<', '>', '&lt;', '<!--', '-->', ']]>', '\\', '\\u003c', '${1}',
@@ -310,6 +328,14 @@ point = [0, 1, 0]
   const html = readFileSync(page(out), 'utf8');
   for (const part of ['broken', 'Fjell', '<iframe']) assert.ok(!html.includes(part), `the page has ${part} as text`);
   await quiet(page(out));
+  // in the sentence of a verdict, too
+  const judged = join(folder, 'judged_names');
+  execFileSync(program, ['blocks', scene, '--view', '--seismic', '0.3/90', '--out', judged]);
+  await open(page(judged));
+  assert.ok(await viewer("return v.run.verdicts.bodies.some((b, i) => b.sentence.includes('<script>') && (v.pickByName(String(i)), true))"));
+  assert.match(await viewer("return v.panel.info.textContent"), /slides on one face \(--><\/script><script>/);
+  assert.equal(await js('return window.broken ?? null'), null, 'a name has run');
+  await quiet(page(judged));
 }
 
 // fragments for a page with many: a poster first, a picture when it is clicked
@@ -424,6 +450,8 @@ try {
     timed('teninputs');
     await testOthers();
     timed('others');
+    await testVerdicts();
+    timed('verdicts');
     await testNames();
     timed('names');
     await testFragments(wedge);
