@@ -40,7 +40,7 @@ int stage_of_search(const std::vector<StagePlan>& stages) {
 
 void refuse_out_of_range(const SurveyRequest& request) {
   const auto check = [](const char* what, double number, double low, double high, double unit) {
-    if (!(number >= low * unit && number <= high * unit))
+    if (!std::isfinite(number) || number < low * unit || number > high * unit)
       throw BadInput(fmt::format("{} {:g} is not from {:g} to {:g}", what, number / unit, low, high));
   };
   check("the required factor of safety", request.required, least_required, most_required, 1);
