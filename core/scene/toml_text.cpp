@@ -153,7 +153,7 @@ void require_sane_size(std::string_view text, const std::string& source) {
   if (text.size() > largest_scene_file)
     throw SceneError(source + ": larger than 16 MB; a scene must be smaller", source);
   constexpr int most_dots = 100;
-  constexpr int most_values = 1'000'000;  // a few hundred bytes of memory each
+  constexpr int most_marks = 1'000'000;  // a few hundred bytes of memory each
   int line = 1, dots = 0, values = 0;
   for (const char c : text) {
     if (c == '\n') ++line;
@@ -163,7 +163,7 @@ void require_sane_size(std::string_view text, const std::string& source) {
           source + ":" + std::to_string(line) +
               ": more than 100 dots in a row: keys must not nest so deeply; a scene needs three levels at most",
           source, line);
-    if ((c == ',' || c == '=' || c == '[' || c == '{') && ++values > most_values)
+    if ((c == ',' || c == '=' || c == '[' || c == '{') && ++values > most_marks)
       throw SceneError(
           source + ":" + std::to_string(line) + ": more than a million values: a scene must be smaller; divide it",
           source, line);

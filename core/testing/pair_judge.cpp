@@ -263,7 +263,7 @@ class Judge {
 };
 
 template <int Dim>
-Contact<Dim> resolve(Pair<Dim> pair, QueryLevel level, const Contact<Dim>& before, Tally& tally,
+Contact<Dim> resolve(Pair<Dim> pair, QueryLevel level, const Contact<Dim>& before,
                      const ContactSettings& settings = {}) {
   pair.level = level;
   const contacts::Outcome<Dim> outcome = contacts::resolve<Dim>(pair, settings, before);
@@ -354,9 +354,9 @@ template <int Dim>
 std::vector<Finding> judge(const Case<Dim>& c, Tally& tally) {
   std::vector<Finding> findings;
   const Scene<Dim> before(c, false), after(c, true);
-  const Contact<Dim> cold = resolve<Dim>(before.pair, QueryLevel::area, {}, tally),
-                     decided = resolve<Dim>(before.pair, QueryLevel::decision, {}, tally),
-                     warm = resolve<Dim>(after.pair, QueryLevel::area, cold, tally);
+  const Contact<Dim> cold = resolve<Dim>(before.pair, QueryLevel::area, {}),
+                     decided = resolve<Dim>(before.pair, QueryLevel::decision, {}),
+                     warm = resolve<Dim>(after.pair, QueryLevel::area, cold);
   Judge<Dim> judge_cold(before, "cold, ", findings, tally), judge_decided(before, "decision only, ", findings, tally),
       judge_warm(after, "warm, ", findings, tally);
   judge_cold.program();
@@ -368,8 +368,8 @@ std::vector<Finding> judge(const Case<Dim>& c, Tally& tally) {
   if (warm.touching()) judge_warm.values(warm.geometry);
 
   const ContactSettings on_path{.point = ContactPoint::central_path, .normal = ContactNormal::multipliers};
-  const Contact<Dim> path_cold = resolve<Dim>(before.pair, QueryLevel::overlap, {}, tally, on_path),
-                     path_warm = resolve<Dim>(after.pair, QueryLevel::overlap, path_cold, tally, on_path);
+  const Contact<Dim> path_cold = resolve<Dim>(before.pair, QueryLevel::overlap, {}, on_path),
+                     path_warm = resolve<Dim>(after.pair, QueryLevel::overlap, path_cold, on_path);
   Judge<Dim> judge_path_cold(before, "central path, cold, ", findings, tally),
       judge_path_warm(after, "central path, warm, ", findings, tally);
   judge_path_cold.decision(path_cold, QueryLevel::overlap);

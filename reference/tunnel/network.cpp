@@ -25,8 +25,8 @@ bool is_stiffness(double value) {
 }
 
 bool is_unit(const Point& direction) {
-  constexpr double rounding = 1e-9;
-  return std::abs(std::hypot(direction[0], direction[1]) - 1) < rounding;
+  constexpr double of_unit_length = 1e-9;
+  return std::abs(std::hypot(direction[0], direction[1]) - 1) < of_unit_length;
 }
 
 Point turned(const Point& a) {
