@@ -40,8 +40,10 @@ int stage_of_search(const std::vector<StagePlan>& stages) {
 
 void refuse_out_of_range(const SurveyRequest& request) {
   const auto check = [](const char* what, double number, double low, double high, double unit) {
-    if (!std::isfinite(number) || number < low * unit || number > high * unit)
-      throw BadInput(fmt::format("{} {:g} is not from {:g} to {:g}", what, number / unit, low, high));
+    if (std::isfinite(number) && number >= low * unit && number <= high * unit) return;
+    // the library that formats compares, which raises a floating-point exception if it is no number
+    const std::string stated = std::isfinite(number) ? fmt::format("{:g}", number / unit) : std::to_string(number);
+    throw BadInput(fmt::format("{} {} is not from {:g} to {:g}", what, stated, low, high));
   };
   check("the required factor of safety", request.required, least_required, most_required, 1);
   if (request.seismic) {
