@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/geometry/polytope.hpp"
+
 namespace voussoir {
 namespace {
 
@@ -124,7 +126,7 @@ bool Recutter<Dim>::add_faces(int body, Block<Dim>& block) const {
       on = &contact;
     }
     if (!on) continue;
-    const double former = measure_face<Dim>(part.vertices, part.loops[f]).first;
+    const double former = face_area<Dim>(part, static_cast<int>(f));
     if (std::abs(on->area - former) > whole_face * former) return false;
     ++matched;
     const JointProperties& properties = assembly_.model.properties[on->properties];
