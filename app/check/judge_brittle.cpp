@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <optional>
 
-#include "core/base/bad_input.hpp"
 #include "core/key_blocks/block_survey.hpp"
 #include "core/run/brittle_factor.hpp"
 #include "core/run/failure_watch.hpp"
@@ -54,14 +53,8 @@ void judge_brittle_bonds(const Prepared<Dim>& prepared, std::vector<std::string>
   for (std::size_t s = 0; s < prepared.stages.size(); ++s) {
     const auto* search = std::get_if<ReducePlan>(&prepared.stages[s].plan);
     if (!search || search->searched != Searched::factor) continue;
-    std::optional<LeastBrittle> least;
-    try {
-      refuse_other_models(prepared.model);
-      const Assembly<Dim> assembly = assembly_of_stage(prepared, static_cast<int>(s));
-      refuse_other_models(assembly.model);
-      least = least_brittle(assembly, *search);
-    } catch (const BadInput&) {  // block theory has no verdict on this scene
-    }
+    const std::optional<Assembly<Dim>> assembly = assembly_of_stage(prepared, static_cast<int>(s));
+    const std::optional<LeastBrittle> least = assembly ? least_brittle(*assembly, *search) : std::nullopt;
     if (!least) continue;
     warnings.push_back(fmt::format(
         "stage.{}: of blocks that slide on brittle bonds {} {} {} the least factor by the closed form at this "

@@ -103,19 +103,36 @@ MassProperties<Dim> moved_origin(const MassProperties<Dim>& mass, const Vector<D
 }
 
 template <>
-double face_area(const Polytope<2>& part, int face) {
-  const std::vector<int>& loop = part.loops[face];
-  return loop.size() < 2 ? 0 : (part.vertices[loop[1]] - part.vertices[loop[0]]).norm();
+double face_area(const std::vector<Vector<2>>& vertices, const std::vector<int>& loop) {
+  return loop.size() < 2 ? 0 : (vertices[loop[1]] - vertices[loop[0]]).norm();
 }
 
 template <>
-double face_area(const Polytope<3>& part, int face) {
-  const std::vector<int>& loop = part.loops[face];
+double face_area(const std::vector<Vector<3>>& vertices, const std::vector<int>& loop) {
   Vector<3> twice = Vector<3>::Zero();
   for (std::size_t k = 1; k + 1 < loop.size(); ++k)
-    twice +=
-        (part.vertices[loop[k]] - part.vertices[loop[0]]).cross(part.vertices[loop[k + 1]] - part.vertices[loop[0]]);
+    twice += (vertices[loop[k]] - vertices[loop[0]]).cross(vertices[loop[k + 1]] - vertices[loop[0]]);
   return 0.5 * twice.norm();
+}
+
+template <>
+Vector<2> face_centroid(const std::vector<Vector<2>>& vertices, const std::vector<int>& loop, const Vector<2>&) {
+  return 0.5 * (vertices[loop[0]] + vertices[loop[1]]);
+}
+
+// by triangles around the first corner
+template <>
+Vector<3> face_centroid(const std::vector<Vector<3>>& vertices, const std::vector<int>& loop, const Vector<3>& normal) {
+  const Vector<3>& corner = vertices[loop[0]];
+  Vector<3> moment = Vector<3>::Zero();
+  double area = 0;
+  for (std::size_t k = 1; k + 1 < loop.size(); ++k) {
+    const Vector<3> u = vertices[loop[k]] - corner, v = vertices[loop[k + 1]] - corner;
+    const double piece = u.cross(v).dot(normal);
+    area += piece;
+    moment += piece / 3 * (u + v);
+  }
+  return area > 0 ? Vector<3>(corner + moment / area) : corner;
 }
 
 template <int Dim>

@@ -68,9 +68,19 @@ double find_vertex_error(const Polytope<Dim>& part);
 // the vertices of a part in the plane along its boundary, counter-clockwise
 std::vector<int> boundary_ring(const Polytope<2>& part);
 
-// area (2-D: length) of a face
+// area (2-D: length) of a face by its corners in order around it; 0 without `Dim` of them
 template <int Dim>
-double face_area(const Polytope<Dim>& part, int face);
+double face_area(const std::vector<Vector<Dim>>& vertices, const std::vector<int>& loop);
+template <int Dim>
+double face_area(const Polytope<Dim>& part, int face) {
+  return face_area<Dim>(part.vertices, part.loops[face]);
+}
+
+// centroid of a face with at least `Dim` corners; of one without area its first corner
+template <int Dim>
+Vector<Dim> face_centroid(const std::vector<Vector<Dim>>& vertices, const std::vector<int>& loop,
+                          const Vector<Dim>& normal);
+
 template <int Dim>
 double find_largest_face(const Polytope<Dim>& part);
 

@@ -17,6 +17,24 @@
 namespace voussoir {
 namespace {
 
+template <int Dim>
+void refuse_other_models(const Model<Dim>& model) {
+  if (model.particles)
+    throw BadInput(
+        "the scene has potential particles: block theory has blocks of half-spaces only; leave out shape = "
+        "\"potential\", or use 'voussoir run'");
+  for (const JointProperties& joint : model.properties)
+    if (joint.laws.friction == FrictionLaw::hardening)
+      throw BadInput(
+          fmt::format("joint_properties '{}': friction that hardens with slip is zero at the start, where block theory "
+                      "judges; state "
+                      "friction_deg without hardening, or use 'voussoir run'",
+                      joint.name));
+  const auto is_free = [](const Body<Dim>& body) { return body.present && !body.fixed && !body.parts.empty(); };
+  if (std::none_of(model.bodies.begin(), model.bodies.end(), is_free))
+    throw BadInput("every block is fixed, so there is nothing to judge; choose fewer blocks in fix");
+}
+
 int place_of_stage(const std::vector<StagePlan>& stages, const std::string& name, const char* option) {
   std::string names;
   for (std::size_t s = 0; s < stages.size(); ++s) {
@@ -54,24 +72,6 @@ void refuse_out_of_range(const SurveyRequest& request) {
   if (!request.bolt) return;
   check("the plunge of the bolt (deg)", request.bolt->first, -90, 90, degree);
   check("the trend of the bolt (deg)", request.bolt->second, 0, 360, degree);
-}
-
-template <int Dim>
-void refuse_other_models(const Model<Dim>& model) {
-  if (model.particles)
-    throw BadInput(
-        "the scene has potential particles: block theory has blocks of half-spaces only; leave out shape = "
-        "\"potential\", or use 'voussoir run'");
-  for (const JointProperties& joint : model.properties)
-    if (joint.laws.friction == FrictionLaw::hardening)
-      throw BadInput(
-          fmt::format("joint_properties '{}': friction that hardens with slip is zero at the start, where block theory "
-                      "judges; state "
-                      "friction_deg without hardening, or use 'voussoir run'",
-                      joint.name));
-  const auto is_free = [](const Body<Dim>& body) { return body.present && !body.fixed && !body.parts.empty(); };
-  if (std::none_of(model.bodies.begin(), model.bodies.end(), is_free))
-    throw BadInput("every block is fixed, so there is nothing to judge; choose fewer blocks in fix");
 }
 
 namespace {
@@ -179,6 +179,14 @@ Assembly<Dim> assembly_at(const Prepared<Dim>& prepared, const Stages& stages) {
 }
 
 template <int Dim>
+Assembly<Dim> judged_assembly(const Prepared<Dim>& prepared, const Stages& stages) {
+  refuse_other_models(prepared.model);
+  Assembly<Dim> assembly = assembly_at(prepared, stages);
+  refuse_other_models(assembly.model);
+  return assembly;
+}
+
+template <int Dim>
 Vector<Dim> horizontal(double trend) {
   if constexpr (Dim == 2)
     return {std::sin(trend) < 0 ? -1.0 : 1.0, 0};
@@ -278,8 +286,12 @@ std::string Survey<Dim>::body_names(const SurveyRow<Dim>& row) const {
 }
 
 template <int Dim>
-Assembly<Dim> assembly_of_stage(const Prepared<Dim>& prepared, int stage) {
-  return assembly_at(prepared, Stages{.strength = stage, .loads = stage, .geometry = stage});
+std::optional<Assembly<Dim>> assembly_of_stage(const Prepared<Dim>& prepared, int stage) {
+  try {
+    return judged_assembly(prepared, Stages{.strength = stage, .loads = stage, .geometry = stage});
+  } catch (const BadInput&) {
+    return {};
+  }
 }
 
 template <int Dim>
@@ -290,12 +302,10 @@ std::vector<JointProperties> properties_of_request(const Prepared<Dim>& prepared
 template <int Dim>
 Survey<Dim> survey_blocks(const Prepared<Dim>& prepared, const SurveyRequest& request) {
   const Stages stages = choose_stages(prepared.stages, request);
-  refuse_other_models(prepared.model);
   Survey<Dim> survey;
   survey.request = request;
-  survey.assembly = assembly_at(prepared, stages);
+  survey.assembly = judged_assembly(prepared, stages);
   const Model<Dim>& model = survey.assembly.model;
-  refuse_other_models(model);
   survey.sets = prepared.joint_sets;
   survey.strength =
       stages.strength < 0 ? "joint_properties" : fmt::format("stage \"{}\"", prepared.stages[stages.strength].name);
@@ -363,8 +373,7 @@ const char* motion_of(const SurveyRow<Dim>& row) {
   template struct Survey<Dim>;                                                                                  \
   template Survey<Dim> survey_blocks<Dim>(const Prepared<Dim>&, const SurveyRequest&);                          \
   template std::vector<JointProperties> properties_of_request<Dim>(const Prepared<Dim>&, const SurveyRequest&); \
-  template Assembly<Dim> assembly_of_stage<Dim>(const Prepared<Dim>&, int);                                     \
-  template void refuse_other_models<Dim>(const Model<Dim>&);                                                    \
+  template std::optional<Assembly<Dim>> assembly_of_stage<Dim>(const Prepared<Dim>&, int);                      \
   template const char* type_of<Dim>(const SurveyRow<Dim>&, double);                                             \
   template const char* motion_of<Dim>(const SurveyRow<Dim>&);
 VOUSSOIR_INSTANTIATE(2)

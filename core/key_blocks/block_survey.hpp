@@ -82,13 +82,10 @@ Survey<Dim> survey_blocks(const Prepared<Dim>& prepared, const SurveyRequest& re
 template <int Dim>
 std::vector<JointProperties> properties_of_request(const Prepared<Dim>& prepared, const SurveyRequest& request);
 
-// The blocks at a stage of the scene, from 0: its geometry, strength, loads and bolts.
+// The blocks at a stage of the scene, from 0: its geometry, strength, loads and bolts; none if block theory cannot
+// judge the scene.
 template <int Dim>
-Assembly<Dim> assembly_of_stage(const Prepared<Dim>& prepared, int stage);
-
-// Throws BadInput for models that block theory cannot judge.
-template <int Dim>
-void refuse_other_models(const Model<Dim>& model);
+std::optional<Assembly<Dim>> assembly_of_stage(const Prepared<Dim>& prepared, int stage);
 
 const char* word_of(BlockKind kind);
 // Goodman & Shi's type, with "I" for factors below the required one; empty: none

@@ -12,27 +12,6 @@ constexpr double whole_face = 1e-6;   // of a face's area, by which the area of 
 constexpr double vanishing = 1e-9;    // of a block's radius: a plane that cuts off less makes no face
 constexpr double same_plane = 1e-12;  // of normals, and of offsets over the mass's size: planes of the domain repeat
 
-// area (2-D: length) and centroid of a face
-template <int Dim>
-std::pair<double, Vector<Dim>> measure_face(const std::vector<Vector<Dim>>& corners, const std::vector<int>& loop) {
-  const Vector<Dim>& first = corners[loop[0]];
-  if constexpr (Dim == 2) {
-    const Vector<2>& second = corners[loop[1]];
-    return {(second - first).norm(), 0.5 * (first + second)};
-  } else {
-    Vector<3> sum = Vector<3>::Zero();
-    for (std::size_t k = 1; k + 1 < loop.size(); ++k)
-      sum += (corners[loop[k]] - first).cross(corners[loop[k + 1]] - first);
-    const double twice = sum.norm();
-    Vector<3> centroid = Vector<3>::Zero();
-    for (std::size_t k = 1; k + 1 < loop.size() && twice > 0; ++k) {
-      const Vector<3>&a = corners[loop[k]], &b = corners[loop[k + 1]];
-      centroid += (a - first).cross(b - first).dot(sum) / (3 * twice * twice) * (a + b - 2 * first);
-    }
-    return {twice / 2, first + centroid};
-  }
-}
-
 }  // namespace
 
 template <int Dim>
@@ -115,7 +94,7 @@ bool Recutter<Dim>::add_faces(int body, Block<Dim>& block) const {
   for (std::size_t f = 0; f < faces_.size(); ++f) {
     if (part.loops[f].size() < Dim && surface_.loops[f].size() < Dim) continue;
     if (part.loops[f].size() < Dim || surface_.loops[f].size() < Dim) return false;
-    const auto [area, centroid] = measure_face<Dim>(surface_.vertices, surface_.loops[f]);
+    const double area = face_area<Dim>(surface_.vertices, surface_.loops[f]);
     block.surface += area;
     const RockContact<Dim>* on = nullptr;
     for (const int place : assembly_.contacts.of(body)) {
@@ -137,7 +116,7 @@ bool Recutter<Dim>::add_faces(int body, Block<Dim>& block) const {
     face.area = area;
     face.tan_friction = std::tan(properties.friction);
     face.cohesion = area * properties.cohesion;
-    face.centroid = centroid + b.reference;
+    face.centroid = b.reference + face_centroid<Dim>(surface_.vertices, surface_.loops[f], faces_[f].normal);
     block.contact_area += area;
     block.faces.push_back(face);
     block.normals.push_back(face.normal);

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/bad_input.hpp"
 #include "core/geometry/plunge_trend.hpp"
 #include "core/key_blocks/block_survey.hpp"
 #include "core/key_blocks/elastic_shear.hpp"
@@ -93,14 +92,10 @@ std::vector<std::string> reasons_of(const JudgedSet<Dim>& set, const FailureMech
 template <int Dim>
 std::optional<BlockTheory> judge_moving(const Prepared<Dim>& prepared, int place, const FailureMechanism& mechanism) {
   const ReducePlan& plan = std::get<ReducePlan>(prepared.stages[place].plan);
+  std::optional<Assembly<Dim>> assembly = assembly_of_stage(prepared, place);
+  if (!assembly) return {};
   JudgedSet<Dim> set;
-  try {
-    refuse_other_models(prepared.model);
-    set.assembly = assembly_of_stage(prepared, place);
-    refuse_other_models(set.assembly.model);
-  } catch (const BadInput&) {
-    return {};
-  }
+  set.assembly = std::move(*assembly);
   const Vector<Dim>& gravity = set.assembly.model.gravity;
   gather<Dim>(set.assembly, mechanism.bodies(), {}, set.block);
   set.bolted = judge_bolted<Dim>(set.block, Vector<Dim>::Zero(), gravity);
