@@ -23,6 +23,7 @@ function(voussoir_case name)
   add_executable(case_${name} ${sources})
   target_link_libraries(case_${name} PRIVATE
     voussoir_flags voussoir_traps voussoir_verification voussoir::core voussoir_reference fmt::fmt ${arg_LIBS} GTest::gtest_main)
+  target_compile_options(case_${name} PRIVATE ${VOUSSOIR_TEST_OPTIMISATION})
   target_precompile_headers(case_${name} REUSE_FROM voussoir_case_headers)
   voussoir_compile_as_one(case_${name})
   target_compile_definitions(case_${name} PRIVATE
