@@ -44,6 +44,7 @@ history: test
 	@cmake --build $(BUILD) --target history
 
 test-long: build
+	@cmake/install_packages.sh notebooks
 	@cmake/run_tests.sh $(BUILD) $(JOBS) long
 
 coverage:

@@ -32,9 +32,11 @@ The static library and its headers, for CMake and pkg-config.")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-voussoir)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "voussoir (= ${PROJECT_VERSION})")  # its commands
 set(CPACK_DEBIAN_PYTHON_DESCRIPTION "distinct element models of jointed rock (Python module)
 ${about}
-Scenes as Python objects, their state as read-only arrays of numpy.")
+Scenes as Python objects, their state as read-only arrays of numpy, and the
+commands of the program voussoir as functions.")
 
 # the files that every package must have in its documentation folder
 string(TIMESTAMP VOUSSOIR_PACKAGE_DATE "%a, %d %b %Y %H:%M:%S +0000" UTC)  # of SOURCE_DATE_EPOCH

@@ -1,4 +1,4 @@
-// The Python module `voussoir`: README.md in this folder shows its use.
+// The Python module `voussoir._core`: README.md in this folder shows its use.
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
@@ -415,7 +415,7 @@ void bind_state(py::module_& module) {
 }  // namespace
 }  // namespace voussoir::python
 
-PYBIND11_MODULE(voussoir, module) {
+PYBIND11_MODULE(_core, module) {
   using namespace voussoir::python;
   module.doc() = "Distinct element modelling of jointed rock: scenes, run in portions of steps.";
   module.attr("__version__") = voussoir::version();

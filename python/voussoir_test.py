@@ -482,13 +482,14 @@ class Life(unittest.TestCase):
         with tempfile.TemporaryDirectory() as prefix:
             subprocess.run([os.environ["CMAKE_COMMAND"], "--install", os.environ["VOUSSOIR_BUILD_DIR"], "--component", "python",
                             "--prefix", prefix], check=True, stdout=subprocess.DEVNULL)
-            installed = [path for path in Path(prefix).rglob("*") if path.is_file()]
-            self.assertEqual(len(installed), 1, installed)
-            self.assertEqual(installed[0].parent, Path(prefix) / "lib/python3/dist-packages")
+            package = Path(prefix) / "lib/python3/dist-packages/voussoir"
+            installed = {str(path.relative_to(package)) for path in package.rglob("*") if path.is_file()}
+            module = Path(voussoir._core.__file__).name
+            self.assertEqual(installed, {module} | {path.name for path in (SOURCE / "python/src/voussoir").glob("*.*")})
             found = subprocess.run([sys.executable, "-c", "import voussoir; print(voussoir.__file__, voussoir.__version__)"],
-                                   env={**os.environ, "PYTHONPATH": str(installed[0].parent)}, cwd=prefix, check=True, text=True,
+                                   env={**os.environ, "PYTHONPATH": str(package.parent)}, cwd=prefix, check=True, text=True,
                                    stdout=subprocess.PIPE).stdout.split()
-            self.assertEqual(found, [str(installed[0]), voussoir.__version__])
+            self.assertEqual(found, [str(package / "__init__.py"), voussoir.__version__])
 
 
 class Readme(unittest.TestCase):
