@@ -14,12 +14,15 @@ namespace {
 
 using namespace program;
 
-const std::string plane =
-    head_in_plane +
-    "joint_properties = [{ name = \"rock\", normal_stiffness = 1e9, shear_stiffness = 1e8, friction_deg = 30 }]\n";
-const std::string halves = plane +
-                           "domain = { box = { min = [0, 0], max = [40, 40] } }\n"
-                           "joints = [{ name = \"bed\", dip = 0, point = [0, 20] }]\nfix = [{ below = [\"bed\"] }]\n";
+std::string plane() {
+  return head_in_plane +
+         "joint_properties = [{ name = \"rock\", normal_stiffness = 1e9, shear_stiffness = 1e8, friction_deg = 30 }]\n";
+}
+std::string halves() {
+  return plane() +
+         "domain = { box = { min = [0, 0], max = [40, 40] } }\n"
+         "joints = [{ name = \"bed\", dip = 0, point = [0, 20] }]\nfix = [{ below = [\"bed\"] }]\n";
+}
 class Messages : public CheckedScene {};
 
 bool holds(const std::string& text, const std::string& part) {
@@ -29,7 +32,7 @@ bool holds(const std::string& text, const std::string& part) {
 // ---- commands and repairs -------------------------------------------------------------------------------------------
 
 TEST_F(Messages, BlocksAreCutWithoutAStage) {
-  write("scene.toml", halves);
+  write("scene.toml", halves());
   EXPECT_EQ(run("slice scene.toml --out blocks").code, 0);
   EXPECT_TRUE(fs::exists(folder_ / "blocks" / "blocks.csv"));
   for (const char* command : {"check scene.toml", "run scene.toml --out r"})
@@ -45,14 +48,14 @@ TEST_F(Messages, HelpShowsNoListIfEachValueNeedsItsOption) {
     for (const std::string& line : lines_of(help.out))
       EXPECT_FALSE(line.starts_with("  --") && holds(line, "...")) << command << ": " << line;
   }
-  write("scene.toml", halves + settle_stage);
+  write("scene.toml", halves() + settle_stage);
   EXPECT_TRUE(holds(run("check scene.toml --set density=2500 --set title='\"two\"'").out, "two (2-D)"));
   EXPECT_EQ(run("check scene.toml --set density=2500 title=two").code, 2);
 }
 
 TEST_F(Messages, LimitAnalysisIsQuietWhenAsked) {
   if (!is_built_in("glpk")) GTEST_SKIP() << "built without GLPK";
-  write("scene.toml", halves + settle_stage);
+  write("scene.toml", halves() + settle_stage);
   const std::string dipping =
       "limit scene.toml --set joints.bed.dip=20 --set joints.bed.dip_direction=90 --out l --overwrite";
   EXPECT_FALSE(run(dipping).out.empty());
@@ -66,12 +69,12 @@ TEST_F(Messages, ListsThatAreTooLongGetTheirOwnRepair) {
   for (int k = 0; k < 1000; ++k)
     points += fmt::format("[{}, 30], ", k);
   const std::string water = "[[water]]\nname = \"lake\"\ntable = [" + points + "]\n";
-  write("scene.toml", halves + settle_stage + water);
+  write("scene.toml", halves() + settle_stage + water);
   const Ended ended = run("check scene.toml");
   expect_one_line(ended, 2, "water.lake.table");
   EXPECT_FALSE(holds(ended.err, "block")) << ended.err;
   EXPECT_TRUE(holds(ended.err, "leave out points")) << ended.err;
-  refused(plane + settle_stage + "[[blocks]]\nname = \"a\"\nvertices = [" + points + "]\n",
+  refused(plane() + settle_stage + "[[blocks]]\nname = \"a\"\nvertices = [" + points + "]\n",
           "divide the block into parts");
 }
 
@@ -82,14 +85,14 @@ TEST_F(Messages, MissingGravityIsNoWrongDensity) {
   EXPECT_TRUE(holds(out, "water lifts it by")) << out;
   EXPECT_TRUE(holds(out, "state gravity")) << out;
   EXPECT_FALSE(holds(out, "is the density")) << out;
-  EXPECT_TRUE(holds(check(halves + settle_stage + water, "--set density=500"), "is the density"));
+  EXPECT_TRUE(holds(check(halves() + settle_stage + water, "--set density=500"), "is the density"));
 }
 
 TEST_F(Messages, TimeStepsAreStatedOnce) {
-  refused(halves + settle_stage + "[time]\nstep_s = 1e-4\nfraction = 0.1\n", "time.fraction");
-  refused(halves + settle_stage + "[time]\nstep_s = 1e-4\nfraction = 0.1\n", "is stated together with step_s");
-  check(halves + settle_stage + "[time]\nstep_s = 1e-4\n");
-  check(halves + settle_stage + "[time]\nfraction = 0.1\n");
+  refused(halves() + settle_stage + "[time]\nstep_s = 1e-4\nfraction = 0.1\n", "time.fraction");
+  refused(halves() + settle_stage + "[time]\nstep_s = 1e-4\nfraction = 0.1\n", "is stated together with step_s");
+  check(halves() + settle_stage + "[time]\nstep_s = 1e-4\n");
+  check(halves() + settle_stage + "[time]\nfraction = 0.1\n");
 }
 
 // a tolerance below the resolution of a double is refused, in any unit; the search would not end
@@ -111,8 +114,8 @@ TEST_F(Messages, TolerancesBelowTheResolutionOfADoubleAreRefused) {
       {angle + "tolerance_deg = 0.1\n", "accuracy.error", "[accuracy]\nerror = \"{:.3e} deg\"\n"},
       {angle + "tolerance_deg = 0.1\n", "accuracy.error", "[accuracy]\nerror = \"{:.3e} %\"\n"}};
   for (const Key& key : keys) {
-    refused(halves + key.scene + fmt::format(fmt::runtime(key.text), std::pow(10, -below(random))), key.name);
-    check(halves + key.scene + fmt::format(fmt::runtime(key.text), std::pow(10, -above(random))));
+    refused(halves() + key.scene + fmt::format(fmt::runtime(key.text), std::pow(10, -below(random))), key.name);
+    check(halves() + key.scene + fmt::format(fmt::runtime(key.text), std::pow(10, -above(random))));
   }
 }
 
@@ -126,7 +129,8 @@ TEST_F(Messages, CoordinatesThatAreZeroToRoundingAreZero) {
       return fmt::format("[[joints]]\nname = \"{}\"\ndip = {}\ndip_direction = 90\npoint = [{}, 0]\n", name, dip,
                          0.3 * side * size);
     };
-    write("scene.toml", plane + fmt::format("domain = {{ box = {{ min = [-{0}, -{0}], max = [{0}, {0}] }} }}\n", size) +
+    write("scene.toml", plane() +
+                            fmt::format("domain = {{ box = {{ min = [-{0}, -{0}], max = [{0}, {0}] }} }}\n", size) +
                             joint("left", -1) + joint("right", 1));
     ASSERT_EQ(run("slice scene.toml --out blocks --overwrite").code, 0);
     const std::vector<std::string> rows = lines_of(read(folder_ / "blocks/blocks.csv"));
@@ -163,7 +167,7 @@ TEST_F(Messages, BoltsThatOverlapAreCounted) {
           fmt::format("[[bolts]]\nname = \"b{}\"\nstiffness = 1e8\nfrom = [{}, {}]\nto = [{}, {}]\n", k, x, y, u, v);
       install += fmt::format("{}\"b{}\"", k ? ", " : "", k);
     }
-    const std::string out = check(halves + settle_stage + "install = [" + install + "]\n" + bolts);
+    const std::string out = check(halves() + settle_stage + "install = [" + install + "]\n" + bolts);
     const auto count = [&](const std::string& what) {
       int found = 0;
       for (const std::string& line : lines_of(out))
@@ -182,7 +186,7 @@ TEST_F(Messages, FansOfMoreThanAWholeTurnAreRefused) {
         "from_deg = {}, to_deg = {}, spacing_deg = 30 }}\n",
         from, to);
   };
-  const std::string scene = halves + settle_stage + "install = [\"roof\"]\n";
+  const std::string scene = halves() + settle_stage + "install = [\"roof\"]\n";
   refused(scene + fan(-10, 360), "to_deg");
   refused(scene + fan(-360, 360), "more than 360 degrees beyond from_deg");
   EXPECT_FALSE(holds(check(scene + fan(-180, 150)), "overlap another"));
@@ -223,7 +227,7 @@ TEST(BoltLines, RunFromCollarToToe) {
                                "kind = \"grouted\"\naxial_stiffness = 1e8\nbond_stiffness = 5e8\n"};
   int drawn = 0;
   for (int trial = 0; trial < 30; ++trial) {
-    std::string scene = plane + "domain = { box = { min = [0, 0], max = [40, 40] } }\n";
+    std::string scene = plane() + "domain = { box = { min = [0, 0], max = [40, 40] } }\n";
     for (int k = 0; k < 1 + trial % 4; ++k)
       scene += fmt::format("[[joints]]\nname = \"j{}\"\ndip = {}\ndip_direction = 90\npoint = [20, {}]\n", k,
                            40 * share(random), 5 + 9 * k);
@@ -289,15 +293,15 @@ TEST(BodyTitle, UsesTheNamesOfTheScene) {
 }
 
 TEST_F(Messages, NumbersOfBlocksHaveTitles) {
-  const std::string out = check(halves + settle_stage);
+  const std::string out = check(halves() + settle_stage);
   EXPECT_TRUE(holds(out, "block 0 (of joint bed)")) << out;
-  const std::string falls = check(plane + "domain = { box = { min = [0, 0], max = [1, 1] } }\n" + settle_stage);
+  const std::string falls = check(plane() + "domain = { box = { min = [0, 0], max = [1, 1] } }\n" + settle_stage);
   EXPECT_TRUE(std::regex_search(falls, std::regex(R"(block 0 \(at \(0\.5, 0\.5\) m\) has no neighbour)"))) << falls;
 }
 
 TEST_F(Messages, AStudysWarningsNameTheirRows) {
   write("scene.toml",
-        halves + settle_stage + "[[monitors]]\nname = \"top\"\nquantities = [\"displacement\"]\nabove = [\"bed\"]\n");
+        halves() + settle_stage + "[[monitors]]\nname = \"top\"\nquantities = [\"displacement\"]\nabove = [\"bed\"]\n");
   write("study.toml",
         "scene = \"scene.toml\"\nquantity = \"top_displacement_y\"\n[[sweep]]\nname = \"density\"\nkey = \"density\"\n"
         "values = [2000, 20000, 30000]\n");
@@ -308,7 +312,7 @@ TEST_F(Messages, AStudysWarningsNameTheirRows) {
 }
 
 TEST_F(Messages, AUnitOfOneIsNotPrinted) {
-  write("scene.toml", halves + settle_stage +
+  write("scene.toml", halves() + settle_stage +
                           "[[stage]]\nname = \"c\"\nkind = \"reduce\"\nsearch = \"factor\"\nfrom_factor = 0.2\n"
                           "to_factor = 3\ntolerance_factor = 0.1\n");
   write("study.toml",

@@ -1,4 +1,4 @@
-# voussoir_case(<name> [LONG] SOURCES <files…> [LIBS <targets…>])
+# voussoir_case(<name> [LONG] [OPTIMISED] SOURCES <files…> [LIBS <targets…>])
 #   program case_<name>, CTest entry case.<name> (label case), and per <name>/<x>.gp report.<x> (label report), which draws
 #   <build>/reports/figures/<x>.svg from the files that the case's test left in <build>/cases/<name>.
 #   Sources are in the folder <name>; their order is that of the checks on the case's page.
@@ -10,9 +10,9 @@
 # cases, not only those with results.
 
 function(voussoir_case name)
-  cmake_parse_arguments(arg "LONG" "" "SOURCES;LIBS" ${ARGN})
+  cmake_parse_arguments(arg "LONG;OPTIMISED" "" "SOURCES;LIBS" ${ARGN})
   if(arg_UNPARSED_ARGUMENTS OR NOT arg_SOURCES)
-    message(FATAL_ERROR "voussoir_case(${name}): state SOURCES and LIBS only, not: ${arg_UNPARSED_ARGUMENTS}")
+    message(FATAL_ERROR "voussoir_case(${name}): state LONG, OPTIMISED, SOURCES and LIBS only, not: ${arg_UNPARSED_ARGUMENTS}")
   endif()
   if(NOT VOUSSOIR_BUILD_TESTS)
     return()
@@ -23,8 +23,10 @@ function(voussoir_case name)
   add_executable(case_${name} ${sources})
   target_link_libraries(case_${name} PRIVATE
     voussoir_flags voussoir_traps voussoir_verification voussoir::core voussoir_reference fmt::fmt ${arg_LIBS} GTest::gtest_main)
-  target_compile_options(case_${name} PRIVATE ${VOUSSOIR_TEST_OPTIMISATION})
-  target_precompile_headers(case_${name} REUSE_FROM voussoir_case_headers)
+  if(NOT arg_OPTIMISED)
+    target_compile_options(case_${name} PRIVATE ${VOUSSOIR_TEST_OPTIMISATION})
+    target_precompile_headers(case_${name} REUSE_FROM voussoir_case_headers)
+  endif()
   voussoir_compile_as_one(case_${name})
   target_compile_definitions(case_${name} PRIVATE
     VOUSSOIR_SOURCE_DIR="${PROJECT_SOURCE_DIR}" VOUSSOIR_CASE_DIR="${PROJECT_SOURCE_DIR}/cases/${name}")

@@ -2,7 +2,8 @@
 # once for the cases, whose macros differ. Every source still includes the headers it uses.
 set(VOUSSOIR_COMMON_HEADERS <Eigen/Dense> <algorithm> <filesystem> <functional> <map> <optional> <ranges> <span> <string> <vector>)
 # The sources of tests and cases are not optimised: their compile time was half of that of `make test`, and what takes time in
-# them is the library's work.
+# most of them is the library's work. OPTIMISED programs have exact arithmetic or brute force of their own. A constant of a
+# header must not initialise one of a test's: without optimisation clang 14 may initialise it later.
 set(VOUSSOIR_TEST_OPTIMISATION $<$<CONFIG:Release>:-O0>)
 function(voussoir_precompiled_tests name)
   add_library(${name} OBJECT ${PROJECT_SOURCE_DIR}/cmake/precompiled.cpp)
@@ -16,12 +17,12 @@ if(VOUSSOIR_BUILD_TESTS)
   voussoir_precompiled_tests(voussoir_case_headers voussoir_core voussoir_reference fmt::fmt)
 endif()
 
-# voussoir_test(<name> [LONG] LABEL <label> SOURCES <patterns…> LIBS <targets…>): one GoogleTest program, one CTest entry,
+# voussoir_test(<name> [LONG] [OPTIMISED] LABEL <label> SOURCES <patterns…> LIBS <targets…>): one GoogleTest program, one CTest entry,
 # with floating-point traps on. A pattern (core/*_test.cpp) takes the sources that no earlier program of the same
 # CMakeLists.txt took: name the exceptions first. With LONG, its test suites whose names end in Long are <name>.long
 # (label long), which only `ctest -C Long` runs.
 function(voussoir_test name)
-  cmake_parse_arguments(arg "LONG" "LABEL" "SOURCES;LIBS" ${ARGN})
+  cmake_parse_arguments(arg "LONG;OPTIMISED" "LABEL" "SOURCES;LIBS" ${ARGN})
   if(NOT VOUSSOIR_BUILD_TESTS)
     return()
   endif()
@@ -29,9 +30,13 @@ function(voussoir_test name)
   _voussoir_untaken(sources ${name} ${arg_SOURCES})
   add_executable(${target} ${sources})
   target_link_libraries(${target} PRIVATE voussoir_flags voussoir_traps ${arg_LIBS} GTest::gtest_main)
-  target_compile_options(${target} PRIVATE ${VOUSSOIR_TEST_OPTIMISATION})
   target_compile_definitions(${target} PRIVATE VOUSSOIR_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  if("voussoir_core" IN_LIST arg_LIBS OR "voussoir_app" IN_LIST arg_LIBS)
+  if(arg_OPTIMISED)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  else()
+    target_compile_options(${target} PRIVATE ${VOUSSOIR_TEST_OPTIMISATION})
+  endif()
+  if(NOT arg_OPTIMISED AND ("voussoir_core" IN_LIST arg_LIBS OR "voussoir_app" IN_LIST arg_LIBS))
     target_precompile_headers(${target} REUSE_FROM voussoir_unit_headers)
   endif()
   voussoir_compile_as_one(${target})

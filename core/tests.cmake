@@ -25,20 +25,20 @@ add_library(voussoir_exact_referee STATIC testing/exact_referee.cpp testing/exac
 target_link_libraries(voussoir_exact_referee PUBLIC voussoir_core voussoir_oracle_algebra gmpxx gmp
   PRIVATE voussoir_flags cddgmp fmt::fmt Boost::headers)
 
-voussoir_test(unit.extremes LONG LABEL unit SOURCES */*_extremes_test.cpp
+voussoir_test(unit.extremes LONG OPTIMISED LABEL unit SOURCES */*_extremes_test.cpp
   LIBS voussoir_core voussoir_oracle_algebra Boost::headers fmt::fmt)
 voussoir_test(unit.exact_referee LABEL unit SOURCES */exact_*_test.cpp LIBS voussoir_exact_referee Boost::headers)
-voussoir_test(unit.certainty LONG LABEL unit
+voussoir_test(unit.certainty LONG OPTIMISED LABEL unit
   SOURCES */catalogue_test.cpp contact/certainty_test.cpp contact/centre_test.cpp contact/sensitivity_test.cpp
     contact/symmetry_test.cpp contact/face_integral_test.cpp
   LIBS voussoir_exact_referee Boost::headers fmt::fmt hwy::hwy)
-voussoir_test(unit.faces LABEL unit SOURCES contact/region_integral_test.cpp step/face_forces_test.cpp
+voussoir_test(unit.faces OPTIMISED LABEL unit SOURCES contact/region_integral_test.cpp step/face_forces_test.cpp
   LIBS voussoir_exact_referee cereal::cereal Boost::headers fmt::fmt)
 voussoir_test(unit.outside_solvers LABEL unit SOURCES solvers/outside_solvers_test.cpp
   LIBS voussoir_core ${outside_solvers} Boost::headers)
 voussoir_test(unit.newton LONG LABEL unit SOURCES step/static_solver*_test.cpp solvers/block_solver_test.cpp
   LIBS voussoir_core voussoir_oracle_algebra Boost::headers)
-voussoir_test(unit.neighbours LABEL unit SOURCES step/neighbours_test.cpp LIBS voussoir_core Boost::headers)
+voussoir_test(unit.neighbours OPTIMISED LABEL unit SOURCES step/neighbours_test.cpp LIBS voussoir_core Boost::headers)
 voussoir_test(unit.rest LABEL unit
   SOURCES step/rest_test.cpp step/free_fall_test.cpp run/settled_test.cpp scene/stage_excavations_test.cpp
   LIBS voussoir_core Boost::headers fmt::fmt)
@@ -47,7 +47,7 @@ voussoir_test(unit.mechanism LONG LABEL unit SOURCES run/find_mechanism_test.cpp
 voussoir_test(unit.particles LABEL unit SOURCES scene/*particles*_test.cpp
   LIBS voussoir_core voussoir_end_bytes fmt::fmt Boost::headers)
 voussoir_test(unit.monitors LABEL unit SOURCES */*monitor*_test.cpp run/begin_test.cpp LIBS voussoir_core voussoir_end_bytes)
-voussoir_test(unit.law_and_motion LABEL unit
+voussoir_test(unit.law_and_motion OPTIMISED LABEL unit
   SOURCES joint_laws/*_test.cpp step/motion_test.cpp support/bolt_test.cpp
   LIBS voussoir_core voussoir_oracle_algebra Boost::headers)
 
@@ -57,7 +57,7 @@ voussoir_test(unit.joint_sets LABEL unit SOURCES joint_sets/*_test.cpp exchange/
   LIBS voussoir_core Boost::headers fmt::fmt)
 voussoir_test(unit.key_blocks LABEL unit SOURCES key_blocks/*_test.cpp LIBS voussoir_core fmt::fmt)
 voussoir_test(unit.support LABEL unit SOURCES support/*_test.cpp LIBS voussoir_core voussoir_oracle_algebra Boost::headers)
-voussoir_test(unit.contact LABEL unit SOURCES contact/*_test.cpp
+voussoir_test(unit.contact OPTIMISED LABEL unit SOURCES contact/*_test.cpp
   LIBS voussoir_core voussoir_oracle_algebra Boost::headers)
 voussoir_test(unit.potential LONG LABEL unit SOURCES potential/*_test.cpp
   LIBS voussoir_core ${outside_cone_solver} Boost::headers)

@@ -146,20 +146,22 @@ TEST(Bolts, WarnIfTheyCrossNoJoint) {
 }
 
 // The lower third of the block below the bolts is excavated, and then the block that one of them holds.
-const std::string digging = slab + R"(
+std::string digging() {
+  return slab + R"(
 [[excavations]]
 name = "bench"
 box = { min = [0, 0], max = [4, 0.3] }
 outline = true
 )" + bolts("from = [1, 0.4]\nto = [1, 2.2]\nrepeat = [{ step = [1, 0], count = 3 }]\n") +
-                            hang;
+         hang;
+}
 
 TEST(Bolts, StayInTheRemainingPartsOfTheirBlocks) {
-  const Progress<2> done = simulated(scene_of(digging + stage("excavate = [\"bench\"]", "dig")));
+  const Progress<2> done = simulated(scene_of(digging() + stage("excavate = [\"bench\"]", "dig")));
   ASSERT_EQ(done.results.outcome, Outcome::done) << done.results.message;
   for (const double force : forces(done))
     EXPECT_NEAR(force, 0.7 * weight / 3, 1e-6 * weight);
-  const Progress<2> gone = simulated(scene_of(digging + stage("remove = [{ below = [\"bed\"] }]", "dig")));
+  const Progress<2> gone = simulated(scene_of(digging() + stage("remove = [{ below = [\"bed\"] }]", "dig")));
   EXPECT_TRUE(gone.state.supports.bolt_springs.empty());
 }
 
