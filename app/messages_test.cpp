@@ -80,8 +80,8 @@ TEST_F(Messages, ListsThatAreTooLongGetTheirOwnRepair) {
 
 TEST_F(Messages, MissingGravityIsNoWrongDensity) {
   const std::string water = "[[water]]\nname = \"lake\"\nlevel = 39\nunit_weight = 9810\n";
-  const std::string out =
-      check(halves.substr(0, halves.find("gravity")) + halves.substr(halves.find("density")) + settle_stage + water);
+  const std::string out = check(halves().substr(0, halves().find("gravity")) +
+                                halves().substr(halves().find("density")) + settle_stage + water);
   EXPECT_TRUE(holds(out, "water lifts it by")) << out;
   EXPECT_TRUE(holds(out, "state gravity")) << out;
   EXPECT_FALSE(holds(out, "is the density")) << out;
