@@ -15,8 +15,8 @@ namespace {
 
 using namespace program;
 
-const std::string scene = read(scenes / "two_cubes.toml");
-const std::string plane_scene = read(scenes / "two_squares.toml");
+const std::string scene = read(VOUSSOIR_SOURCE_DIR "/app/testing/two_cubes.toml");
+const std::string plane_scene = read(VOUSSOIR_SOURCE_DIR "/app/testing/two_squares.toml");
 const std::string plan =
     "scene = \"scene.toml\"\nquantity = \"top_displacement_z\"\n"
     "sweep = [{ name = \"a\", key = \"density\", values = [2000] }]\n";
