@@ -30,37 +30,43 @@ bool is_terminal() {
   return ::isatty(STDERR_FILENO);
 }
 
-ProgressLine::ProgressLine(bool wanted, bool terminal, std::chrono::milliseconds between_added)
+StatusLine::StatusLine(bool wanted, bool terminal, std::chrono::milliseconds between_added)
     : wanted_(wanted), terminal_(terminal), between_(terminal ? time_between_lines : between_added) {}
 
-void ProgressLine::show(const ProgressReport& report) {
-  if (!wanted_) return;
-  const Clock::time_point now = Clock::now();
-  if (report.stage_number != stage_) {
-    stage_ = report.stage_number;
-    stage_began_ = now;
-  }
-  if (now - last_shown_ < between_) return;
-  last_shown_ = now;
-  if (!terminal_) return tell("voussoir: {}\n", text(report, now));
-  shown_ = true;
-  rewrite_line(text(report, now));
+bool StatusLine::is_due() const {
+  return wanted_ && Clock::now() - last_shown_ >= between_;
 }
 
-void ProgressLine::clear() {
+void StatusLine::show(const std::string& text) {
+  if (!is_due()) return;
+  last_shown_ = Clock::now();
+  if (!terminal_) return tell("voussoir: {}\n", text);
+  shown_ = true;
+  rewrite_line(text);
+}
+
+void StatusLine::clear() {
   if (!shown_) return;
   shown_ = false;
   rewrite_line("");
 }
 
-std::string ProgressLine::text(const ProgressReport& report, Clock::time_point now) const {
+void ProgressLine::show(const ProgressReport& report) {
+  if (report.stage_number != stage_) {
+    stage_ = report.stage_number;
+    stage_began_ = Clock::now();
+  }
+  if (line_.is_due()) line_.show(text(report));
+}
+
+std::string ProgressLine::text(const ProgressReport& report) const {
   std::string line = fmt::format("stage {}/{} {}", report.stage_number, report.stage_count, report.stage);
   if (!report.detail.empty()) line += ", " + report.detail;
   line += fmt::format(": {} steps, t = {:.4g} s", report.steps, report.time);
   if (report.unbalanced > 0) line += fmt::format(", unbalanced {:.1e}", report.unbalanced);
   if (report.done >= 0) line += fmt::format(", {:.0f} %", 100 * report.done);
   if (report.done >= fraction_for_a_forecast && report.done < 1) {
-    const double spent = std::chrono::duration<double>(now - stage_began_).count();
+    const double spent = std::chrono::duration<double>(Clock::now() - stage_began_).count();
     line += ", about " + duration_text(spent * (1 - report.done) / report.done) + " left";
   }
   return line;

@@ -1,4 +1,4 @@
-// One line on the terminal that shows the progress of a run.
+// One line on the terminal that shows the progress of a run, or of a study.
 #pragma once
 
 #include <chrono>
@@ -15,26 +15,44 @@ std::string duration_text(double seconds);
 bool is_terminal();
 
 // On a terminal it rewrites its line a few times a second. Elsewhere, in a file or a pipe, it adds a line once a
-// minute: nothing for a short run, and for a long one enough to see that it continues.
-class ProgressLine {
+// minute: nothing for short work, and for long work enough to see that it continues.
+class StatusLine {
  public:
-  explicit ProgressLine(bool wanted, bool terminal = is_terminal(),
-                        std::chrono::milliseconds between_added = std::chrono::minutes(1));
-  ~ProgressLine() { clear(); }
-  ProgressLine(const ProgressLine&) = delete;
-  ProgressLine& operator=(const ProgressLine&) = delete;
+  explicit StatusLine(bool wanted, bool terminal = is_terminal(),
+                      std::chrono::milliseconds between_added = std::chrono::minutes(1));
+  ~StatusLine() { clear(); }
+  StatusLine(const StatusLine&) = delete;
+  StatusLine& operator=(const StatusLine&) = delete;
 
-  void show(const ProgressReport& report);
+  bool is_due() const;
+  void show(const std::string& text);  // if it is due
   void clear();
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  std::string text(const ProgressReport& report, Clock::time_point now) const;
-
   bool wanted_, terminal_, shown_ = false;
   std::chrono::milliseconds between_;
-  Clock::time_point stage_began_ = Clock::now(), last_shown_ = Clock::now();
+  Clock::time_point last_shown_ = Clock::now();
+};
+
+// of a run
+class ProgressLine {
+ public:
+  explicit ProgressLine(bool wanted, bool terminal = is_terminal(),
+                        std::chrono::milliseconds between_added = std::chrono::minutes(1))
+      : line_(wanted, terminal, between_added) {}
+
+  void show(const ProgressReport& report);
+  void clear() { line_.clear(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  std::string text(const ProgressReport& report) const;
+
+  StatusLine line_;
+  Clock::time_point stage_began_ = Clock::now();
   int stage_ = 0;
 };
 

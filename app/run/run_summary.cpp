@@ -8,6 +8,7 @@
 
 #include "app/base/progress_line.hpp"
 #include "app/base/shown_unit.hpp"
+#include "core/output/support_summary.hpp"
 #include "core/run/block_theory.hpp"
 #include "core/run/stable_state.hpp"
 #include "core/scene/stage_excavations.hpp"
@@ -95,11 +96,17 @@ void print_values(const std::vector<std::pair<std::string, Value>>& values, cons
 }
 
 void print_stages(const Results& results) {
+  int number = 0;
   for (const StageResult& stage : results.stages) {
     fmt::print("  stage {}: {} after {} steps, {:.4g} s simulated\n", stage.name, stage.ended, stage.steps, stage.time);
     // that of an incomplete stage ends the message
     if (const std::string sentence = sentence_of(stage.mechanism); !results.message.ends_with(sentence))
       fmt::print("      {}\n", sentence);
+    const SupportsCarry carry = supports_carry(results, ++number);
+    for (const BoltsCarry& bolts : carry.bolts)
+      fmt::print("      {}\n", text_of(bolts));
+    for (const LiningCarries& lining : carry.linings)
+      fmt::print("      {}\n", text_of(lining));
     for (const StableState& at : results.at_last_stable_state) {
       if (at.stage != stage.name) continue;
       if (at.bonds) fmt::print("      {}: {}\n", moment_text(at), bonds_text(*at.bonds));

@@ -62,7 +62,7 @@ values = [2000, 2500, 3000]
 
   // the rows that a message about missing rows names
   static std::string rows_named_in(const std::string& text) {
-    const std::string before = "missing: ";
+    const std::string before = "not run: ";
     const std::size_t found = text.find(before);
     return found == std::string::npos
                ? ""
@@ -132,7 +132,7 @@ TEST_F(Slurm, AnArrayThatIsDisturbedGivesTheSameFile) {
   // Slurm itself repeats requeued tasks and those that lost their node, not killed ones
   const std::string missing = rows_named_in(study({"gather", out}).out);
   EXPECT_NE(missing, "") << slurm.log();
-  EXPECT_NE(study({"status", out}).out.find("rows done\nmissing: " + missing + "\n"), std::string::npos) << missing;
+  EXPECT_NE(study({"status", out}).out.find("rows done\nnot run: " + missing + "\n"), std::string::npos) << missing;
   // the run that lost its node, and the killed one if Slurm ended its task before the first checkpoint
   std::set<std::string> without_checkpoint{slow_run(3).filename()};
   if (!fs::exists(slow_run(2) / "checkpoint")) without_checkpoint.insert(slow_run(2).filename());

@@ -42,7 +42,7 @@ std::string agreed_bits(const fs::path& folder, const RunFound& found) {
 }
 
 struct RowFound {
-  RunFound found{.status = "missing"};
+  RunFound found{.status = "not run"};
   bool is_missing = true, has_results = false;
   std::vector<CheckedResults> damaged = {}, changed = {};
   std::optional<std::pair<fs::path, fs::path>> differing = {};
@@ -144,9 +144,12 @@ ExitCode write_gathered(const StudyFolder& study, const Gathered& gathered, cons
   const Findings findings = findings_of(study.plan, gathered.rows);
   for (const auto& [name, content] : findings.files)
     write_file(study.folder / name, content);
-  const auto failed =
-      std::count_if(gathered.rows.begin(), gathered.rows.end(), [](const StudyRow& row) { return !row.result; });
-  fmt::print("{} settings, {} failed: {}\n{}", gathered.rows.size(), failed, file.string(), remark);
+  const auto has_failed = [&](const StudyRow& row) {
+    return row.row > 0 && !row.result && !gathered.missing.contains(row.row);
+  };
+  const auto failed = std::ranges::count_if(gathered.rows, has_failed);
+  const std::string not_run = gathered.missing.empty() ? "" : fmt::format(", {} not run", gathered.missing.size());
+  fmt::print("{} settings, {} failed{}: {}\n{}", gathered.rows.size(), failed, not_run, file.string(), remark);
   for (const std::string& line : origin_lines(gathered.origins, study.program_digest))
     fmt::print("{}\n", line);
   tell_warnings(origin_warnings(gathered.origins));
@@ -160,15 +163,16 @@ ExitCode write_gathered(const StudyFolder& study, const Gathered& gathered, cons
   for (const std::string& sentence : divided)
     fmt::print("{} {}\n", study.plan.quantity, one_line(sentence, 1000));
   for (const StudyRow& row : gathered.rows)
-    if (!row.result) fmt::print("failed: {}: {} = {}: {}\n", row.curve, row.key, row.value, row.status);
+    if (has_failed(row)) fmt::print("failed: {}: {}\n", name_of_row(study.plan, row.row), row.status);
   if (!gathered.missing.empty())
-    fmt::print("missing: {0}; run them with 'voussoir study run {1} --rows {0}'\n", ranges_of_rows(gathered.missing),
+    fmt::print("not run: {0}; run them with 'voussoir study run {1} --rows {0}'\n", ranges_of_rows(gathered.missing),
                study.folder.string());
   for (const std::string& damaged : gathered.damaged)
     fmt::print("{}\n", damaged);
   for (const std::string& difference : gathered.differences)
     fmt::print("{}\n", difference);
-  return failed > 0 || !gathered.differences.empty() ? ExitCode::incomplete : ExitCode::done;
+  return failed > 0 || !gathered.missing.empty() || !gathered.differences.empty() ? ExitCode::incomplete
+                                                                                  : ExitCode::done;
 }
 
 ExitCode study_gather_command(const std::vector<fs::path>& folders) {
@@ -216,7 +220,7 @@ ExitCode study_status_command(const fs::path& folder) {
   if (!failed.empty()) fmt::print("failed: {}\n", ranges_of_rows(failed));
   for (const std::string& line : doubtful)
     fmt::print("{}\n", line);
-  fmt::print("missing: {}\n", missing.empty() ? "none" : ranges_of_rows(missing));
+  fmt::print("not run: {}\n", missing.empty() ? "none" : ranges_of_rows(missing));
   return ExitCode::done;
 }
 

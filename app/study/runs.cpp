@@ -1,7 +1,6 @@
 #include "app/study/runs.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -15,7 +14,6 @@
 
 #include "app/base/exit_codes.hpp"
 #include "app/base/interruption.hpp"
-#include "app/base/message.hpp"
 #include "app/base/progress_line.hpp"
 #include "app/run_folder/child_process.hpp"
 #include "app/run_folder/claimed_folder.hpp"
@@ -99,7 +97,7 @@ class Runs {
       show_progress();
       std::this_thread::sleep_for(time_between_looks);
     }
-    if (watched_) rewrite_line("");
+    line_.clear();
     return interruption() == 0;
   }
 
@@ -214,8 +212,7 @@ class Runs {
   }
 
   void show_progress() {
-    if (!watched_ || Clock::now() - shown_ < std::chrono::milliseconds(200)) return;
-    shown_ = Clock::now();
+    if (!line_.is_due()) return;
     std::string line = fmt::format("{} of {} runs done, {} under way", done_, total_, active_.size());
     if (done_ > 0) {
       double left = took_ / done_ * static_cast<double>(total_ - done_);
@@ -223,7 +220,7 @@ class Runs {
         left -= std::min(active.process->seconds(), took_ / done_);
       line += ", about " + duration_text(left / options_.jobs) + " left";
     }
-    rewrite_line(line);
+    line_.show(line);
   }
 
   RunsOptions options_;
@@ -236,8 +233,7 @@ class Runs {
   int kept_ = 0;
   bool worth_ = false;  // some run has the quantity
   double took_ = 0;     // s, of all completed runs
-  bool watched_ = !options_.quiet && ::isatty(STDERR_FILENO);
-  Clock::time_point shown_{};
+  StatusLine line_{!options_.quiet};
 };
 
 }  // namespace

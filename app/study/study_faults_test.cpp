@@ -32,11 +32,11 @@ values = [1e-4, 100, 2e-4]
   EXPECT_NE(ended.out.find("failed: row 3: "), std::string::npos) << ended.out;
   const Ended gathered = study({"gather", out});
   EXPECT_EQ(gathered.code, 1);
-  EXPECT_NE(gathered.out.find("failed: time step: time.step_s = 100: "), std::string::npos) << gathered.out;
-  EXPECT_EQ(gathered.out.find("missing"), std::string::npos) << gathered.out;
+  EXPECT_NE(gathered.out.find("failed: row 3 (time step: time.step_s = 100): "), std::string::npos) << gathered.out;
+  EXPECT_EQ(gathered.out.find("not run"), std::string::npos) << gathered.out;
   const std::string status = study({"status", out}).out;
   EXPECT_NE(status.find("3 of 4 rows done\nfailed: row 3: "), std::string::npos) << status;
-  EXPECT_NE(status.find("failed: 3\nmissing: none\n"), std::string::npos) << status;
+  EXPECT_NE(status.find("failed: 3\nnot run: none\n"), std::string::npos) << status;
 
   // the same as in one command
   EXPECT_EQ(study({at("study.toml"), "--out", at("whole")}).code, 1);
@@ -95,7 +95,7 @@ TEST_F(StudyFaults, ARowHasOneWorkerAtATime) {
   const std::string status =
       Process(VOUSSOIR_PROGRAM, {.arguments = {"study", "status", out}}, at("second")).wait().out;
   EXPECT_TRUE(status.starts_with("42 of 43 rows done\nrunning: 5 by " + name)) << status;
-  EXPECT_TRUE(status.ends_with("missing: none\n")) << status;
+  EXPECT_TRUE(status.ends_with("not run: none\n")) << status;
 
   // a worker prevents others from planning the study again
   expect_one_line(

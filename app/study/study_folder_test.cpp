@@ -142,26 +142,26 @@ TEST_F(ClusterExamplesLong, SnakemakeGivesTheSameFile) {
 
 TEST_F(PlannedStudy, StatusAndGatherListMissingRows) {
   const std::string whole = whole_table(), out = planned("out");
-  EXPECT_EQ(study({"status", out}).out, "0 of 43 rows done\nmissing: 1-43\n");
+  EXPECT_EQ(study({"status", out}).out, "0 of 43 rows done\nnot run: 1-43\n");
   EXPECT_EQ(study({"run", out, "--rows", "3-12,20,40-43"}).code, 0);
-  EXPECT_EQ(study({"status", out}).out, "15 of 43 rows done\nmissing: 1-2,13-19,21-39\n");
+  EXPECT_EQ(study({"status", out}).out, "15 of 43 rows done\nnot run: 1-2,13-19,21-39\n");
   // two more rows are the first by other names
   EXPECT_EQ(study({"run", out, "--rows", "1"}).code, 0);
   const std::string missing = "13-19,21-31,33-39";
-  EXPECT_EQ(study({"status", out}).out, "18 of 43 rows done\nmissing: " + missing + "\n");
+  EXPECT_EQ(study({"status", out}).out, "18 of 43 rows done\nnot run: " + missing + "\n");
   const Ended short_of = study({"gather", out});
   EXPECT_EQ(short_of.code, 1);
-  EXPECT_NE(short_of.out.find("missing: " + missing + "; run them with 'voussoir study run " + out), std::string::npos)
+  EXPECT_NE(short_of.out.find("not run: " + missing + "; run them with 'voussoir study run " + out), std::string::npos)
       << short_of.out;
   EXPECT_NE(
-      table("out").find("stiffness,joint_properties.rock.normal_stiffness,220000000,,top_displacement_z,,,,missing"),
+      table("out").find("stiffness,joint_properties.rock.normal_stiffness,220000000,,top_displacement_z,,,,not run"),
       std::string::npos)
       << table("out");
 
   const Ended rest = study({"run", out, "--rows", missing});
   EXPECT_EQ(rest.code, 0) << rest.err;
   EXPECT_NE(rest.out.find("25 different runs, 0 of them kept"), std::string::npos) << rest.out;
-  EXPECT_EQ(study({"status", out}).out, "43 of 43 rows done\nmissing: none\n");
+  EXPECT_EQ(study({"status", out}).out, "43 of 43 rows done\nnot run: none\n");
   EXPECT_EQ(study({"gather", out}).code, 0);
   EXPECT_EQ(table("out"), whole);
 }

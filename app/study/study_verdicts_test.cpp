@@ -231,7 +231,7 @@ TEST_F(StudyResults, ChangedBytesAreNeverAccepted) {
       EXPECT_NE(told.find(fmt::format("'voussoir study run {} --rows 2'", out)), std::string::npos) << told;
       EXPECT_EQ(told.find("-99"), std::string::npos);
     }
-    EXPECT_NE(study({"status", out}).out.find("missing: 2\n"), std::string::npos) << study({"status", out}).out;
+    EXPECT_NE(study({"status", out}).out.find("not run: 2\n"), std::string::npos) << study({"status", out}).out;
     EXPECT_EQ(study({"run", out}).code, 0);
     EXPECT_EQ(study({"gather", out}).code, 0);
     EXPECT_EQ(table("out"), whole) << "repeated";
@@ -250,7 +250,7 @@ TEST_F(StudyResults, TruncatedFilesAndHashesAreRepeated) {
     EXPECT_NE(gathered.out.find(fmt::format("row 4 (density: density = 1200): '{}' is damaged", (run / name).string())),
               std::string::npos)
         << gathered.out;
-    EXPECT_NE(gathered.out.find("missing: 4; run them with"), std::string::npos) << gathered.out;
+    EXPECT_NE(gathered.out.find("not run: 4; run them with"), std::string::npos) << gathered.out;
     EXPECT_EQ(study({"run", out}).code, 0);
     EXPECT_EQ(study({"gather", out}).code, 0);
     EXPECT_EQ(table("out"), whole);

@@ -10,8 +10,9 @@
 namespace voussoir {
 namespace {
 
-StudyRow row_of(const Sweep& sweep, const std::string& value, const RunFound& found) {
+StudyRow row_of(int number, const Sweep& sweep, const std::string& value, const RunFound& found) {
   StudyRow row;
+  row.row = number;
   row.curve = sweep.name;
   row.key = sweep.key;
   row.value = shown_value(value);
@@ -42,7 +43,7 @@ StudyRow extrapolate(const Sweep& sweep, const StudyRow& first, double a, const 
   row.steps = first.steps + second.steps;
   row.seconds = first.seconds + second.seconds;
   if (!first.result || !second.result) {
-    row.status = "a run to extrapolate from failed";
+    row.status = "a run to extrapolate from has no result";
     return row;
   }
   const double pa = std::pow(a, *sweep.power), pb = std::pow(b, *sweep.power);
@@ -69,8 +70,10 @@ std::vector<StudyRow> table_of(const StudyPlan& plan, const std::function<RunFou
   std::vector<StudyRow> rows;
   int row = 0;
   for (const Sweep& sweep : plan.sweeps) {
-    for (const std::string& value : sweep.values)
-      rows.push_back(row_of(sweep, value, found(++row)));
+    for (const std::string& value : sweep.values) {
+      ++row;
+      rows.push_back(row_of(row, sweep, value, found(row)));
+    }
     if (sweep.power) add_extrapolations(sweep, rows);
   }
   return rows;

@@ -14,6 +14,7 @@ namespace voussoir {
 
 // one line of study.csv
 struct StudyRow {
+  int row = 0;        // of the plan, counted from 1; 0: an extrapolation
   std::string curve;  // the sweep's name; extrapolations from it are a curve of their own
   std::string key, value, unit;
   std::optional<double> result, error_bar;  // without a result: the run failed

@@ -6,6 +6,7 @@
 
 #include "core/base/version.hpp"
 #include "core/output/atomic_file.hpp"
+#include "core/output/support_summary.hpp"
 
 namespace voussoir {
 namespace {
@@ -145,6 +146,29 @@ Json mechanism_json(const FailureMechanism& mechanism, NumberWriter& number) {
   return entry;
 }
 
+// what supports carry at the end of a stage
+void add_supports(Json& entry, const SupportsCarry& carry, const std::string& prefix, NumberWriter& number) {
+  for (const BoltsCarry& b : carry.bolts) {
+    const std::string name = prefix + "bolts." + b.name + ".";
+    Json row = {{"bolts", b.name}, {"count", b.bolts}, {"force_N", number(b.force, name + "force_N")},
+                {"bolt", b.bolt},  {"joint", b.joint}, {"shear_N", number(b.shear, name + "shear_N")}};
+    if (b.use) row["use"] = number(*b.use, name + "use");
+    row.update({{"yielded", b.yielded}, {"broken", b.broken}, {"slipped", b.slipped}});
+    entry["bolts"].push_back(row);
+  }
+  for (const LiningCarries& l : carry.linings) {
+    const std::string name = prefix + "linings." + l.name + ".";
+    Json row = {{"lining", l.name},
+                {"thrust_N_per_m", number(l.thrust, name + "thrust_N_per_m")},
+                {"thrust_node", l.thrust_node},
+                {"moment_Nm_per_m", number(l.moment, name + "moment_Nm_per_m")},
+                {"moment_node", l.moment_node},
+                {"pressure_Pa", number(l.pressure, name + "pressure_Pa")}};
+    if (l.use) row["use"] = number(*l.use, name + "use");
+    entry["linings"].push_back(row);
+  }
+}
+
 Json stages_json(const Results& results, NumberWriter& number) {
   Json stages = Json::array();
   for (const StageResult& stage : results.stages) {
@@ -159,6 +183,7 @@ Json stages_json(const Results& results, NumberWriter& number) {
              {"time_step_s", number(stage.time_step, prefix + "time_step_s")}};
     add_unbalanced(entry, stage.unbalanced, number, prefix + "unbalanced");
     if (stage.mechanism.known()) entry["mechanism"] = mechanism_json(stage.mechanism, number);
+    add_supports(entry, supports_carry(results, static_cast<int>(stages.size())), prefix, number);
   }
   return stages;
 }
