@@ -62,7 +62,7 @@ values = [2000, 2500, 3000]
 
   // the rows that a message about missing rows names
   static std::string rows_named_in(const std::string& text) {
-    const std::string before = "not run: ";
+    const std::string before = "\nnot run: ";
     const std::size_t found = text.find(before);
     return found == std::string::npos
                ? ""
