@@ -3,7 +3,7 @@
 # an environment of its own, and runs the tests of its commands there. 77: a tool is not installed.
 set -euo pipefail
 python=$1 source=$2 build=$3 scratch=$4
-if ! "$python" -c "import ensurepip, pip, setuptools, wheel, numpy" 2>/dev/null; then
+if ! { "$python" -m pip --version && "$python" -c "import setuptools, wheel, ensurepip, numpy"; } >/dev/null 2>&1; then
   echo "skipped: pip and its tools are not installed (Debian: python3-pip python3-venv python3-setuptools python3-wheel python3-numpy)"
   exit 77
 fi
