@@ -10,6 +10,7 @@ import sys
 import tempfile
 import textwrap
 import time
+import tomllib
 import unittest
 from pathlib import Path
 
@@ -64,7 +65,6 @@ class Commands(unittest.TestCase):
 
     def test_a_dict_is_a_scene(self):
         by_file = voussoir.run(PLANE, scratch / "plane")
-        import tomllib
         by_dict = voussoir.run(tomllib.loads(PLANE.read_text()), scratch / "plane_dict")
         self.assertEqual(by_dict.results["state_hash"], by_file.results["state_hash"])
         self.assertEqual(by_dict.values, by_file.values)
@@ -126,6 +126,9 @@ class Errors(unittest.TestCase):
             self.assertTrue(str(caught.exception.file).startswith(str(PLANE)), caught.exception.file)
             self.assertIn("between 0 and 90", str(caught.exception))
         self.assertFalse((Path("results") / "scenes").exists())
+        with self.assertRaises(voussoir.SceneError) as caught:
+            voussoir.check(tomllib.loads(PLANE.read_text()), set={"joints.bedding.dip": 95})
+        self.assertEqual(caught.exception.key, "joints.bedding.dip")
 
     def test_of_a_command_say_what_the_program_says(self):
         with self.assertRaisesRegex(ValueError, "no-such-option"):
@@ -135,6 +138,11 @@ class Errors(unittest.TestCase):
         done = voussoir.run(PLANE, scratch / "twice")
         with self.assertRaisesRegex(ValueError, "overwrite"):
             voussoir.run(PLANE, done)
+        # also of a scene that the module refuses, since only the program has error budgets
+        budget = {"accuracy.budget": True}
+        done = voussoir.run(PLANE, scratch / "budget", set=budget)
+        with self.assertRaisesRegex(ValueError, "overwrite"):
+            voussoir.run(PLANE, done, set=budget)
         # a goal that was not reached is a result
         missed = voussoir.run(PLANE, scratch / "missed", set={"stage.safety.from_factor": 1.6})
         self.assertEqual(missed.exit_code, 1)

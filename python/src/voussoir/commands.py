@@ -13,7 +13,7 @@ import tempfile
 from pathlib import Path
 from typing import Any, Mapping, NoReturn, Union
 
-from voussoir._core import Scene
+from voussoir._core import Scene, SceneError
 from voussoir.folder import Folder
 
 Source = Union[str, "os.PathLike[str]", Mapping[str, Any]]  # a scene's file, or its content
@@ -122,10 +122,21 @@ def _on_scene(command: str, source: Source, overrides: Mapping[str, Any] | None,
     with _SceneFile(source) as file:
         try:
             return _call(command, file, *_sets(overrides), *_words(options))
-        except ValueError:
-            # the same error with its file, line and key, if it is one of the scene
-            Scene(source if not isinstance(source, Mapping) else dict(source), set=dict(overrides or {}))
-            raise
+        except ValueError as error:
+            raise _of_scene(error, source, overrides) from None
+
+
+def _of_scene(error: ValueError, source: Source, overrides: Mapping[str, Any] | None) -> ValueError:
+    """The same error with its file, line and key, if it is one of the scene."""
+    try:
+        Scene(dict(source) if isinstance(source, Mapping) else source, set=dict(overrides or {}))
+    except SceneError as found:
+        # not a feature that only the program has; a dict has another name there
+        if str(found).removeprefix("dict") in str(error):
+            return found
+    except ValueError:
+        pass
+    return error
 
 
 def _results(command: str, source: Source, out: str | os.PathLike[str] | None, ending: str,
