@@ -55,6 +55,10 @@ Node node_of(const py::handle& value, const Place& place, int depth = 0) {
   return node;
 }
 
+std::string toml_of(const py::object& value) {
+  return toml_value(node_of(value, Place{std::make_shared<const std::string>("dict")}));
+}
+
 // str, bytes or anything with a path, with any bytes
 std::string path_of(const py::object& path) {
   return py::module_::import("os").attr("fsencode")(path).cast<std::string>();
@@ -65,7 +69,7 @@ std::shared_ptr<const OpenedScene> scene_of(const py::object& source, const py::
   const Place place{std::make_shared<const std::string>(name)};
   std::vector<std::string> overrides;
   for (const auto& [key, value] : set)
-    overrides.push_back(key.cast<std::string>() + "=" + toml_value(node_of(value, place)));
+    overrides.push_back(key.cast<std::string>() + "=" + toml_of(py::reinterpret_borrow<py::object>(value)));
   if (py::isinstance<py::dict>(source)) {
     Node tree = node_of(source, place);
     const py::gil_scoped_release others_may_run;
@@ -217,27 +221,9 @@ py::dict history_of(const Run& run) {
 
 // ---- block theory ------------------------------------------------------------------------------------------------
 
-// the columns of a table of numbers and texts: arrays of numbers, NaN for empty cells, or lists of texts
-py::dict columns_of(const std::string& csv) {
-  const py::module_ io = py::module_::import("io"), reader = py::module_::import("csv");
-  const py::object numpy = py::module_::import("numpy");
-  const py::list rows = py::list(reader.attr("reader")(io.attr("StringIO")(csv)));
-  py::dict columns;
-  const py::list header = rows[0];
-  for (std::size_t k = 0; k < header.size(); ++k) {
-    py::list texts;
-    for (std::size_t r = 1; r < rows.size(); ++r)
-      texts.append(rows[r][py::int_(k)]);
-    py::list numbers;
-    try {
-      for (const py::handle& text : texts)
-        numbers.append(py::float_(py::len(text) == 0 ? py::str("nan") : py::reinterpret_borrow<py::str>(text)));
-      columns[header[k]] = numpy.attr("array")(numbers, py::arg("dtype") = "f8");
-    } catch (const py::error_already_set&) {
-      columns[header[k]] = texts;
-    }
-  }
-  return columns;
+// as the package reads the tables of a folder
+py::object columns_of(const std::string& csv) {
+  return py::module_::import("voussoir.folder").attr("columns_of")(py::module_::import("io").attr("StringIO")(csv));
 }
 
 std::optional<SeismicRequest> seismic_of(const py::object& seismic, double vertical) {
@@ -427,6 +413,7 @@ PYBIND11_MODULE(_core, module) {
           .attr("namedtuple")("Surface", "points faces cell_data point_data", py::arg("module") = "voussoir");
   module.attr("Surface") = surface;
   bind_scene(module);
+  module.def("toml_value", &toml_of, py::arg("value"), "A value as a file states it, and as --set takes it.");
   bind_blocks(module, surface);
   bind_run(module, surface);
   bind_state(module);

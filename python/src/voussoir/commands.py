@@ -13,7 +13,7 @@ import tempfile
 from pathlib import Path
 from typing import Any, Mapping, NoReturn, Union
 
-from voussoir._core import Scene, SceneError
+from voussoir._core import Scene, SceneError, toml_value
 from voussoir.folder import Folder
 
 Source = Union[str, "os.PathLike[str]", Mapping[str, Any]]  # a scene's file, or its content
@@ -52,24 +52,8 @@ def _words(options: Mapping[str, Option]) -> list[str]:
     return words
 
 
-def _toml(value: Any) -> str:
-    """A value as TOML states it."""
-    if hasattr(value, "tolist"):
-        value = value.tolist()
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    if isinstance(value, (int, float)):
-        return repr(value)
-    if isinstance(value, (list, tuple)):
-        return "[" + ", ".join(map(_toml, value)) + "]"
-    if isinstance(value, Mapping):
-        return "{ " + ", ".join(f"{key} = {_toml(item)}" for key, item in value.items()) + " }"
-    text = os.fspath(value) if hasattr(value, "__fspath__") else str(value)
-    return '"' + text.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n") + '"'
-
-
 def _sets(overrides: Mapping[str, Any] | None) -> list[str]:
-    return [word for key, value in (overrides or {}).items() for word in ("--set", f"{key}={_toml(value)}")]
+    return [word for key, value in (overrides or {}).items() for word in ("--set", f"{key}={toml_value(value)}")]
 
 
 def _raise(exit_code: int, message: str) -> NoReturn:

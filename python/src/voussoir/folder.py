@@ -6,7 +6,7 @@ import html
 import json
 import webbrowser
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Iterable
 
 import numpy as np
 
@@ -16,10 +16,9 @@ if TYPE_CHECKING:
 Table = dict[str, Any]  # by column: an array of numbers (NaN: empty), or a list of texts
 
 
-def read_table(file: str | Path) -> Table:
-    """The columns of a CSV file: arrays of numbers, NaN for empty cells, or lists of texts."""
-    with open(file, newline="", encoding="utf-8") as lines:
-        rows = [row for row in csv.reader(lines) if row]
+def columns_of(lines: Iterable[str]) -> Table:
+    """The columns of the lines of a CSV file: arrays of numbers, NaN for empty cells, or lists of texts."""
+    rows = [row for row in csv.reader(lines) if row]
     columns: Table = {}
     for place, name in enumerate(rows[0] if rows else []):
         texts = [row[place] for row in rows[1:]]
@@ -69,7 +68,8 @@ class Folder:
 
     def table(self, name: str) -> Table:
         """The columns of a CSV file of the folder: arrays, NaN for empty cells, or lists of texts."""
-        return read_table(self.path / name)
+        with open(self.path / name, newline="", encoding="utf-8") as lines:
+            return columns_of(lines)
 
     def frame(self, name: str = "history.csv") -> pandas.DataFrame:
         """A CSV file of the folder as pandas.DataFrame."""
