@@ -168,6 +168,7 @@ std::optional<StageOutcome> execute(const ReducePlan& reduction, const StageInFo
       return ended;
   const SearchedQuantity sought = sought_by(reduction);
   const TrialHook<Dim> on_trial = [&](const State<Dim>& moved, double level, SearchTrial outcome) {
+    if (progress.reduction.leg != FollowLeg::none) return note_followed(stage, moved, progress);
     note_trial(stage, moved, sought.number(level), sought.unit, outcome, progress);
     if (continuous) return;
     const State<Dim> now = with_forces(stage, moved, outcome == SearchTrial::broken);

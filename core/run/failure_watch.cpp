@@ -189,9 +189,8 @@ MovingBodies moving_bodies(const Model<Dim>& model, const std::vector<From>& fro
 }
 
 template <int Dim>
-double farthest_since(const Model<Dim>& model, const std::vector<Vector<Dim>>& began, const BodiesState<Dim>& bodies) {
-  std::vector<Placement<Dim>> placed;
-  note_placements(bodies, placed);
+double farthest_since(const Model<Dim>& model, const std::vector<Vector<Dim>>& began,
+                      const std::vector<Placement<Dim>>& placed) {
   return moving_bodies(model, began, placed, std::vector<double>(placed.size(), 0)).farthest;
 }
 
@@ -308,24 +307,25 @@ void note_failed_trial(const TrialWatch<Dim>& trial, double strength, SearchEsti
   known.failed.push_back({.level = strength, .critical = critical, .taken_out = std::abs(critical - second.strength)});
 }
 
-#define VOUSSOIR_INSTANTIATE(Dim)                                                                                   \
-  template MovingBodies moving_bodies<Dim>(const Model<Dim>&, const std::vector<Vector<Dim>>&,                      \
-                                           const std::vector<Placement<Dim>>&, const std::vector<double>&);         \
-  template MovingBodies moving_bodies<Dim>(const Model<Dim>&, const std::vector<Placement<Dim>>&,                   \
-                                           const std::vector<Placement<Dim>>&, const std::vector<double>&);         \
-  template double farthest_since<Dim>(const Model<Dim>&, const std::vector<Vector<Dim>>&, const BodiesState<Dim>&); \
-  template bool has_failed_by_displacement<Dim>(const Model<Dim>&, const std::vector<Vector<Dim>>&,                 \
-                                                const std::vector<Placement<Dim>>&, const WatchPlan&);              \
-  template void begin_watch<Dim>(const State<Dim>&, double, FailureWatch<Dim>&);                                    \
-  template void look<Dim>(const Model<Dim>&, const State<Dim>&, const std::vector<Placement<Dim>>&,                 \
-                          const std::vector<Vector<Dim>>&, FailureWatch<Dim>&);                                     \
-  template WatchPlan watch_plan<Dim>(const Model<Dim>&, const Settings&, const ReducePlan&, const Levels&,          \
-                                     const State<Dim>&);                                                            \
-  template void note_stable_trial<Dim>(const Model<Dim>&, const State<Dim>&, const std::vector<Vector<Dim>>&,       \
-                                       const WatchPlan&, double, SearchEstimates&);                                 \
-  template void note_failed_trial<Dim>(const TrialWatch<Dim>&, double, SearchEstimates&);                           \
-  template double failure_displacement_of<Dim>(const Model<Dim>&, const ReducePlan&);                               \
-  template std::vector<int> chosen_properties<Dim>(const Model<Dim>&, const ReducePlan&);                           \
+#define VOUSSOIR_INSTANTIATE(Dim)                                                                             \
+  template MovingBodies moving_bodies<Dim>(const Model<Dim>&, const std::vector<Vector<Dim>>&,                \
+                                           const std::vector<Placement<Dim>>&, const std::vector<double>&);   \
+  template MovingBodies moving_bodies<Dim>(const Model<Dim>&, const std::vector<Placement<Dim>>&,             \
+                                           const std::vector<Placement<Dim>>&, const std::vector<double>&);   \
+  template double farthest_since<Dim>(const Model<Dim>&, const std::vector<Vector<Dim>>&,                     \
+                                      const std::vector<Placement<Dim>>&);                                    \
+  template bool has_failed_by_displacement<Dim>(const Model<Dim>&, const std::vector<Vector<Dim>>&,           \
+                                                const std::vector<Placement<Dim>>&, const WatchPlan&);        \
+  template void begin_watch<Dim>(const State<Dim>&, double, FailureWatch<Dim>&);                              \
+  template void look<Dim>(const Model<Dim>&, const State<Dim>&, const std::vector<Placement<Dim>>&,           \
+                          const std::vector<Vector<Dim>>&, FailureWatch<Dim>&);                               \
+  template WatchPlan watch_plan<Dim>(const Model<Dim>&, const Settings&, const ReducePlan&, const Levels&,    \
+                                     const State<Dim>&);                                                      \
+  template void note_stable_trial<Dim>(const Model<Dim>&, const State<Dim>&, const std::vector<Vector<Dim>>&, \
+                                       const WatchPlan&, double, SearchEstimates&);                           \
+  template void note_failed_trial<Dim>(const TrialWatch<Dim>&, double, SearchEstimates&);                     \
+  template double failure_displacement_of<Dim>(const Model<Dim>&, const ReducePlan&);                         \
+  template std::vector<int> chosen_properties<Dim>(const Model<Dim>&, const ReducePlan&);                     \
   template std::string not_watched<Dim>(const Model<Dim>&, const ReducePlan&, const SupportsState<Dim>&);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)

@@ -79,7 +79,8 @@ MovingBodies moving_bodies(const Model<Dim>& model, const std::vector<From>& fro
 
 // m: of the body that moved most since these displacements
 template <int Dim>
-double farthest_since(const Model<Dim>& model, const std::vector<Vector<Dim>>& began, const BodiesState<Dim>& bodies);
+double farthest_since(const Model<Dim>& model, const std::vector<Vector<Dim>>& began,
+                      const std::vector<Placement<Dim>>& placed);
 
 // Whether the bodies that move have come as far as any of them may: a splinter that rides on blocks fails with them,
 // one that moves alone by itself.

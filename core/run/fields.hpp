@@ -111,10 +111,11 @@ void visit_fields(Just<SearchEstimates> auto& k, auto&& visit) {
 
 void visit_fields(Either<ReductionProgress> auto& r, auto&& visit) {
   auto& [trial, target, level_from, level_rate, time_limit, stable, failed, failed_faster, unbalanced, true_motion,
-         trial_steps, avoids, undecided, run, begin, water, base, failed_from, watch, known, begun, follows] = r;
+         trial_steps, avoids, undecided, run, begin, water, base, failed_from, watch, known, begun, leg, failed_way,
+         searched_steps] = r;
   visit(Saved{}, trial, target, level_from, level_rate, time_limit, stable, failed, failed_faster, unbalanced,
-        true_motion, trial_steps, avoids, undecided, run, begin, water, base, failed_from, watch, known, begun,
-        follows);
+        true_motion, trial_steps, avoids, undecided, run, begin, water, base, failed_from, watch, known, begun, leg,
+        failed_way, searched_steps);
 }
 
 void visit_fields(Just<StageRecord> auto& r, auto&& visit) {

@@ -16,7 +16,7 @@ namespace voussoir {
 namespace {
 
 // of the way of the corner that moved most: bodies that come so far move with it
-constexpr double moving_way = 0.25;
+constexpr double moving_way = 0.1;
 
 // of the same: motions that differ by less are one, rotations by less are none, joints that slip or open by less do not
 constexpr double same_motion = 0.1;

@@ -1,6 +1,6 @@
 // The mechanism of a failure, from where the bodies were in equilibrium and where they are when it is judged.
 //
-// A body moves if a corner of it has moved by a quarter of the way of the corner that moved most. Bodies near each
+// A body moves if a corner of it has moved by a tenth of the way of the corner that moved most. Bodies near each
 // other form a cluster if one's rigid motion takes the corners of the other to within a tenth of that way. A cluster
 // turns if its rotation alone moves a corner by a tenth of its largest way; it turns about an edge if a corner of a
 // face that was in contact has moved by less than a tenth of it.

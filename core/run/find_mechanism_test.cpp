@@ -342,69 +342,46 @@ struct Followed {
   std::string sentence, ended;
 };
 
-// The last failed trial of the search, and its motion to ten times the displacement at which it was judged.
+// The blocks that the search names; and those that move when relaxation, another method than the search's, has taken
+// the last stable state to ten times the way at which the failed trial was judged.
 template <int Dim>
 Followed follow(const std::string& text) {
   const Prepared<Dim> scene = scene_of<Dim>(text);
-  Prepared<Dim> settling = scene;
-  settling.last_stage = 0;
-  Progress<Dim> settled = simulated(settling);
+  const Progress<Dim> whole = simulated(scene);
+  Followed result;
+  if (whole.results.at_last_stable_state.empty() || !whole.results.at_last_stable_state.back().failed) return result;
+  const StableState& at = whole.results.at_last_stable_state.back();
+  result.failed = true;
+  result.named = at.failed->mechanism.bodies();
+  result.sentence = sentence_of(at.failed->mechanism);
+
   const Model<Dim> model = model_after(scene, 2);
   const StagePlan& stage = scene.stages[1];
-  const Settings settings = settings_of(stage, scene.settings);
   const ReducePlan& plan = std::get<ReducePlan>(stage.plan);
-  Followed result;
-  if (settled.results.outcome != Outcome::done) return result;
-  State<Dim> state = settled.state;
-  state.bodies.listed_at.clear();
-  state.schedule.started = state.schedule.time;
-  ReductionProgress<Dim> progress;
-  State<Dim> failed, base;
-  std::vector<Placement<Dim>> placed;
-  double level = 0;
-  reduce<Dim>(model, settings, plan, state, progress, {}, [&](const State<Dim>& now, double at, SearchTrial outcome) {
-    if (outcome != SearchTrial::failed || progress.trial == 0) return;
-    failed = now;
-    base = progress.base;
-    level = at;
-    note_accepted(model, now, placed);
-    result.failed = true;
-  });
-  if (!result.failed) return result;
+  State<Dim> state = whole.state;
   std::vector<Placement<Dim>> from;
-  note_placements(base.bodies, from);
-  place_bodies(placed, failed);
-  failed.increment = {};
-  stop(failed.bodies.motions);
-  State<Dim> evaluated = failed;
-  find_forces(model, settings, evaluated);
-  const FailureMechanism mechanism = find_mechanism(model, from, base.contacts, placed, evaluated.contacts);
-  result.named = mechanism.bodies();
-  result.sentence = sentence_of(mechanism);
-
-  set_strength(model, plan.searched, chosen_properties(model, plan), level, failed.schedule);
-  Settings relaxing = settings;
+  note_placements(state.bodies, from);
+  set_strength(model, plan.searched, chosen_properties(model, plan), at.failed->level * degree, state.schedule);
+  Settings relaxing = settings_of(stage, scene.settings);
   relaxing.statics.method = Statics::adaptive;
-  const std::vector<double> none(placed.size(), 0);
   RunGoal goal;
-  goal.moved_away = 10 * moving_bodies(model, from, placed, none).farthest;
+  goal.moved_away = 10 * whole.reduction.failed_way;
   goal.rest = true;
   goal.step_limit = 200'000;
   RunProgress<Dim> run_progress;
-  run_progress.begin = displacements(base.bodies);
-  const RunReport report = run(model, relaxing, goal, RunSchedule{}, failed, run_progress);
+  run_progress.begin = displacements(state.bodies);
+  const RunReport report = run(model, relaxing, goal, RunSchedule{}, state, run_progress);
   result.ended = describe(report.reason);
   result.reached = report.reason == StopReason::moved_away;
   std::vector<Placement<Dim>> at_end;
-  note_placements(failed.bodies, at_end);
+  note_placements(state.bodies, at_end);
   result.moves = moving_set(model, from, at_end);
   return result;
 }
 
-// Nearly always every block that the sentence names moves on: of 188 slopes in 173. In 150 no other block follows;
-// others are freed by the way of those that failed first, and a few named blocks come to rest when those have left.
+// In 95 % of the slopes the sentence names the blocks that move then, no other ones and all of them.
 void compare(unsigned first, int count) {
-  int same = 0, move_on = 0, judged = 0;
+  int same = 0, judged = 0;
   for (unsigned seed = first; seed < first + count; ++seed) {
     const Followed slope = follow<2>(random_slope(seed));
     if (!slope.failed || !slope.reached) {
@@ -413,15 +390,13 @@ void compare(unsigned first, int count) {
     }
     ++judged;
     same += slope.named == slope.moves;
-    move_on += std::ranges::includes(slope.moves, slope.named);
     if (slope.named != slope.moves)
       std::cout << fmt::format("slope {}: {}; then {} blocks, not {}\n", seed, slope.sentence, slope.moves.size(),
                                slope.named.size());
   }
-  std::cout << fmt::format("of {} slopes in {} the named set moves on, in {} no other block does\n", judged, move_on,
-                           same);
+  std::cout << fmt::format("in {} of {} slopes the named set moves\n", same, judged);
   EXPECT_GE(judged, (3 * count) / 4);
-  EXPECT_GE(move_on, 0.9 * judged);
+  EXPECT_GE(same, 0.95 * judged);
 }
 
 TEST(MechanismOfRandomSlopes, TheNamedSetMovesOn) {

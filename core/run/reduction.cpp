@@ -36,6 +36,10 @@ constexpr double extrapolation_margin = 0.25;
 // Divides strength away: what is left of it is below rounding of the loads that it would balance.
 constexpr double factor_without_strength = 1e9;
 
+// A failed trial is followed to so many times the way at which it was judged: blocks that it frees move, and those
+// that slip a little on their way to rest are left behind.
+constexpr double followed_ways = 10;
+
 // Brackets between a failed level and the base that it was tried from, beyond which it is tried once more.
 constexpr double far_base = 4;
 
@@ -46,9 +50,9 @@ struct Attempt {
   double target = 0;       // level, rad or 1
   bool from_base = false;  // it begins at the last stable state, not at the end of the previous trial
   bool falls = false;
-  double rate = 0;       // rad/s, of a reduction
-  bool beside = false;   // a question beside the search: neither its bracket nor its records know the trial
-  bool follows = false;  // beyond its failure
+  double rate = 0;      // rad/s, of a reduction
+  bool beside = false;  // a question beside the search: neither its bracket nor its records know the trial
+  FollowLeg leg = FollowLeg::none;
 };
 
 // The search methods are at the end, each in one place. A method runs its trials by number, so that an interrupted
@@ -81,7 +85,9 @@ struct Search {
     progress.trial = attempt.number;
     progress.true_motion = false;
     progress.trial_steps = 0;
-    progress.run.begin = attempt.falls ? std::vector<Vector<Dim>>{} : progress.begin;
+    progress.run.begin = attempt.falls                  ? std::vector<Vector<Dim>>{}
+                         : attempt.leg == FollowLeg::on ? displacements(progress.base.bodies)
+                                                        : progress.begin;
     if (watches()) begin_watch(state, attempt.target, progress.watch);
     progress.target = attempt.target;
     state.schedule.started = state.schedule.time;
@@ -106,6 +112,13 @@ struct Search {
   // ---- the strength that a motion requires --------------------------------------------------------------------------
 
   bool watches() const { return !progress.watch.plan.elastic.empty(); }
+  // m: of the body that moved most, to the last trial that the static solver accepted
+  double way_since(const std::vector<Vector<Dim>>& began) const {
+    std::vector<Placement<Dim>> placed;
+    note_accepted(model, state, placed);
+    return farthest_since(model, began, placed);
+  }
+  bool judges(const Attempt& attempt) const { return attempt.leg == FollowLeg::none; }
 
   // a trial that has ended, as part of what is known of the critical strength
   void note_trial(double level, SearchTrial outcome) {
@@ -120,7 +133,6 @@ struct Search {
     return watches() && settings.statics.method == Statics::newton &&
            std::abs(progress.failed - progress.failed_from) > far_base * bracket();
   }
-
   double level_now() const { return level_in_force(plan.searched, properties, state.schedule); }
 
   // relaxation and true motion alternate
@@ -129,7 +141,10 @@ struct Search {
     return std::max(1LL, plan.step_limit / (progress.true_motion ? motion_round : relaxation_round));
   }
 
-  long long step_limit(const Attempt& attempt) const { return attempt.follows ? plan.follow_steps : plan.step_limit; }
+  long long step_limit(const Attempt& attempt) const {
+    if (attempt.leg == FollowLeg::on) return std::max(progress.searched_steps, 1LL);
+    return attempt.leg == FollowLeg::to_rest ? plan.follow_steps : plan.step_limit;
+  }
 
   // true: the trial continues by the other of the two
   bool takes_turn(const Attempt& attempt) {
@@ -144,7 +159,10 @@ struct Search {
   SearchTrial run_turn(const Attempt& attempt) {
     RunGoal goal;
     goal.rest = !attempt.falls;
-    if (!watches() && !attempt.follows) goal.moved_away = failure_displacement;
+    if (attempt.leg == FollowLeg::on)
+      goal.moved_away = followed_ways * progress.failed_way;
+    else if (judges(attempt) && !watches())
+      goal.moved_away = failure_displacement;
     goal.moved_fraction = plan.failure_fraction;
     goal.step_limit = step_limit(attempt) - progress.trial_steps;
     if (relaxes_first(attempt)) goal.step_limit = std::min(*goal.step_limit, round());
@@ -157,7 +175,7 @@ struct Search {
     Settings own = settings;
     if (progress.true_motion) own.statics.method = Statics::local;
     report.last = run(model, own, goal, schedule, state, progress.run, hooks,
-                      watches() && !attempt.follows ? &progress.watch : nullptr);
+                      watches() && judges(attempt) ? &progress.watch : nullptr);
     report.unbalanced = report.last.unbalanced;
     return trial_of(report.last.reason);
   }
@@ -172,7 +190,7 @@ struct Search {
     while (takes_turn(attempt))
       outcome = run_turn(attempt);
     if (report.last.reason == StopReason::interrupted) return {};
-    if (on_trial && !attempt.beside) on_trial(state, level_of(attempt), outcome);
+    if (on_trial && (!attempt.beside || attempt.leg == FollowLeg::on)) on_trial(state, level_of(attempt), outcome);
     if (outcome != SearchTrial::broken) return outcome;
     report.message = report.last.detail;
     return {};
@@ -184,6 +202,7 @@ struct Search {
     if (!outcome) return {};
     const double level = level_of(attempt);
     note_trial(level, *outcome);
+    progress.searched_steps += progress.trial_steps;
     if (outcome == SearchTrial::undecided) {
       if (plan.method == ReductionMethod::bisection && attempt.number > 1 && !progress.avoids) {
         progress.avoids = true;
@@ -201,6 +220,7 @@ struct Search {
     if (outcome == SearchTrial::failed) {
       progress.failed = level;
       progress.failed_from = progress.stable;
+      if (watches()) progress.failed_way = way_since(displacements(progress.base.bodies));
       return outcome;
     }
     // a failed level that is stable from a nearer base: the bracket opens beyond it, to a level to be tried like it
@@ -247,8 +267,6 @@ struct Search {
     close(critical.level, critical.error_bar);
   }
 
-  double failure_of(int body) const { return watches() ? progress.watch.plan.moved_away[body] : failure_displacement; }
-
   // the result of a search after an undecided trial
   void give_up_undecided(const Attempt& attempt, double level) {
     if (attempt.falls) {
@@ -256,10 +274,11 @@ struct Search {
                                    describe(report.last.reason), levels.text(progress.stable));
       return;
     }
-    report.message =
-        fmt::format("neither equilibrium nor failure at {} within {} steps (unbalanced {:.2g}){}: {}",
-                    levels.text(level), progress.trial_steps, report.last.unbalanced, report.last.unreached,
-                    farthest_mover(model, state, progress.begin, [&](int b) { return failure_of(b); }));
+    report.message = fmt::format("neither equilibrium nor failure at {} within {} steps (unbalanced {:.2g}){}: {}",
+                                 levels.text(level), progress.trial_steps, report.last.unbalanced,
+                                 report.last.unreached, farthest_mover(model, state, progress.begin, [&](int b) {
+                                   return watches() ? progress.watch.plan.moved_away[b] : failure_displacement;
+                                 }));
     if (attempt.number == 0) {
       report.message += fmt::format("; neither a stable nor a failed {} is known", levels.one);
       return;
@@ -310,22 +329,28 @@ struct Search {
     if (is_stable_at_end()) return ask_bolts();
     if (progress.trial <= 1 && !rest_at(1, levels.to, true)) return ask_bolts();
     const int next = progress.run.under_way ? progress.trial : progress.trial + 1;
-    for (int n = std::max(next, 2); !progress.follows && !is_closed(); ++n)
+    for (int n = std::max(next, 2); progress.leg == FollowLeg::none && !is_closed(); ++n)
       if (!rest_at(n, bracket() > levels.tolerance ? next_level() : progress.failed, true)) return;
     if (follow_failed()) close_bracket();
   }
 
-  // The failed end of the bracket once more, until it comes to rest. False: interrupted.
+  // nothing: interrupted, or a numerical failure
+  std::optional<SearchTrial> follow(FollowLeg leg, bool from_base) {
+    const int number = progress.trial + (progress.run.under_way ? 0 : 1);
+    progress.leg = leg;
+    return carry_out({.number = number, .target = progress.failed, .from_base = from_base, .beside = true, .leg = leg});
+  }
+  // The failed end of the bracket once more, beyond its failure. False: interrupted.
   bool follow_failed() {
-    if (plan.follow_steps == 0) return true;
     const RunReport last = report.last;
-    const int number = progress.follows ? progress.trial : progress.trial + 1;
-    progress.follows = true;
-    const Attempt attempt{number, progress.failed, true, false, 0, true, true};
-    const bool rests = carry_out(attempt) == SearchTrial::stable;
+    std::optional<SearchTrial> outcome = SearchTrial::failed;
+    if (watches() && progress.leg != FollowLeg::to_rest) outcome = follow(FollowLeg::on, true);
+    if (plan.follow_steps > 0 && outcome == SearchTrial::failed) outcome = follow(FollowLeg::to_rest, !watches());
     if (report.last.reason == StopReason::interrupted) return false;
-    const double moved = farthest_since(model, progress.begin, state.bodies);
-    report.followed = FollowedTrial{rests, moved, progress.trial_steps, describe(report.last.reason)};
+    const double moved = way_since(progress.begin);
+    if (plan.follow_steps > 0 || (outcome == SearchTrial::stable && moved > progress.failed_way))
+      report.followed =
+          FollowedTrial{outcome == SearchTrial::stable, moved, progress.trial_steps, describe(report.last.reason)};
     report.last = last;
     report.message.clear();
     return true;
@@ -343,18 +368,6 @@ struct Search {
     if (!progress.avoids) return 0.5 * (progress.stable + progress.failed);
     return progress.undecided + 0.5 * (std::abs(below) > std::abs(above) ? -below : above);
   }
-  std::string bisection_rule() const {
-    std::string rule = "bisection from the last stable state; " + stable_and_failed_rule(criteria());
-    if (report.by == CriticalBy::required_strength) rule += "; result: the strength required at no displacement";
-    if (report.by == CriticalBy::bracket_of_turning)
-      rule +=
-          "; result: the bracket; the bar contains what the stiffness of the faces on which blocks turn adds to the "
-          "strength of rigid blocks";
-    if (report.by == CriticalBy::stable_fit)
-      rule += "; result: the fit through the stable trials, s = s0 + b u^(-1/2) - a u, at no displacement";
-    return rule;
-  }
-
   // ---- steps: from equilibrium to equilibrium until one fails -------------------------------------------------------
 
   void go_by_steps() {
@@ -365,11 +378,6 @@ struct Search {
       if (outcome != SearchTrial::stable) return;
     }
   }
-  std::string steps_rule() const {
-    return fmt::format("steps of {:.4g}{}; ", levels.step / levels.unit, levels.symbol) +
-           stable_and_failed_rule(criteria());
-  }
-
   // ---- rate: one reduction from equilibrium -------------------------------------------------------------------------
 
   // bias of the angle found at a rate on a plane, rad; 0 if there is no gravity
@@ -382,12 +390,6 @@ struct Search {
     if (progress.trial == 0 && !rest_at(0, plan.from)) return;
     if (fall(1, plan.rate)) close(progress.failed, largest_lag(plan.rate));
   }
-  std::string rate_rule() const {
-    return fmt::format("constant rate {:.4g} deg/s, found too low by up to {:.2g} deg; ", plan.rate / degree,
-                       report.error_bar / degree) +
-           failed_rule(criteria());
-  }
-
   // ---- two rates: reduction, equilibrium closer to failure, second reduction from there -----------------------------
 
   void fall_at_two_rates() {
@@ -420,13 +422,6 @@ struct Search {
     else
       report.message = "the slower rate did not find the higher angle: the failure has no lag to extrapolate";
   }
-  std::string two_rates_rule() const {
-    return fmt::format("{:.6g} deg at {:.4g} deg/s, {:.6g} at {:.4g}, extrapolated by rate^(2/3); ",
-                       progress.failed_faster / degree, plan.rate / degree, progress.failed / degree,
-                       plan.slower_rate / degree) +
-           failed_rule(criteria());
-  }
-
   // -------------------------------------------------------------------------------------------------------------------
 
   void search() {
@@ -449,13 +444,19 @@ struct Search {
   std::string rule() const {
     switch (plan.method) {
       case ReductionMethod::bisection:
-        return bisection_rule();
+        return bisection_rule(criteria(), report.by);
       case ReductionMethod::steps:
-        return steps_rule();
+        return fmt::format("steps of {:.4g}{}; ", levels.step / levels.unit, levels.symbol) +
+               stable_and_failed_rule(criteria());
       case ReductionMethod::rate:
-        return rate_rule();
+        return fmt::format("constant rate {:.4g} deg/s, found too low by up to {:.2g} deg; ", plan.rate / degree,
+                           report.error_bar / degree) +
+               failed_rule(criteria());
       case ReductionMethod::two_rates:
-        return two_rates_rule();
+        return fmt::format("{:.6g} deg at {:.4g} deg/s, {:.6g} at {:.4g}, extrapolated by rate^(2/3); ",
+                           progress.failed_faster / degree, plan.rate / degree, progress.failed / degree,
+                           plan.slower_rate / degree) +
+               failed_rule(criteria());
     }
     return {};
   }

@@ -31,6 +31,13 @@ struct ReductionReport {
   double unbalanced = -1;  // the equilibrium measure of the final state; negative if no equilibrium was sought
 };
 
+// The last failed trial of a search, beyond the displacement at which it was judged.
+enum class FollowLeg {
+  none,
+  on,      // to ten times that displacement: which blocks move, and how
+  to_rest  // for `ReducePlan::follow_steps`
+};
+
 // The progress of a search: with it an interrupted one continues as if nothing had happened.
 template <int Dim>
 struct ReductionProgress {
@@ -53,10 +60,12 @@ struct ReductionProgress {
   FailureWatch<Dim> watch;                // of the trial under way
   SearchEstimates known;                  // of its trials
   std::vector<Placement<Dim>> begun;      // by body: where they were when the search began
-  bool follows = false;                   // the last failed trial is followed beyond its failure
+  FollowLeg leg = FollowLeg::none;        // of the last failed trial, beyond its failure
+  double failed_way = 0;                  // m: from the stable state to where the failed trial was judged
+  long long searched_steps = 0;           // of all trials that have ended
 };
 
-// the outcome at a level; called at the end of each trial, with its final state
+// the outcome at a level; called at the end of each trial, and of the leg FollowLeg::on, with its final state
 template <int Dim>
 using TrialHook = std::function<void(const State<Dim>&, double level, SearchTrial outcome)>;
 

@@ -40,6 +40,23 @@ std::string stable_and_failed_rule(const TrialCriteria& c) {
          newton_rule(c.settings, c.watches);
 }
 
+std::string bisection_rule(const TrialCriteria& c, CriticalBy by) {
+  const std::string rule = "bisection from the last stable state; " + stable_and_failed_rule(c);
+  switch (by) {
+    case CriticalBy::required_strength:
+      return rule + "; result: the strength required at no displacement";
+    case CriticalBy::bracket_of_turning:
+      return rule +
+             "; result: the bracket; the bar contains what the stiffness of the faces on which blocks turn adds to "
+             "the strength of rigid blocks";
+    case CriticalBy::stable_fit:
+      return rule + "; result: the fit through the stable trials, s = s0 + b u^(-1/2) - a u, at no displacement";
+    case CriticalBy::bracket:
+      return rule;
+  }
+  return rule;
+}
+
 std::string hangs_on_bolts(const std::optional<double>& use) {
   return fmt::format(
       "the blocks hang on their bolts at any factor: they are in equilibrium without the strength that it divides; the "

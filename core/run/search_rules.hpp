@@ -8,6 +8,7 @@
 
 #include "core/base/settings.hpp"
 #include "core/model/state.hpp"
+#include "core/run/search_estimates.hpp"
 
 namespace voussoir {
 
@@ -21,6 +22,7 @@ struct TrialCriteria {
 
 std::string failed_rule(const TrialCriteria& criteria);
 std::string stable_and_failed_rule(const TrialCriteria& criteria);
+std::string bisection_rule(const TrialCriteria& criteria, CriticalBy by);
 
 // of a search that is stable to its end, and without the strength that its factor divides; `use`: the largest force of
 // a bolt there over its capacity, if any has one

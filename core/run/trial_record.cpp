@@ -113,7 +113,24 @@ void note_trial(const StageInForce<Dim>& stage, const State<Dim>& state, double 
   progress.results.trials.push_back(std::move(row));
 }
 
+template <int Dim>
+void note_followed(const StageInForce<Dim>& stage, const State<Dim>& state, Progress<Dim>& progress) {
+  const ReductionProgress<Dim>& search = progress.reduction;
+  std::vector<Placement<Dim>> placed;
+  note_accepted(stage.model, state, placed);
+  if (farthest_since(stage.model, displacements(search.base.bodies), placed) < search.failed_way) return;
+  const FailureMechanism mechanism = mechanism_of(stage.model, progress, placed, forces_at(stage, placed, state));
+  for (StableState& at : progress.results.at_last_stable_state) {
+    if (at.stage != stage.plan().name || !at.failed) continue;
+    at.failed->mechanism = mechanism;
+    for (TrialRow& row : progress.results.trials)
+      if (row.stage == at.failed->stage && row.trial == at.failed->trial) row.mechanism = mechanism;
+  }
+}
+
 template void note_trial<2>(const StageInForce<2>&, const State<2>&, double, const char*, SearchTrial, Progress<2>&);
 template void note_trial<3>(const StageInForce<3>&, const State<3>&, double, const char*, SearchTrial, Progress<3>&);
+template void note_followed<2>(const StageInForce<2>&, const State<2>&, Progress<2>&);
+template void note_followed<3>(const StageInForce<3>&, const State<3>&, Progress<3>&);
 
 }  // namespace voussoir

@@ -13,4 +13,9 @@ template <int Dim>
 void note_trial(const StageInForce<Dim>& stage, const State<Dim>& state, double level, const char* unit,
                 SearchTrial outcome, Progress<Dim>& progress);
 
+// The last failed trial has been followed to this state: what moves there, and how, is its mechanism, unless it has
+// come to rest before the place at which it was judged.
+template <int Dim>
+void note_followed(const StageInForce<Dim>& stage, const State<Dim>& state, Progress<Dim>& progress);
+
 }  // namespace voussoir
