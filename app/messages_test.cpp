@@ -42,7 +42,7 @@ TEST_F(Messages, BlocksAreCutWithoutAStage) {
 // the help text of an option that takes one value each time must not suggest that it takes several
 TEST_F(Messages, HelpShowsNoListIfEachValueNeedsItsOption) {
   for (const char* command :
-       {"run", "check", "slice", "blocks", "limit", "export", "joint-test", "study run", "resume"}) {
+       {"run", "check", "slice", "blocks", "limit", "export", "joint-test", "study run", "resume", "report"}) {
     const Ended help = run(std::string(command) + " --help");
     EXPECT_EQ(help.code, 0);
     for (const std::string& line : lines_of(help.out))

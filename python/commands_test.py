@@ -62,6 +62,8 @@ class Commands(unittest.TestCase):
             self.assertIn("view.bin", found.files)
             self.assertIn("iframe", found._repr_html_())
         self.assertTrue(voussoir.view(found, overwrite=True).page.exists())
+        self.assertTrue(voussoir.report(found, author="A. Voss").endswith("report.html"))
+        self.assertIn("report.html", found.files)
 
     def test_a_dict_is_a_scene(self):
         by_file = voussoir.run(PLANE, scratch / "plane")

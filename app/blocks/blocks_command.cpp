@@ -15,6 +15,7 @@
 #include "app/run_folder/claimed_folder.hpp"
 #include "app/run_folder/origin.hpp"
 #include "app/run_folder/results_hash.hpp"
+#include "app/run_folder/run_folder.hpp"
 #include "app/view/page.hpp"
 #include "core/base/bad_input.hpp"
 #include "core/output/atomic_file.hpp"
@@ -118,11 +119,14 @@ ExitCode analyse_directions(const BlocksArguments& arguments, const SurveyReques
   const auto& prepared = std::get<Prepared<3>>(scene.prepared);
   std::vector<KinematicJoint> joints;
   std::vector<std::string> names;
+  std::vector<NamedJoint> named;
   for (std::size_t j = 0; j < prepared.model.joints.size(); ++j) {
     const Joint<3>& joint = prepared.model.joints[j];
     if (joint.holds) continue;
-    joints.push_back({joint.plane.normal, prepared.joint_sets.set_of(static_cast<int>(j))});
+    const int set = prepared.joint_sets.set_of(static_cast<int>(j));
+    joints.push_back({joint.plane.normal, set});
     names.push_back(joint.name);
+    named.push_back({joint.name, set < 0 ? joint.name : prepared.joint_sets.names[set], joint.plane.normal});
   }
   if (joints.size() < 2 || joints.size() > most_joints)
     throw BadInput(
@@ -134,11 +138,14 @@ ExitCode analyse_directions(const BlocksArguments& arguments, const SurveyReques
                       : one_friction(prepared.model.joints, properties_of_request(prepared, survey))};
   const std::vector<PairVerdict> pairs = judge_pairs(request, joints);
   const fs::path folder = folder_of(arguments);
-  const ClaimedFolder claim(folder, Outputs{"blocks", {"kinematic_pairs.csv"}}, scene.files, arguments.overwrite);
+  const ClaimedFolder claim(folder, Outputs{"blocks", {"kinematics.json", "kinematic_pairs.csv", report_file}},
+                            scene.files, arguments.overwrite);
   tell_remarks(*scene.stated);
   write_file(folder / "kinematic_pairs.csv", kinematic_pairs_csv(pairs, names));
-  fmt::print("{}table: {}\n", kinematics_summary(request, count_kinematic(request, joints), pairs, scene.title),
-             (folder / "kinematic_pairs.csv").string());
+  const KinematicCounts counts = count_kinematic(request, joints);
+  write_file(folder / "kinematics.json", kinematics_json(request, counts, pairs, named, scene.title, scene.hash));
+  fmt::print("{}table: {}\nstereonets: voussoir report {}\n", kinematics_summary(request, counts, pairs, scene.title),
+             (folder / "kinematic_pairs.csv").string(), folder.string());
   return ExitCode::done;
 }
 

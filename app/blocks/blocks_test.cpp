@@ -1,7 +1,9 @@
 // `voussoir blocks`: the table, the files, loads and refusals.
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "app/testing/program.hpp"
+#include "text/angle.hpp"
 #include "text/csv_table.hpp"
 
 namespace voussoir::blocks_test {
@@ -117,6 +119,12 @@ TEST_F(Program, BlocksCountsTheZonesOfAFace) {
   EXPECT_EQ(ended.code, 0) << ended.err;
   EXPECT_NE(ended.out.find("kinematic analysis of 4 joints: face 70/170, friction 29 deg"), std::string::npos)
       << ended.out;
+  EXPECT_NE(ended.out.find("stereonets: voussoir report out\n"), std::string::npos) << ended.out;
+  const nlohmann::json drawn = nlohmann::json::parse(read(folder_ / "out/kinematics.json"));
+  EXPECT_EQ(drawn.at("joints").size(), 4u);
+  EXPECT_EQ(drawn.at("joints").at(0).at("set"), "J1");
+  EXPECT_NEAR(drawn.at("joints").at(0).at("normal").at(2).get<double>(), std::cos(46 * degree), 1e-12);
+  EXPECT_EQ(drawn.at("counts").size(), 14u);
   const fs::path table = folder_ / "out/kinematic_pairs.csv";
   EXPECT_EQ(column(table, "motion").size(), column(table, "factor").size());
   const std::vector<std::string> first = column(table, "joint_a"), second = column(table, "joint_b");

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
 #include "core/geometry/plunge_trend.hpp"
+#include "core/run/checkpoint.hpp"
 #include "text/csv_table.hpp"
 
 namespace voussoir {
@@ -20,59 +23,101 @@ const char* word_of(WedgeMotion motion) {
   return "buried";
 }
 
-std::string row(const std::string& mode, long count, long of) {
-  return fmt::format("  {:<58} {:>9} of {:>9}{:>7.1f} %\n", mode, count, of, of > 0 ? 100.0 * count / of : 0.0);
+std::string row(const ZoneCount& counted) {
+  const auto& [zone, count, of] = counted;
+  return fmt::format("  {:<58} {:>9} of {:>9}{:>7.1f} %\n", zone, count, of, of > 0 ? 100.0 * count / of : 0.0);
 }
 
-struct PairCounts {
-  long below_one = 0, at_least_one = 0, buried = 0;
-
-  void add(const PairVerdict& pair) { (!pair.factor ? buried : *pair.factor < 1 ? below_one : at_least_one) += 1; }
-  std::string row(const char* zone) const {
-    return fmt::format("  {:<48} {:>9} {:>9} {:>9}\n", zone, below_one, at_least_one, buried);
-  }
-};
+std::string row(const ZonePairs& pairs) {
+  return fmt::format("  {:<48} {:>9} {:>9} {:>9}\n", pairs.zone, pairs.below_one, pairs.at_least_one, pairs.buried);
+}
 
 }  // namespace
 
+std::vector<ZoneCount> zone_counts(const KinematicRequest& request, const KinematicCounts& counts) {
+  const LateralLimits& limits = request.limits;
+  const auto within = [](const char* what, double limit) {
+    return fmt::format("{} {:g} deg", what, to_degrees(limit));
+  };
+  const std::string direct = within("within", limits.direct_toppling);
+  return {
+      {"plane sliding, any direction", counts.plane_sliding, counts.joints},
+      {within("plane sliding, within", limits.plane_sliding) + " of the face's direction", counts.plane_sliding_within,
+       counts.joints},
+      {"wedge sliding, primary zone", counts.wedge_primary, counts.pairs},
+      {"wedge sliding, primary zone, joints of different sets", counts.wedge_primary_of_sets, counts.pairs_of_sets},
+      {"wedge sliding, secondary zone (perhaps on one plane)", counts.wedge_secondary, counts.pairs},
+      {"wedge sliding, secondary zone, joints of different sets", counts.wedge_secondary_of_sets, counts.pairs_of_sets},
+      {within("flexural toppling, within", limits.flexural_toppling) + " (Goodman's rule)", counts.flexural_toppling,
+       counts.joints},
+      {"flexural toppling, by the great circle of the slip limit", counts.flexural_toppling_net, counts.joints},
+      {"direct toppling, lines " + direct + ", zone 1", counts.direct_lines[0], counts.pairs},
+      {"direct toppling, lines " + direct + ", zone 2 (steep)", counts.direct_lines[1], counts.pairs},
+      {"direct toppling, oblique lines, zone 3", counts.direct_lines[2], counts.pairs},
+      {"direct toppling, bases " + direct + ", zone 1 (slides too)", counts.direct_bases[0], counts.joints},
+      {"direct toppling, bases " + direct + ", zone 2", counts.direct_bases[1], counts.joints},
+      {"direct toppling, oblique bases, zone 3", counts.direct_bases[2], counts.joints}};
+}
+
+std::vector<ZonePairs> zone_pairs(const std::vector<PairVerdict>& pairs) {
+  ZonePairs primary{"line steeper than the friction (primary zone)"}, flatter{"line flatter"};
+  for (const PairVerdict& pair : pairs) {
+    ZonePairs& zone = pair.primary ? primary : flatter;
+    (!pair.factor ? zone.buried : *pair.factor < 1 ? zone.below_one : zone.at_least_one) += 1;
+  }
+  return {primary, flatter};
+}
+
 std::string kinematics_summary(const KinematicRequest& request, const KinematicCounts& counts,
                                const std::vector<PairVerdict>& pairs, const std::string& title) {
-  const auto& [face, friction, limits] = request;
   std::string text = fmt::format(
       "{} - kinematic analysis of {} joints: face {:g}/{:03g}, friction {:g} deg\n"
       "a screen of directions: neither the joints' places and sizes, nor water, cohesion and supports are counted\n",
-      title, counts.joints, to_degrees(face.dip), to_degrees(face.direction), to_degrees(friction));
-  text += row("plane sliding, any direction", counts.plane_sliding, counts.joints);
-  text += row(fmt::format("plane sliding, within {:g} deg of the face's direction", to_degrees(limits.plane_sliding)),
-              counts.plane_sliding_within, counts.joints);
-  text += row("wedge sliding, primary zone", counts.wedge_primary, counts.pairs);
-  text +=
-      row("wedge sliding, primary zone, joints of different sets", counts.wedge_primary_of_sets, counts.pairs_of_sets);
-  text += row("wedge sliding, secondary zone (perhaps on one plane)", counts.wedge_secondary, counts.pairs);
-  text += row("wedge sliding, secondary zone, joints of different sets", counts.wedge_secondary_of_sets,
-              counts.pairs_of_sets);
-  text += row(fmt::format("flexural toppling, within {:g} deg (Goodman's rule)", to_degrees(limits.flexural_toppling)),
-              counts.flexural_toppling, counts.joints);
-  text += row("flexural toppling, by the great circle of the slip limit", counts.flexural_toppling_net, counts.joints);
-  const std::string direct = fmt::format("within {:g} deg", to_degrees(limits.direct_toppling));
-  text += row("direct toppling, lines " + direct + ", zone 1", counts.direct_lines[0], counts.pairs);
-  text += row("direct toppling, lines " + direct + ", zone 2 (steep)", counts.direct_lines[1], counts.pairs);
-  text += row("direct toppling, oblique lines, zone 3", counts.direct_lines[2], counts.pairs);
-  text += row("direct toppling, bases " + direct + ", zone 1 (slides too)", counts.direct_bases[0], counts.joints);
-  text += row("direct toppling, bases " + direct + ", zone 2", counts.direct_bases[1], counts.joints);
-  text += row("direct toppling, oblique bases, zone 3", counts.direct_bases[2], counts.joints);
-  PairCounts primary, others;
-  for (const PairVerdict& pair : pairs)
-    (pair.primary ? primary : others).add(pair);
+      title, counts.joints, to_degrees(request.face.dip), to_degrees(request.face.direction),
+      to_degrees(request.friction));
+  for (const ZoneCount& counted : zone_counts(request, counts))
+    text += row(counted);
   text += fmt::format("block theory on the {} pairs whose line leaves the face, the block above both planes:\n",
                       pairs.size());
   text += fmt::format("  {:<48} {:>9} {:>9} {:>9}\n", "", "F < 1", "F >= 1", "buried");
-  text += primary.row("line steeper than the friction (primary zone)");
-  text += others.row("line flatter");
+  const std::vector<ZonePairs> judged = zone_pairs(pairs);
+  for (const ZonePairs& zone : judged)
+    text += row(zone);
   text += fmt::format(
       "the overlay is safe on neither side: pairs with F < 1 outside of the primary zone: {}; without inside: {}\n",
-      others.below_one, primary.at_least_one + primary.buried);
+      judged[1].below_one, judged[0].at_least_one + judged[0].buried);
   return text;
+}
+
+std::string kinematics_json(const KinematicRequest& request, const KinematicCounts& counts,
+                            const std::vector<PairVerdict>& pairs, const std::vector<NamedJoint>& joints,
+                            const std::string& title, const std::string& hash) {
+  nlohmann::json json = {{"schema", "voussoir.kinematics"},
+                         {"schema_version", 1},
+                         {"title", title},
+                         {"input_hash", hash},
+                         {"program", build_name()},
+                         {"face_dip_deg", to_degrees(request.face.dip)},
+                         {"face_direction_deg", to_degrees(request.face.direction)},
+                         {"friction_deg", to_degrees(request.friction)},
+                         {"limits_deg",
+                          {{"plane_sliding", to_degrees(request.limits.plane_sliding)},
+                           {"flexural_toppling", to_degrees(request.limits.flexural_toppling)},
+                           {"direct_toppling", to_degrees(request.limits.direct_toppling)}}},
+                         {"counts", nlohmann::json::array()},
+                         {"pairs", nlohmann::json::array()},
+                         {"joints", nlohmann::json::array()}};
+  for (const ZoneCount& counted : zone_counts(request, counts))
+    json["counts"].push_back({{"mode", counted.zone}, {"count", counted.count}, {"of", counted.of}});
+  for (const ZonePairs& zone : zone_pairs(pairs))
+    json["pairs"].push_back({{"zone", zone.zone},
+                             {"below_one", zone.below_one},
+                             {"at_least_one", zone.at_least_one},
+                             {"buried", zone.buried}});
+  for (const NamedJoint& joint : joints)
+    json["joints"].push_back(
+        {{"name", joint.name}, {"set", joint.set}, {"normal", {joint.normal.x(), joint.normal.y(), joint.normal.z()}}});
+  return json.dump(1) + "\n";
 }
 
 std::string kinematic_pairs_csv(const std::vector<PairVerdict>& pairs, const std::vector<std::string>& names) {

@@ -22,6 +22,7 @@
 #include "app/import/import_command.hpp"
 #include "app/joint_test/joint_test_command.hpp"
 #include "app/limit/limit_command.hpp"
+#include "app/report/report_command.hpp"
 #include "app/run/resume_command.hpp"
 #include "app/run/run_command.hpp"
 #include "app/run_folder/claimed_folder.hpp"
@@ -39,7 +40,7 @@ namespace voussoir {
 namespace {
 
 // in the order of the help text
-constexpr AddCommand* commands[] = {add_run,   add_resume,     add_view,   add_check,  add_slice, add_blocks,
+constexpr AddCommand* commands[] = {add_run,   add_resume,     add_view,   add_report, add_check, add_slice, add_blocks,
                                     add_limit, add_joint_test, add_import, add_export, add_study, add_docs};
 
 // an allocation has failed: this must not allocate again

@@ -7,6 +7,7 @@
 //   (app/run_folder/begin_run.hpp) history.csv, frames/, blocks.pvd, contacts.pvd; with bolts also bolts.pvd and
 //   bolts.csv, with linings linings.pvd and lining.csv; view.bin, view.html on request; of a search also
 //   search.csv, search.svg (app/run_folder/search_files.hpp), trial_blocks.pvd, trial_contacts.pvd
+//   report.html, when `voussoir report` made it
 //   results.json               comes last: if it exists, the run is complete and the checkpoints are gone
 #pragma once
 
@@ -39,6 +40,8 @@ struct RunOptions {
 void write_options(const std::filesystem::path& folder, const RunOptions& options);
 // throws BadInput with the file's name if it cannot be read
 RunOptions read_options(const std::filesystem::path& folder);
+
+inline constexpr const char* report_file = "report.html";
 
 // the files of a run, and those that a continued run writes again
 Outputs run_outputs();

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "app/base/digest.hpp"
+#include "app/run_folder/run_folder.hpp"
 #include "app/study/findings.hpp"
 #include "core/base/bad_input.hpp"
 #include "core/output/atomic_file.hpp"
@@ -160,7 +161,7 @@ std::vector<InputFile> input_files(const fs::path& plan, const std::vector<Plann
 }
 
 Outputs study_outputs(const StudyPlan& plan, const std::vector<InputFile>& input, const std::vector<PlannedRow>& rows) {
-  Outputs outputs{"study", {"study.csv", notes_file, manifest_file}, false, {}, true};
+  Outputs outputs{"study", {"study.csv", notes_file, manifest_file, report_file}, false, {}, true};
   for (const InputFile& file : input)
     outputs.files.push_back((input_folder / file.to).string());
   for (const std::string& name : finding_names(plan))

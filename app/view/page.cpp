@@ -76,7 +76,7 @@ std::string view_bytes(const std::filesystem::path& file) {
 }  // namespace
 
 std::string viewer_script() {
-  return std::string(viewer::script);
+  return std::string(viewer::viewer_script) + std::string(viewer::loading);
 }
 
 std::string_view picture_type(std::string_view bytes) {
@@ -98,6 +98,21 @@ std::string view_page(const std::filesystem::path& data) {
   std::string html(viewer::before_page);
   html += viewer_script();
   html += view_fragment(data);
+  return html += viewer::after_page;
+}
+
+std::string report_page(const std::string& json, const std::filesystem::path& blocks) {
+  std::string html(viewer::before_report);
+  html += base64(compressed(json));
+  html += viewer::after_report_data;
+  if (!blocks.empty()) {
+    html += viewer::before_blocks;
+    html += view_fragment(blocks);
+    html += viewer::after_blocks;
+    html += viewer::viewer_script;
+  }
+  html += viewer::report_script;
+  html += viewer::loading;
   return html += viewer::after_page;
 }
 

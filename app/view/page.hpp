@@ -23,4 +23,8 @@ std::string_view picture_type(std::string_view bytes);
 std::string view_fragment(const std::filesystem::path& data, std::string_view poster = {}, std::string_view look = {});
 std::string viewer_script();
 
+// The report on a run: JSON of its texts (app/report/report_data.hpp), drawn by a script of viewer/; with a run's
+// `view.bin` its blocks can be turned in it. Throws as view_page.
+std::string report_page(const std::string& json, const std::filesystem::path& blocks = {});
+
 }  // namespace voussoir

@@ -59,6 +59,6 @@ function begin() {
   document.querySelectorAll('.voussoir').forEach(prepare);
 }
 
-window.voussoir = { views };
+window.voussoir = { views, start: (element) => prepare(element, 0, { length: 1 }) };
 if (document.readyState === 'loading') document.addEventListener('DOMContentLoaded', begin);
 else begin();

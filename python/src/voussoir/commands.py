@@ -193,6 +193,12 @@ def export(scene: Source, out: str | os.PathLike[str], *, set: Mapping[str, Any]
     return _on_scene("export", scene, set, {"out": out, **options})[0]
 
 
+def report(folder: str | os.PathLike[str], **options: Option) -> str:
+    """Writes one page of a run for a dossier: `voussoir report`, with its options (out, project, author, …). Returns its
+    path."""
+    return _call("report", os.fspath(folder), *_words(options))[0].splitlines()[0]
+
+
 def view(folder: str | os.PathLike[str], **options: Option) -> Folder:
     """Writes the interactive page of a run again: `voussoir view`."""
     return Folder(folder, *_call("view", os.fspath(folder), *_words(options)))

@@ -1,0 +1,121 @@
+#include "app/report/report_data.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "app/run_folder/run_folder.hpp"
+#include "core/base/bad_input.hpp"
+#include "text/read_file.hpp"
+
+namespace voussoir {
+namespace {
+
+namespace fs = std::filesystem;
+
+// rows of a history in a page: more than a figure has pixels
+constexpr std::ptrdiff_t most_rows = 2000;
+
+std::string text_of(const fs::path& file) {
+  constexpr std::uintmax_t most = std::uintmax_t{1} << 30;
+  try {
+    return read_file(file, most);
+  } catch (const ReadFault& fault) {
+    throw BadInput(fmt::format("'{}': {}", file.string(), fault.what()));
+  }
+}
+
+nlohmann::json json_of(const fs::path& file) {
+  nlohmann::json data = nlohmann::json::parse(text_of(file), nullptr, false);
+  if (data.is_discarded()) throw BadInput(fmt::format("'{}' is damaged: make it again", file.string()));
+  return data;
+}
+
+[[noreturn]] void refuse(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::is_directory(folder, error))
+    throw BadInput(fmt::format("'{}' is not a folder: name the folder of a run, a study or a kinematic analysis",
+                               folder.string()));
+  if (holds_unfinished_run(folder))
+    throw BadInput(fmt::format("the run in '{0}' has not ended: end it with 'voussoir resume {0}'", folder.string()));
+  if (fs::exists(folder / "manifest.jsonl", error))
+    throw BadInput(
+        fmt::format("the study in '{0}' has no results yet: run it with 'voussoir study run {0}', then "
+                    "'voussoir study gather {0}'",
+                    folder.string()));
+  throw BadInput(fmt::format("'{}' contains no run: make one with 'voussoir run SCENE --out {0}'", folder.string()));
+}
+
+// each so many-th row, and the last; the head stays
+std::string thinned(const std::string& table, std::ptrdiff_t every) {
+  std::string kept;
+  std::ptrdiff_t row = 0;
+  for (std::size_t at = 0; at < table.size(); ++row) {
+    const std::size_t end = std::min(table.find('\n', at), table.size() - 1) + 1;
+    if (row == 0 || (row - 1) % every == 0 || end == table.size()) kept.append(table, at, end - at);
+    at = end;
+  }
+  return kept;
+}
+
+void add_run(const fs::path& folder, nlohmann::json& data) {
+  data["results"] = json_of(folder / "results.json");
+  nlohmann::json& files = data["files"];
+  files["scene"] = text_of(folder / "scene.toml");
+  std::error_code error;
+  for (const char* name : {"history", "search"}) {
+    const fs::path file = folder / fmt::format("{}.csv", name);
+    if (fs::exists(file, error)) files[name] = text_of(file);
+  }
+  if (!files.contains("history")) return;
+  const auto& text = files["history"].get_ref<const std::string&>();
+  const std::ptrdiff_t every =
+      std::max<std::ptrdiff_t>((std::ranges::count(text, '\n') + most_rows - 1) / most_rows, 1);
+  data["every"] = every;
+  if (every > 1) files["history"] = thinned(text, every);
+}
+
+void add_study(const fs::path& folder, nlohmann::json& data) {
+  const nlohmann::json& study = data["study"] = json_of(folder / "study.json");
+  nlohmann::json& files = data["files"];
+  files["study"] = text_of(folder / "study.csv");
+  files["manifest"] = text_of(folder / "manifest.jsonl");
+  files["samples"] = files["input"] = nlohmann::json::array();
+  std::error_code error;
+  for (int k = 1; fs::exists(folder / fmt::format("sample_{}.json", k), error); ++k)
+    files["samples"].push_back({{"json", text_of(folder / fmt::format("sample_{}.json", k))},
+                                {"csv", text_of(folder / fmt::format("sample_{}.csv", k))}});
+  for (const nlohmann::json& input : study.at("input")) {
+    const std::string name = input.at("file");
+    if (name.ends_with(".toml")) files["input"].push_back({{"name", name}, {"text", text_of(folder / name)}});
+  }
+}
+
+void add_kinematics(const fs::path& folder, nlohmann::json& data) {
+  data["kinematics"] = json_of(folder / "kinematics.json");
+  data["files"]["pairs"] = text_of(folder / "kinematic_pairs.csv");
+}
+
+}  // namespace
+
+std::string report_data(const fs::path& folder, const TitleBlock& block) {
+  nlohmann::json data;
+  std::error_code error;
+  if (holds_results(folder))
+    add_run(folder, data);
+  else if (fs::exists(folder / "study.json", error) && fs::exists(folder / "study.csv", error))
+    add_study(folder, data);
+  else if (fs::exists(folder / "kinematics.json", error))
+    add_kinematics(folder, data);
+  else
+    refuse(folder);
+  data["block"] = {{"project", block.project},
+                   {"section", block.section},
+                   {"author", block.author},
+                   {"checked_by", block.checked_by},
+                   {"date", block.date}};
+  return data.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+}  // namespace voussoir

@@ -1,0 +1,62 @@
+// Elements and tables. Text is only inserted as text.
+export function element(name, attributes = {}, ...children) {
+  const made = document.createElement(name);
+  for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
+  made.append(...children.filter((child) => child !== null && child !== undefined));
+  return made;
+}
+
+const quoted = (cell) => (/[",\n]/.test(cell) ? `"${cell.replaceAll('"', '""')}"` : cell);
+
+export function csvOf(rows) { return rows.map((row) => row.map((cell) => quoted(String(cell))).join(',')).join('\n') + '\n'; }
+
+// Copies through the clipboard, or where a browser refuses it to a page from disk, through a selected text.
+async function copy(text) {
+  try {
+    await navigator.clipboard.writeText(text);
+  } catch {
+    const box = element('textarea');
+    box.value = text;
+    document.body.append(box);
+    box.select();
+    document.execCommand('copy');
+    box.remove();
+  }
+}
+
+export function copyButton(words, text) {
+  const button = element('button', { type: 'button', class: 'small' }, words);
+  button.onclick = async () => {
+    await copy(text());
+    button.textContent = 'copied';
+    setTimeout(() => { button.textContent = words; }, 1200);
+  };
+  return button;
+}
+
+// `numbers`: places of columns that are aligned to the right
+export function table(head, rows, { numbers = [], caption = '' } = {}) {
+  const kind = (k) => (numbers.includes(k) ? { class: 'number' } : {});
+  const made = element('table', {},
+    ...(caption ? [element('caption', {}, caption)] : []),
+    element('thead', {}, element('tr', {}, ...head.map((cell, k) => element('th', { scope: 'col', ...kind(k) }, cell)))),
+    element('tbody', {}, ...rows.map((row) => element('tr', {}, ...row.map((cell, k) => element('td', kind(k), String(cell)))))));
+  return element('div', { class: 'table' }, made, copyButton('copy as CSV', () => csvOf([head, ...rows])));
+}
+
+// [["name", "value"], …]; rows without a value are left out
+export function list(rows) {
+  return element('dl', {}, ...rows.filter(([, value]) => value !== '' && value !== undefined && value !== null)
+    .flatMap(([name, value]) => [element('dt', {}, name), element('dd', {}, value)]));
+}
+
+// A program's comma-separated file: names of its columns, and its rows as texts; no cell of it is quoted.
+export function readCsv(text) {
+  const [head, ...rows] = text.trim().split('\n').map((line) => line.split(','));
+  return { head: head ?? [], rows };
+}
+export function save(name, blob) {
+  const link = element('a', { href: URL.createObjectURL(blob), download: name });
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+}

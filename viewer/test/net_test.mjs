@@ -1,0 +1,68 @@
+// node net_test.mjs SOURCE: the stereonet's geometry and zones, without a browser: places against their formulas, counts of
+// 200 joints in the zones that are drawn against those that `voussoir blocks --kinematics` counts, density and means.
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { between, daylightEnvelope, density, fisherMean, fromNet, greatCircle, lineOf, lineZones, onNet, planeOf, poleOf, poleZones, smallCircle } from '../src/report/net.js';
+
+const [source] = process.argv.slice(2);
+const near = (found, wanted, tolerance = 1e-8) => assert.ok(Math.abs(found - wanted) <= tolerance, `${found}, not ${wanted}`);
+const nearPoint = (found, wanted, tolerance) => found.forEach((x, k) => near(x, wanted[k], tolerance));
+
+// ---- places: A1 x B1 of the tutorial, and the rim, in both projections
+nearPoint(onNet(lineOf(37.960792, 169.112921)), [0.117174647, -0.609219183]);
+nearPoint(onNet(lineOf(37.960792, 169.112921), 'angle'), [0.092200012, -0.479370045]);
+nearPoint(onNet(lineOf(20, 45)), [0.573576436, 0.573576436]);
+nearPoint(onNet(lineOf(0, 270)), [-1, 0]);
+nearPoint(onNet(lineOf(90, 123)), [0, 0], 1e-7);
+for (const kind of ['area', 'angle']) {
+  for (const [plunge, trend] of [[0.5, 12], [38, 169], [80, 300]]) {
+    const [x, y] = onNet(lineOf(plunge, trend), kind);
+    nearPoint(fromNet(x, y, kind), lineOf(plunge, trend), 1e-12);
+  }
+  assert.equal(fromNet(0.8, 0.7, kind), null);
+}
+// a pole is where its plane's own line is not: the plane 46/128 dips to 128, its pole plunges 44 to 308
+nearPoint(onNet(poleOf(46, 128)), onNet(lineOf(44, 308)), 1e-12);
+{ const { dip, direction } = planeOf(poleOf(46, 128)); near(dip, 46, 1e-9); near(direction, 128, 1e-9); }
+
+// ---- friction circles: poles of planes that dip as the friction are nearer to the centre than lines that plunge as it does
+for (const [friction, pole, line] of [[29, 0.354090797, 0.717767636], [30, 0.366025404, 0.707106781], [41, 0.495268028, 0.586464808]]) {
+  for (const [piece, radius] of [[smallCircle([0, 0, -1], friction)[0], pole], [smallCircle([0, 0, -1], 90 - friction)[0], line]])
+    for (const [x, y] of piece) near(Math.hypot(x, y), radius);
+}
+// equal angle: great circles are circles
+for (const [x, y] of greatCircle(46, 128, 'angle')) near(Math.hypot(x + 0.816009023, y - 0.637536121), 1.43955654);
+// the steepest dips that leave the face 70/180
+for (const [direction, dip] of [[180, 70], [150, 67.204122741], [120, 53.947611268], [100, 25.505550261]]) {
+  const nearest = Math.min(...daylightEnvelope({ dip: 70, direction: 180 }).map(([x, y]) => { const p = onNet(poleOf(dip, direction)); return Math.hypot(x - p[0], y - p[1]); }));
+  assert.ok(nearest < 0.012, `${direction}: ${nearest}`);
+}
+
+// ---- zones against the counts of core/key_blocks (kinematics_test.cpp), by another method
+const joints = readFileSync(join(source, 'core/testing/kinematic_joints.csv'), 'utf8').trim().split('\n').slice(1).map((row) => row.split(','));
+const poles = joints.map((row) => poleOf(Number(row[5]), Number(row[6])));
+const COUNTS = [[70, 180, 30, [73, 46, 42, 7028, 1947, 214, 1782]], [65, 185, 35, [69, 50, 37, 5640, 2225, 250, 3025]], [80, 190, 25, [81, 68, 41, 8254, 2206, 616, 889]]];
+for (const [dip, direction, friction, wanted] of COUNTS) {
+  const request = { face: { dip, direction }, friction, limits: { plane: 20, flexural: 30, direct: 20 } }, of = poleZones(request), lines = lineZones(request);
+  const slides = poles.filter((pole) => of.plane(pole) > 0), pairs = [];
+  for (let i = 0; i < poles.length; ++i) for (let j = i + 1; j < poles.length; ++j) pairs.push(between(poles[i], poles[j]));
+  const count = (list, zone) => list.filter((v) => zone(v) >= 0).length;
+  assert.deepEqual([slides.length, count(slides, of.planeWithin), count(poles, of.flexural), count(pairs, lines.primary), count(pairs, lines.secondary),
+    count(pairs, lines.toppling), count(pairs, lines.oblique)], wanted, `face ${dip}/${direction}`);
+}
+
+// ---- density (per cent for each 1 % of the net), and means
+near(density(poles, poleOf(48, 195)), 8.693580618, 1e-8);
+near(density(poles, poleOf(62, 95)), 9.978721562, 1e-8);
+near(density(poles, poleOf(76, 10)), 5.29652023, 1e-8);
+near(density([[0, 0, -1]], [0, 0, -1]), 100, 1e-9);
+{
+  // poles on both sides of the horizon have their mean at it
+  const { mean } = fisherMean([poleOf(88, 10), poleOf(88, 190)]);
+  near(Math.abs(planeOf(mean).dip - 90), 0, 1e-9);
+  const { mean: third, constant } = fisherMean(poles.filter((_, k) => joints[k][1] === 'J3'));
+  near(planeOf(third).dip, 75.41, 0.01);
+  near(constant, 23.926, 1e-3);
+}
+console.log('the stereonets are right');
