@@ -32,7 +32,7 @@ nlohmann::json json_of(const fs::path& file) {
   return data;
 }
 
-[[noreturn]] void refuse(const fs::path& folder) {
+[[noreturn]] void refuse_folder(const fs::path& folder) {
   std::error_code error;
   if (!fs::is_directory(folder, error))
     throw BadInput(fmt::format("'{}' is not a folder: name the folder of a run, a study or a kinematic analysis",
@@ -44,7 +44,7 @@ nlohmann::json json_of(const fs::path& file) {
         fmt::format("the study in '{0}' has no results yet: run it with 'voussoir study run {0}', then "
                     "'voussoir study gather {0}'",
                     folder.string()));
-  throw BadInput(fmt::format("'{}' contains no run: make one with 'voussoir run SCENE --out {0}'", folder.string()));
+  throw BadInput(fmt::format("'{0}' contains no run: make one with 'voussoir run SCENE --out {0}'", folder.string()));
 }
 
 // each so many-th row, and the last; the head stays
@@ -109,7 +109,7 @@ std::string report_data(const fs::path& folder, const TitleBlock& block) {
   else if (fs::exists(folder / "kinematics.json", error))
     add_kinematics(folder, data);
   else
-    refuse(folder);
+    refuse_folder(folder);
   data["block"] = {{"project", block.project},
                    {"section", block.section},
                    {"author", block.author},

@@ -76,7 +76,7 @@ await picture('slope');
 // poles, not the planes' own lines: of A1, dip 46 towards 128, plunges 44 towards 308
 {
   const poles = await js(`
-    const net = [...document.querySelectorAll('figure')].find((f) => f.textContent.includes('Poles')), circle = net.querySelector('[aria-label="line"] path').getBBox();
+    const net = [...document.querySelectorAll('figure')].find((f) => f.textContent.includes('Poles')), circle = [...net.querySelectorAll('[aria-label="line"] path')].map((p) => p.getBBox()).sort((a, b) => b.width + b.height - a.width - a.height)[0];
     const R = circle.width / 2, cx = circle.x + R, cy = circle.y + R;
     return [...net.querySelectorAll('[aria-label="dot"] circle')].map((dot) => [(dot.cx.baseVal.value - cx) / R, (cy - dot.cy.baseVal.value) / R]);`);
   assert.equal(poles.length, 4);
@@ -149,7 +149,7 @@ const directions = join(folder, 'directions');
   assert.equal(status, 0, stderr);
   await open(report(directions));
   await picture('directions');
-  const zones = await rows('Zones of the face'), printed = stdout.split('\n').filter((line) => / of +\d+ /.test(line));
+  const zones = await rows('Zones of the face'), printed = stdout.split('\n').filter((line) => / of +\d+ +[\d.]+ %/.test(line));
   assert.equal(zones.length, 14);
   zones.forEach(([mode, count], k) => assert.ok(printed[k].includes(mode) && printed[k].match(/(\d+) of/)[1] === count, printed[k]));
   // in each net, the radius of the largest circle about the centre in the colour of sliding
