@@ -42,7 +42,7 @@ voussoir_test(unit.neighbours OPTIMISED LABEL unit SOURCES step/neighbours_test.
 voussoir_test(unit.rest LABEL unit
   SOURCES step/rest_test.cpp step/free_fall_test.cpp run/settled_test.cpp scene/stage_excavations_test.cpp
   LIBS voussoir_core Boost::headers fmt::fmt)
-voussoir_test(unit.mechanism LONG LABEL unit SOURCES run/find_mechanism_test.cpp
+voussoir_test(unit.mechanism LONG LABEL unit SOURCES run/block_theory_test.cpp run/find_mechanism_test.cpp
   LIBS voussoir_core voussoir_end_bytes Boost::headers fmt::fmt)
 voussoir_test(unit.particles LABEL unit SOURCES scene/*particles*_test.cpp
   LIBS voussoir_core voussoir_end_bytes fmt::fmt Boost::headers)

@@ -115,8 +115,12 @@ struct BlockTheory {
   double required = 0;                       // factor of safety of the force below
   std::optional<double> force{};             // N: the least that gives it
   double force_plunge = 0, force_trend = 0;  // deg
-  bool differs = false;                      // from the search's value by more than its error bar
-  std::vector<std::string> reasons{};        // that it knows, as clauses
+  // of a search for a factor: the block that by itself has the lowest, if that is below the search's by more than its
+  // bar
+  int lower_block = -1;
+  double lower = 0;
+  bool differs = false;                // from the search's value by more than its error bar
+  std::vector<std::string> reasons{};  // that it knows, as clauses
 };
 
 // The bonds and supports that held the blocks when a stage was last in equilibrium: at the end of a settle stage, or in

@@ -213,6 +213,8 @@ Json block_theory_json(const BlockTheory& theory, NumberWriter& number) {
                       {"force_N", number(*theory.force, "block_theory.force_N")},
                       {"plunge_deg", number(theory.force_plunge, "block_theory.plunge_deg")},
                       {"trend_deg", number(theory.force_trend, "block_theory.trend_deg")}};
+  if (theory.lower_block >= 0)
+    entry["lower"] = {{"block", theory.lower_block}, {"critical", number(theory.lower, "block_theory.lower")}};
   entry["differs"] = theory.differs;
   entry["reasons"] = theory.reasons;
   return entry;

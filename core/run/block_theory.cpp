@@ -10,6 +10,7 @@
 #include "core/key_blocks/block_survey.hpp"
 #include "core/key_blocks/elastic_shear.hpp"
 #include "core/key_blocks/pressure_eccentricity.hpp"
+#include "core/key_blocks/survey.hpp"
 #include "core/run/brittle_factor.hpp"
 #include "core/run/failure_watch.hpp"
 #include "text/angle.hpp"
@@ -89,6 +90,27 @@ std::vector<std::string> reasons_of(const JudgedSet<Dim>& set, const FailureMech
   return reasons;
 }
 
+// Stress of the rock around is not counted: with it roof and wall blocks would seem to fall.
+template <int Dim>
+bool is_stressed(const Prepared<Dim>& prepared, int place) {
+  const auto loaded = [](const StagePlan& stage) { return !stage.change.boundary.empty(); };
+  return !prepared.model.boundary.empty() ||
+         std::any_of(prepared.stages.begin(), prepared.stages.begin() + place + 1, loaded);
+}
+
+// the single block that slides at the lowest factor
+template <int Dim>
+void find_lowest(const Assembly<Dim>& assembly, BlockTheory& theory) {
+  const std::vector<BoltedVerdict<Dim>> single = judge_all<Dim>(assembly, {});
+  for (std::size_t b = 0; b < single.size(); ++b) {
+    const Verdict<Dim>& verdict = single[b].verdict;
+    if (!moves(verdict.kind) || verdict.loaded == 0 || !single[b].factor) continue;
+    if (theory.lower_block >= 0 && *single[b].factor >= theory.lower) continue;
+    theory.lower_block = static_cast<int>(b);
+    theory.lower = *single[b].factor;
+  }
+}
+
 template <int Dim>
 std::optional<BlockTheory> judge_moving(const Prepared<Dim>& prepared, int place, const FailureMechanism& mechanism) {
   const ReducePlan& plan = std::get<ReducePlan>(prepared.stages[place].plan);
@@ -110,6 +132,7 @@ std::optional<BlockTheory> judge_moving(const Prepared<Dim>& prepared, int place
       if (set.block.bolts.empty()) theory.friction_only = verdict.factor_friction_only();
       theory.brittle = brittle_factor(set.assembly, set.block, set.bolted, chosen_properties(set.assembly.model, plan));
     }
+    if (!is_stressed(prepared, place)) find_lowest(set.assembly, theory);
     const auto force = least_force(set.block, set.bolted, usual_factor, gravity);
     if (force && force->force.norm() > 0) {
       theory.required = usual_factor;
@@ -143,6 +166,7 @@ void add_block_theory(const Prepared<Dim>& prepared, Results& results) {
     if (theory.brittle && value->value > *theory.brittle)
       theory.reasons.push_back("one joint carries what another loses");
     if (!theory.differs) theory.reasons.clear();
+    if (theory.lower > value->value - *value->error_bar) theory.lower_block = -1;
   }
 }
 
@@ -162,6 +186,9 @@ std::string text_of(const BlockTheory& theory, const std::string& unit) {
     text +=
         fmt::format("; it differs by more than the error bar: {}",
                     theory.reasons.empty() ? "no reason is known" : fmt::format("{}", fmt::join(theory.reasons, "; ")));
+  if (theory.lower_block >= 0)
+    text += fmt::format("; less, {:.5g}, for block {} alone, if the blocks around it do not give way", theory.lower,
+                        theory.lower_block);
   return text;
 }
 

@@ -60,6 +60,7 @@ function theoryText({ block_theory: theory, unit }, dimension) {
   if (Number.isFinite(theory.brittle)) text += ` (plastic cohesion; ${digits(theory.brittle)} at the first slip if brittle)`;
   if (Number.isFinite(theory.friction_only)) text += `; ${digits(theory.friction_only)} by friction only`;
   if (theory.force) text += `. A force of ${kilo(theory.force.force_N)} kN (${dimension === 3 ? 'plunge/trend ' : ''}${directionOf(theory.force, dimension)}) would give ${digits(theory.force.required)}`;
+  if (theory.lower) text += `. Less, ${withUnits(theory.lower.critical, unit)}, has block ${theory.lower.block} alone, if the blocks around it do not give way`;
   if (theory.differs) text += `. It differs by more than the error bar${theory.reasons?.length ? `: ${theory.reasons.join('; ')}` : ''}`;
   return `${text}.`;
 }
