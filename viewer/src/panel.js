@@ -34,10 +34,18 @@ export class Panel {
       ...(this.plane ? [] : [this.views()]),
       this.blockInput(),
       node('div', { className: 'buttons' },
-        this.button('fit', 'whole model', () => viewer.fit()), this.button('save', 'save PNG', () => viewer.savePng())),
+        this.button('fit', 'whole model', () => viewer.fit()), this.button('save', 'save PNG', () => viewer.savePng()),
+        this.button('keys', '?', () => (viewer.keys.hidden = !viewer.keys.hidden))),
       (this.info = node('div', { className: 'info' })),
     );
     this.info.setAttribute('aria-live', 'polite');
+  }
+
+  // a line above the controls
+  tell(text) {
+    const line = node('p', { className: 'told' }, text);
+    line.setAttribute('role', 'status');
+    this.element.prepend(line);
   }
 
   row(text, ...children) { return node('label', { className: 'row' }, node('span', {}, text), ...children); }

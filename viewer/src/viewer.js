@@ -13,6 +13,9 @@ import { addArrows, addJointEdges, addNetwork, addSupport, largestBetween, large
 import { cutGeometry, cutParts } from './section.js';
 import { Stereonet } from './stereonet.js';
 
+const KEYS = [['drag', 'rotates the blocks, in the plane moves them'], ['shift and drag, right button', 'moves'], ['wheel, + and −', 'zooms'],
+  ['arrow keys', 'turn, with shift move'], ['Home', 'whole model'], ['space', 'plays the frames'], ['click', 'picks a block or a pole'], ['Escape', 'picks nothing'], ['?', 'shows and hides this']];
+
 // pixels: of the network's widest line, at most; of blocks, below which their edges fade
 const WIDEST = 16, FULL_EDGES = 14;
 
@@ -26,6 +29,20 @@ const initialLook = (run) => ({
 function typicalSize(run) {
   const volumes = run.shapes.map((shape) => shape.volume).sort((a, b) => a - b);
   return volumes[volumes.length >> 1] ** (1 / run.head.dimension);
+}
+
+// the keys, hidden until they are asked for
+function keyTable() {
+  const list = document.createElement('dl');
+  list.className = 'keys';
+  list.hidden = true;
+  for (const [key, meaning] of KEYS) {
+    const [term, text] = ['dt', 'dd'].map((name) => document.createElement(name));
+    term.textContent = key;
+    text.textContent = meaning;
+    list.append(term, text);
+  }
+  return list;
 }
 
 export class Viewer {
@@ -63,7 +80,8 @@ export class Viewer {
     this.net = new Stereonet(run, (group) => this.choose(group));
     this.overlay = new Overlay(this.net);
     this.panel = new Panel(this);
-    this.picture.append(canvas, this.overlay.element);
+    this.keys = keyTable();
+    this.picture.append(canvas, this.overlay.element, this.keys);
     element.append(this.panel.element, this.picture, this.panel.time);
     this.blockSize = typicalSize(run);
     this.buildScene();
@@ -155,11 +173,17 @@ export class Viewer {
 
   pickedName() { return this.look.shape >= 0 ? nameOf(this.run, this.run.shapes[this.look.shape].body) : ''; }
 
-  // the page's address may state the look: view.html#frame=3&magnified=100&colour=displacement
+  // The page's address may state the look: view.html#frame=3&magnified=100&colour=displacement. Names and values that
+  // this page does not have are told.
   readAddress(address) {
+    const unread = new Set(address.keys()), unknown = [];
+    const has = (key) => unread.delete(key) || address.has(key);
+    const tell = (key, value = address.get(key)) => unknown.push(`${key}=${value}`);
     const { look } = this, number = (key, low, high) => {
+      if (!has(key)) return;
       const value = Number(address.get(key));
-      if (address.has(key) && Number.isFinite(value)) look[key] = Math.min(high, Math.max(low, value));
+      if (Number.isFinite(value) && address.get(key) !== '') look[key] = Math.min(high, Math.max(low, value));
+      else tell(key);
     };
     number('frame', 0, this.run.frames.length - 1);
     look.frame = Math.round(look.frame);
@@ -168,21 +192,30 @@ export class Viewer {
     number('forceSize', 0.1, 10);
     number('cutAt', 0, 1);
     for (const [key, allowed] of [['colour', Object.keys(this.choices)], ['forces', ['none', 'arrows', 'network']]])
-      if (allowed.includes(address.get(key))) look[key] = address.get(key);
+      if (has(key)) allowed.includes(address.get(key)) ? (look[key] = address.get(key)) : tell(key);
     const section = address.get('section'), joint = this.run.head.joints.findIndex((j) => j.name === section);
-    if (['x', 'y', 'z'].includes(section)) look.section = section;
+    if (['x', 'y', 'z', 'none'].includes(section)) look.section = section;
     else if (joint >= 0) look.section = `joint ${joint}`;
+    else if (has('section')) tell('section');
+    unread.delete('section');
     const named = (name) => this.run.groups.findIndex((group) => group.name === name);
-    if (address.has('chosen')) look.chosen = named(address.get('chosen'));
-    for (const name of address.getAll('hidden')) if (named(name) >= 0) look.hidden.add(named(name));
-    for (const key of ['showFixed', 'edges', 'cutOther']) if (address.has(key)) look[key] = address.get(key) === '1';
-    if (address.has('block')) this.pickByName(address.get('block'));
+    if (has('chosen') && (look.chosen = named(address.get('chosen'))) < 0) tell('chosen');
+    unread.delete('hidden');
+    for (const name of address.getAll('hidden')) named(name) >= 0 ? look.hidden.add(named(name)) : tell('hidden', name);
+    for (const key of ['showFixed', 'edges', 'cutOther']) if (has(key)) ['0', '1'].includes(address.get(key)) ? (look[key] = address.get(key) === '1') : tell(key);
+    if (has('block')) {
+      this.pickByName(address.get('block'));
+      if (look.shape < 0) tell('block');
+    }
     const poster = address.get('poster')?.match(/^(\d{2,4})x(\d{2,4})(\.webp)?$/);
     if (poster) {
       Object.assign(this.element.style, { width: `${poster[1]}px`, height: `${poster[2]}px` });
       this.poster = poster[3] ? 'image/webp' : 'image/png';
     }
     if (poster || address.get('panel') === '0') this.element.classList.add('bare');
+    for (const key of ['poster', 'panel', 'azimuth', 'height']) unread.delete(key);
+    for (const key of unread) tell(key);
+    if (unknown.length) this.panel.tell(`The address names what this page does not have: ${unknown.join(', ')}.`);
     const view = ['azimuth', 'height'].map((key) => Number(address.get(key)));
     if (!this.plane && address.has('azimuth') && view.every(Number.isFinite)) this.camera.look(...view);
     this.size();
@@ -354,6 +387,7 @@ export class Viewer {
       if (event.key === 'Escape') this.set({ shape: -1, face: -1, chosen: -1 });
       else if (event.key === ' ' && event.target === canvas) this.play();
       else if (event.key === 'Home' && event.target === canvas) this.fit();
+      else if (event.key === '?') this.keys.hidden = !this.keys.hidden;
       else return;
       event.preventDefault();
     });

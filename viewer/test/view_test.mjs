@@ -226,6 +226,19 @@ async function testPng() {
   assert.match(await viewer('return v.saved'), /^Wedge_on_bedding.*\.png$/);
 }
 
+// what the address names and the page does not have is told, the rest holds; the keys are shown on request
+async function testAddress(out) {
+  await open(page(out), '#frame=0&colour=mood&block=nobody&spin=3&hidden=bedding&magnified=many');
+  assert.match(await js("return document.querySelector('.told').textContent"), /: magnified=many, colour=mood, block=nobody, spin=3\.$/);
+  assert.deepEqual(await viewer("return [v.look.frame, v.look.hidden.size, v.look.magnified]"), [0, 1, 1]);
+  await open(page(out), '#frame=0&colour=displacement&panel=1');
+  assert.equal(await js("return document.querySelector('.told')"), null);
+  for (const hidden of [false, true]) {
+    await browser.type('.voussoir canvas', '?');
+    assert.equal(await js("return document.querySelector('.keys').hidden"), hidden);
+  }
+}
+
 // the tabulator alone comes to every control
 async function testKeyboard(out) {
   await open(page(out));
@@ -444,6 +457,7 @@ try {
     const wedge = run(own('wedge.toml'), 'wedge');
     await testControls(wedge);
     timed('controls');
+    await testAddress(wedge);
     await testKeyboard(wedge);
     timed('keyboard');
     await testTenInputs(wedge);
