@@ -98,6 +98,15 @@ await picture('slope');
   await browser.quiet(page);
 }
 
+// a print has the blocks as a picture, the one that is seen
+{
+  const printed = () => js("return document.querySelector('img.printed').src");
+  const first = await printed();
+  assert.ok(first.startsWith('data:image/png') && first.length > 10_000, 'the blocks are no picture');
+  await js("const bar = document.querySelector('.voussoir input[name=frame]'); bar.value = 0; bar.dispatchEvent(new Event('input', { bubbles: true }));");
+  await browser.until('the picture follows', `document.querySelector('img.printed').src !== ${JSON.stringify(first)}`);
+}
+
 // ---- supports in the plane; names that are no markup; a run without blocks
 
 const tunnel = run('docs/supports.toml', 'tunnel', '--view');

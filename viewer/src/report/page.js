@@ -195,6 +195,20 @@ function show(main, parts) {
   return main.querySelector('h1').textContent;
 }
 
+// A print shows the blocks as they are seen, as a picture: what WebGL draws is lost when the page takes a print's width.
+async function keepPrinted(viewer, fragment) {
+  const picture = element('img', { class: 'printed', alt: 'blocks' });
+  const draw = async () => { picture.src = (await viewer.drawn()).toDataURL('image/png'); };
+  let timer = 0;
+  fragment.after(picture);
+  for (const change of ['pointerup', 'wheel', 'input', 'change', 'click', 'keyup'])
+    fragment.addEventListener(change, () => {
+      clearTimeout(timer);
+      timer = setTimeout(draw, 300);
+    });
+  await draw();
+}
+
 async function showRun(main, data) {
   const fragment = document.querySelector('#blocks')?.content.firstElementChild.cloneNode(true);
   const blocks = fragment ? readRun(await inflate(fragment.querySelector('script').textContent)) : null;
@@ -205,7 +219,7 @@ async function showRun(main, data) {
     fragment.dataset.look = btoa(new URLSearchParams(look).toString());
   }
   document.title = show(main, sections.map((make) => make(page)));
-  if (fragment) await window.voussoir.start(fragment);
+  if (fragment) await keepPrinted(await window.voussoir.start(fragment), fragment);
 }
 
 async function begin() {
