@@ -61,6 +61,11 @@ std::string thinned(const std::string& table, std::ptrdiff_t every) {
 
 void add_run(const fs::path& folder, nlohmann::json& data) {
   data["results"] = json_of(folder / "results.json");
+  if (data["results"].value("schema", "") != "voussoir.results")
+    throw BadInput(
+        fmt::format("'{}' has results of another command than 'run', of which there is no report: name the folder of a "
+                    "run, a study or a kinematic analysis",
+                    folder.string()));
   nlohmann::json& files = data["files"];
   files["scene"] = text_of(folder / "scene.toml");
   std::error_code error;

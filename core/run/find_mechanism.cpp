@@ -321,12 +321,11 @@ MovingCluster describe(const BodyMotions<Dim>& motions, const ClusterGroup<Dim>&
   row.turn = to_degrees(Dim == 2 ? cluster.turn[0] : cluster.turn.norm());
   describe_joints(model, cluster, row);
   row.along_line = slides_along_line(cluster, row, model);
-  const bool carried = std::ranges::any_of(row.joints, &MovingJoint::carries);
   const bool slips =
       std::ranges::any_of(row.joints, [](const MovingJoint& joint) { return joint.carries && joint.slips; });
   if (cluster.turning > same_motion * cluster.farthest)
     describe_rotation(motions, cluster, slips, row);
-  else if (carried)
+  else if (slips)
     row.motion = FailureMotion::slides;
   else
     row.motion = cluster.motion.by.dot(model.gravity) >= std::cos(45 * degree) * row.displacement * model.gravity.norm()

@@ -146,6 +146,17 @@ TEST(FindMechanism, ABlockThatFalls) {
   EXPECT_EQ(found.clusters.front().motion, FailureMotion::falls);
 }
 
+// what has fallen rests on a face that has not slipped
+TEST(FindMechanism, ABlockThatFellOnAFloor) {
+  const Prepared<2> scene = scene_of<2>(head + box("floor", -5, -1, 10, 1, true) + box("block", 0, 0.5, 1, 1) + rest);
+  std::vector<Placement<2>> from = at_begin(scene), to = from;
+  to[body_named(scene, "block")].displacement = {0, -0.5 - pressed};
+  const FailureMechanism found = mechanism_between(scene, from, to);
+  ASSERT_EQ(found.clusters.size(), 1u);
+  EXPECT_TRUE(found.clusters.front().joints.front().carries);
+  EXPECT_TRUE(sentence_of(found).ends_with("falls, straight down")) << sentence_of(found);
+}
+
 // a column turns about the lower right edge; it lies on the floor before and after
 TEST(FindMechanism, AColumnThatTopples) {
   const Prepared<2> scene = scene_of<2>(head + box("floor", -5, -1, 10, 1, true) + box("column", 0, 0, 1, 4) + rest);

@@ -192,6 +192,9 @@ const refused = (words, pattern) => {
 refused(['report', join(folder, 'nothing')], /is not a folder/);
 refused(['report', folder], /contains no run: make one with 'voussoir run/);
 refused(['report', plain, '--out', join(folder, 'elsewhere.html')], /--overwrite/);
+const verdicts = join(folder, 'verdicts');
+assert.equal(call('blocks', join(source, 'examples/wedge.toml'), '--out', verdicts).status, 0);
+refused(['report', verdicts], /of another command than 'run'/);
 refused(['report', plain, '--out', join(plain, 'scene.toml'), '--overwrite'], /is read/);
 assert.equal(report(slope), page, 'its own page is replaced');
 

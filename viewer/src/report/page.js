@@ -77,7 +77,8 @@ function clusterTable(mechanism, dimension) {
 function fails({ results }) {
   const of = [...(results.at_last_stable_state ?? []).map((at) => ({ ...at, mechanism: at.last_failed_trial?.mechanism })),
     ...results.stages.map((stage) => ({ stage: stage.name, mechanism: stage.mechanism }))];
-  return section('What fails', ...of.filter((at) => at.mechanism?.sentence).flatMap((at) => [
+  const searched = (results.at_last_stable_state ?? []).some((at) => at.last_failed_trial);
+  return section(searched || results.status !== 'done' ? 'What fails' : 'What moved', ...of.filter((at) => at.mechanism?.sentence).flatMap((at) => [
     paragraph(`${capital(at.mechanism.sentence)}.`, { class: 'sentence' }),
     paragraph(theoryText(at, results.dimension)),
     at.followed ? paragraph(at.followed.rests ? `Beyond its failure it comes to rest after ${digits(at.followed.displacement_m)} m (without inertia).`
