@@ -118,14 +118,12 @@ ExitCode analyse_directions(const BlocksArguments& arguments, const SurveyReques
   if (scene.dimension == 2) throw BadInput("--kinematics compares directions in space; the scene has dimension = 2");
   const auto& prepared = std::get<Prepared<3>>(scene.prepared);
   std::vector<KinematicJoint> joints;
-  std::vector<std::string> names;
   std::vector<NamedJoint> named;
   for (std::size_t j = 0; j < prepared.model.joints.size(); ++j) {
     const Joint<3>& joint = prepared.model.joints[j];
     if (joint.holds) continue;
     const int set = prepared.joint_sets.set_of(static_cast<int>(j));
     joints.push_back({joint.plane.normal, set});
-    names.push_back(joint.name);
     named.push_back({joint.name, set < 0 ? joint.name : prepared.joint_sets.names[set], joint.plane.normal});
   }
   if (joints.size() < 2 || joints.size() > most_joints)
@@ -141,7 +139,7 @@ ExitCode analyse_directions(const BlocksArguments& arguments, const SurveyReques
   const ClaimedFolder claim(folder, Outputs{"blocks", {"kinematics.json", "kinematic_pairs.csv", report_file}},
                             scene.files, arguments.overwrite);
   tell_remarks(*scene.stated);
-  write_file(folder / "kinematic_pairs.csv", kinematic_pairs_csv(pairs, names));
+  write_file(folder / "kinematic_pairs.csv", kinematic_pairs_csv(pairs, named));
   const KinematicCounts counts = count_kinematic(request, joints);
   write_file(folder / "kinematics.json", kinematics_json(request, counts, pairs, named, scene.title, scene.hash));
   fmt::print("{}table: {}\nstereonets: voussoir report {}\n", kinematics_summary(request, counts, pairs, scene.title),

@@ -120,16 +120,16 @@ std::string kinematics_json(const KinematicRequest& request, const KinematicCoun
   return json.dump(1) + "\n";
 }
 
-std::string kinematic_pairs_csv(const std::vector<PairVerdict>& pairs, const std::vector<std::string>& names) {
+std::string kinematic_pairs_csv(const std::vector<PairVerdict>& pairs, const std::vector<NamedJoint>& joints) {
   std::string table =
       "joint_a,joint_b,line_plunge_deg,line_trend_deg,zone,motion,direction_plunge_deg,direction_trend_deg,factor\n";
   for (const PairVerdict& pair : pairs) {
     const auto [plunge, trend] = plunge_and_trend(pair.line);
     const auto [down, towards] = plunge_and_trend(pair.direction);
-    table +=
-        fmt::format("{},{},{},{},{},{},{},{},{}\n", csv_cell(names[pair.first]), csv_cell(names[pair.second]),
-                    csv_cell(plunge), csv_cell(trend), pair.primary ? "primary" : "flatter", word_of(pair.motion),
-                    pair.factor ? csv_cell(down) : "", pair.factor ? csv_cell(towards) : "", csv_cell(pair.factor));
+    table += fmt::format("{},{},{},{},{},{},{},{},{}\n", csv_cell(joints[pair.first].name),
+                         csv_cell(joints[pair.second].name), csv_cell(plunge), csv_cell(trend),
+                         pair.primary ? "primary" : "flatter", word_of(pair.motion), pair.factor ? csv_cell(down) : "",
+                         pair.factor ? csv_cell(towards) : "", csv_cell(pair.factor));
   }
   return table;
 }

@@ -36,6 +36,6 @@ std::string kinematics_json(const KinematicRequest& request, const KinematicCoun
                             const std::string& title, const std::string& hash);
 
 // a row for every pair whose line leaves the face
-std::string kinematic_pairs_csv(const std::vector<PairVerdict>& pairs, const std::vector<std::string>& names);
+std::string kinematic_pairs_csv(const std::vector<PairVerdict>& pairs, const std::vector<NamedJoint>& joints);
 
 }  // namespace voussoir

@@ -1,21 +1,14 @@
 // Poles of the joints on the lower hemisphere in equal-area projection; in the plane their traces, as directions. A pole
 // chooses its set, and a face that is picked rings its pole.
 import { groupColour } from './colours.js';
+import { onNet } from './report/net.js';
 import { label, shortened, svg } from './svg.js';
 
 const MOST_LABELS = 8, MOST_POLES = 2000;
 const degrees = 180 / Math.PI;
 
-// place of the lower end of a unit vector in a net of radius 1; east is x, north is y
-export function onNet([x, y, z]) {
-  const sign = z > 0 ? -1 : 1, across = Math.hypot(x, y);
-  if (across === 0) return [0, 0];
-  const r = Math.sqrt(Math.max(0, 1 - Math.abs(z)));
-  return [(sign * x * r) / across, (sign * y * r) / across];
-}
-
 // dip and dip direction of a plane with this normal, degrees
-export function orientation(normal) {
+function orientation(normal) {
   const up = normal[2] < 0 ? normal.map((c) => -c) : normal;
   const dip = Math.acos(Math.min(1, up[2])) * degrees;
   const direction = (Math.atan2(up[0], up[1]) * degrees + 360) % 360;

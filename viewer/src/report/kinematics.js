@@ -3,18 +3,17 @@
 import { digits, listColour } from '../colours.js';
 import { downward } from './net.js';
 import { bullets, header, paragraph, section } from './parts.js';
-import { polesNet, setRows, slidingLines, slidingPoles, withProjection } from './stereonets.js';
+import { orientation, polesNet, setTable, slidingLines, slidingPoles, withProjection } from './stereonets.js';
 import { element, list, readCsv, table } from './table.js';
 
 const MOST_PAIRS = 25;
-const orientation = (dip, direction) => `${Math.round(dip)}/${String(Math.round(direction) % 360).padStart(3, '0')}`;
 
 function worstPairs(csv) {
   const { head, rows } = readCsv(csv), at = (row, name) => row[head.indexOf(name)];
   const judged = rows.filter((row) => at(row, 'factor') !== '').sort((a, b) => Number(at(a, 'factor')) - Number(at(b, 'factor')));
   return { judged: judged.length, table: table(['joint', 'joint', 'line (plunge/trend)', 'zone of the line', 'motion of the block', 'direction (plunge/trend)', 'factor of safety'],
-    judged.slice(0, MOST_PAIRS).map((row) => [at(row, 'joint_a'), at(row, 'joint_b'), orientation(Number(at(row, 'line_plunge_deg')), Number(at(row, 'line_trend_deg'))), at(row, 'zone'), at(row, 'motion'),
-      orientation(Number(at(row, 'direction_plunge_deg')), Number(at(row, 'direction_trend_deg'))), digits(Number(at(row, 'factor')))]), { numbers: [6] }) };
+    judged.slice(0, MOST_PAIRS).map((row) => [at(row, 'joint_a'), at(row, 'joint_b'), orientation({ dip: Number(at(row, 'line_plunge_deg')), direction: Number(at(row, 'line_trend_deg')) }), at(row, 'zone'), at(row, 'motion'),
+      orientation({ dip: Number(at(row, 'direction_plunge_deg')), direction: Number(at(row, 'direction_trend_deg')) }), digits(Number(at(row, 'factor')))]), { numbers: [6] }) };
 }
 
 export function kinematicSections({ kinematics, files, block }) {
@@ -24,9 +23,9 @@ export function kinematicSections({ kinematics, files, block }) {
   const request = { face: { dip, direction }, friction, limits: { plane: kinematics.limits_deg.plane_sliding, flexural: kinematics.limits_deg.flexural_toppling, direct: kinematics.limits_deg.direct_toppling } };
   const pairs = worstPairs(files.pairs);
   return [
-    header(kinematics.title || 'Kinematic analysis', block, { class: '', text: `Kinematic analysis of ${kinematics.joints.length} joints: face ${orientation(dip, direction)} (dip/dip direction), friction ${friction}°.` }),
+    header(kinematics.title || 'Kinematic analysis', block, { class: '', text: `Kinematic analysis of ${kinematics.joints.length} joints: face ${orientation(request.face)} (dip/dip direction), friction ${friction}°.` }),
     section('Joints', withProjection((kind) => [polesNet(sets, kind)]),
-      table(['set', 'joints', 'mean dip/dip direction', 'Fisher\'s constant', 'cone of 95 % (°)'], setRows(sets), { numbers: [1, 3, 4] })),
+      setTable(sets)),
     section('Zones of the face', withProjection((kind) => [slidingPoles(sets, request, kind), slidingLines(sets, request, kind)]),
       table(['mode', 'count', 'of', 'share (%)'], kinematics.counts.map((row) => [row.mode, row.count, row.of, row.of > 0 ? digits((100 * row.count) / row.of) : '']), { numbers: [1, 2, 3], caption: 'A screen of directions' })),
     section('What block theory says of the pairs', paragraph('The block above both planes, under weight and friction alone. The overlay is safe on neither side: pairs outside the primary zone may slide with a factor below 1, and pairs inside it may stand.'),

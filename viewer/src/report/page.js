@@ -8,7 +8,7 @@ import { jointForces, lastState, lastTrial } from './forces.js';
 import { kinematicSections } from './kinematics.js';
 import { downward } from './net.js';
 import { bullets, header, paragraph, section } from './parts.js';
-import { polesNet, setRows, withProjection } from './stereonets.js';
+import { polesNet, setTable, withProjection } from './stereonets.js';
 import { studySections } from './study.js';
 import { element, list, readCsv, table } from './table.js';
 import { aboutBar, capital, columnName, directionOf, kilo, partsOfBar, plural, quantityName, shownUnit, valueWithBar, withUnits } from './words.js';
@@ -107,7 +107,7 @@ function orientations({ blocks }) {
   const sets = blocks.groups.map((group, k) => ({ name: group.name, colour: groupColour(blocks, k), poles: group.joints.map((j) => downward(blocks.head.joints[j].normal)) }))
     .filter((set) => set.poles.length);
   return section('Orientations', withProjection((kind) => [polesNet(sets, kind)]),
-    table(['set', 'joints', 'mean dip/dip direction', 'Fisher\'s constant', 'cone of 95 % (°)'], setRows(sets), { numbers: [1, 3, 4] }));
+    setTable(sets));
 }
 
 function search({ results, files }) {
@@ -139,7 +139,7 @@ function supports({ results }) {
     linings.length ? table(['after stage', 'lining', 'thrust (kN/m)', 'moment (kN m/m)', 'pressure (kPa)', 'of strength'], linings, { numbers: [2, 3, 4, 5] }) : null);
 }
 
-function histories({ files }) {
+function histories({ files, every }) {
   if (!files.history) return null;
   const { head: names, rows } = readCsv(files.history);
   const time = rows.map((row) => Number(row[names.indexOf('time_s')])), byUnit = new Map();
@@ -157,7 +157,7 @@ function histories({ files }) {
     for (let k = 0; k < columns.length; k += MOST_COLUMNS)
       figures.push(history(time, columns.slice(k, k + MOST_COLUMNS), unit, `history-${figures.length + 1}`));
   const more = figures.length - MOST_HISTORIES;
-  return section('Histories', ...figures.slice(0, MOST_HISTORIES), more > 0 ? paragraph(`${plural(more, 'more figure')} could be drawn of history.csv.`, { class: 'note' }) : null);
+  return section('Histories', every > 1 ? paragraph(`Every ${every}th row is drawn.`, { class: 'note' }) : null, ...figures.slice(0, MOST_HISTORIES), more > 0 ? paragraph(`${plural(more, 'more figure')} could be drawn of history.csv.`, { class: 'note' }) : null);
 }
 
 function assumptions({ results, scene }) {

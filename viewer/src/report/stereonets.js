@@ -5,13 +5,13 @@ import * as Plot from '@observablehq/plot';
 import { OKABE } from '../colours.js';
 import { framed, LOOK } from './figures.js';
 import { between, daylightEnvelope, density, fisherMean, fromNet, greatCircle, lineOf, lineZones, onNet, planeOf, poleZones, smallCircle } from './net.js';
-import { element } from './table.js';
+import { element, table } from './table.js';
 
 const RADIUS = 200, MARGIN = 34, MOST_DOTS = 4000, MOST_CONTOURED = 1500;
 const SLIDES = OKABE[1], TOPPLES = OKABE[3], FACE = '#202020';
 const DENSITIES = [2, 4, 6, 8, 10, 12, 15, 20, 30, 50];
 const vertical = [0, 0, -1];
-const orientation = ({ dip, direction }) => `${String(Math.round(dip)).padStart(2, '0')}/${String(Math.round(direction) % 360).padStart(3, '0')}`;
+export const orientation = ({ dip, direction }) => `${String(Math.round(dip)).padStart(2, '0')}/${String(Math.round(direction) % 360).padStart(3, '0')}`;
 
 const lines = (pieces, options) => pieces.map((piece) => Plot.line(piece, options));
 const rim = Array.from({ length: 181 }, (_, i) => onNet(lineOf(0, 2 * i)));
@@ -110,7 +110,7 @@ export function withProjection(draw) {
 }
 
 // name, number of joints, mean dip and dip direction, Fisher's constant, cone of 95 %
-export const setRows = (sets) => sets.map((set) => {
+export const setTable = (sets) => table(['set', 'joints', 'mean dip/dip direction', 'Fisher\'s constant', 'cone of 95 % (°)'], sets.map((set) => {
   const { mean, constant, cone } = fisherMean(set.poles);
   return [set.name, set.poles.length, orientation(planeOf(mean)), Number.isFinite(constant) ? constant.toPrecision(3) : '', Number.isFinite(cone) ? cone.toFixed(1) : ''];
-});
+}), { numbers: [1, 3, 4] });
