@@ -139,7 +139,7 @@ struct StableState {
   std::optional<BlockTheory> block_theory{};  // found when the run is complete
 };
 
-// a body that a stage has moved by more than its own size while settling (core/run/settled.hpp)
+// a body that a stage has moved by more than a tenth of its inscribed radius while settling (core/run/settled.hpp)
 struct MovedBody {
   std::string stage;
   int body = 0;

@@ -10,6 +10,7 @@
 #include <map>
 #include <utility>
 
+#include "core/run/failure_watch.hpp"
 #include "core/run/run.hpp"
 #include "core/step/support_table.hpp"
 
@@ -53,7 +54,6 @@ struct Settling {
   const Model<Dim>& model;
   const SettleBegin<Dim>& begin;
   const State<Dim>& now;
-  double share;  // of the inscribed radius
   Closures<Dim> closures = closures_of(model, now);
   std::vector<std::vector<int>> near{};  // by body
   std::vector<char> stays{};             // by body
@@ -74,6 +74,9 @@ struct Settling {
     }
     return moved.norm();
   }
+
+  // m: by which a body has left its place
+  double far(int body) const { return failure_fraction_of_radius * inscribed_radius(model.bodies[body]); }
 
   bool counts(int body) const { return model.bodies[body].present && !model.bodies[body].parts.empty(); }
 
@@ -99,7 +102,7 @@ struct Settling {
       stays[b] = true;
     for (std::size_t k = 0; k < found.size(); ++k)
       for (const int b : near[found[k]]) {
-        if (stays[b] || !counts(b) || against(b, found[k]) > share * inscribed_radius(model.bodies[b])) continue;
+        if (stays[b] || !counts(b) || against(b, found[k]) > far(b)) continue;
         stays[b] = true;
         found.push_back(b);
       }
@@ -155,16 +158,15 @@ SettleBegin<Dim> settle_begin(const Model<Dim>& model, const State<Dim>& state, 
 }
 
 template <int Dim>
-std::vector<MovedBody> moved_bodies(const Model<Dim>& model, const SettleBegin<Dim>& begin, const State<Dim>& now,
-                                    double share) {
-  Settling<Dim> settling{.model = model, .begin = begin, .now = now, .share = share};
+std::vector<MovedBody> moved_bodies(const Model<Dim>& model, const SettleBegin<Dim>& begin, const State<Dim>& now) {
+  Settling<Dim> settling{.model = model, .begin = begin, .now = now};
   settling.find_near();
   settling.find_what_stays();
   std::vector<MovedBody> all;
   for (int b = 0; b < static_cast<int>(begin.placed.size()); ++b) {
     if (!settling.counts(b) || settling.stays[b]) continue;
     MovedBody moved = settling.moved(b);
-    if (moved.distance > share * moved.inscribed_radius) all.push_back(std::move(moved));
+    if (moved.distance > settling.far(b)) all.push_back(std::move(moved));
   }
   std::ranges::stable_sort(all, std::ranges::greater{}, &MovedBody::distance);
   return all;
@@ -175,9 +177,9 @@ std::string moved_text(const Model<Dim>& model, const std::vector<MovedBody>& mo
   const auto left = std::ranges::find_if(moved, &MovedBody::left_all);
   const MovedBody& worst = left == moved.end() ? moved.front() : *left;
   std::string text = fmt::format(
-      "{} moved by {:.3g} m while settling, more than its inscribed radius of {:.3g} m{}, and reached equilibrium at "
-      "({:.4g})",
-      label_of(model, worst.body), worst.distance, worst.inscribed_radius,
+      "{} moved by {:.3g} m while settling, more than {:.2g} times its inscribed radius of {:.3g} m{}, and reached "
+      "equilibrium at ({:.4g})",
+      label_of(model, worst.body), worst.distance, failure_fraction_of_radius, worst.inscribed_radius,
       worst.left_all ? ", lost every contact that it had" : "", fmt::join(worst.place, ", "));
   if (moved.size() > 1) text += fmt::format("; so did {} more (results.json, moved)", moved.size() - 1);
   return text;
@@ -187,7 +189,7 @@ template std::string moved_text<2>(const Model<2>&, const std::vector<MovedBody>
 template std::string moved_text<3>(const Model<3>&, const std::vector<MovedBody>&);
 template SettleBegin<2> settle_begin<2>(const Model<2>&, const State<2>&, bool);
 template SettleBegin<3> settle_begin<3>(const Model<3>&, const State<3>&, bool);
-template std::vector<MovedBody> moved_bodies<2>(const Model<2>&, const SettleBegin<2>&, const State<2>&, double);
-template std::vector<MovedBody> moved_bodies<3>(const Model<3>&, const SettleBegin<3>&, const State<3>&, double);
+template std::vector<MovedBody> moved_bodies<2>(const Model<2>&, const SettleBegin<2>&, const State<2>&);
+template std::vector<MovedBody> moved_bodies<3>(const Model<3>&, const SettleBegin<3>&, const State<3>&);
 
 }  // namespace voussoir

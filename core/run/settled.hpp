@@ -27,14 +27,13 @@ struct SettleBegin {
 template <int Dim>
 SettleBegin<Dim> settle_begin(const Model<Dim>& model, const State<Dim>& state, bool moving);
 
-// The free bodies that have moved by more than this share of their own inscribed radius relative to all near bodies
-// that have not, the farthest first. A held or driven body counts as staying, and so does one that has moved by less
-// relative to one that stays: blocks that settle on one another, or ride on a driven body, are not among them. Motion
-// is that of the centroid in the other body's frame, without the closure of their joint. `now`: its contacts have been
-// found.
+// The free bodies that have moved by more than `failure_fraction_of_radius` of their own inscribed radius, by which a
+// search calls a trial failed, relative to all near bodies that have not, the farthest first. A held or driven body
+// counts as staying, and so does one that has moved by less relative to one that stays: blocks that settle on one
+// another, or ride on a driven body, are not among them. Motion is that of the centroid in the other body's frame,
+// without the closure of their joint. `now`: its contacts have been found.
 template <int Dim>
-std::vector<MovedBody> moved_bodies(const Model<Dim>& model, const SettleBegin<Dim>& begin, const State<Dim>& now,
-                                    double share = 1);
+std::vector<MovedBody> moved_bodies(const Model<Dim>& model, const SettleBegin<Dim>& begin, const State<Dim>& now);
 
 // One line on these, at least one: bodies that lost every contact first, then the farthest.
 template <int Dim>

@@ -81,7 +81,7 @@ FailureMechanism motion_of_stage(const StageInForce<Dim>& stage, const State<Dim
   note_accepted(stage.model, progress.state, placed);
   if (progress.settle.placed.size() != placed.size()) return {};
   const bool lost = progress.results.outcome == Outcome::incomplete;
-  if (!lost && moved_bodies(stage.model, progress.settle, now, failure_fraction_of_radius).empty()) return {};
+  if (!lost && moved_bodies(stage.model, progress.settle, now).empty()) return {};
   FailureMechanism mechanism =
       find_mechanism(stage.model, progress.settle.placed, progress.settle.contacts, placed, now.contacts);
   mechanism.bonds = bonds_of_motion(progress.broken_before_stage, now);
