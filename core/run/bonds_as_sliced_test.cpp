@@ -150,6 +150,33 @@ TEST(BondsAsSliced, ASearchStatesTheFactorOfFrictionOnly) {
   }
 }
 
+// A cube, 2 m high, bonded to a floor, under inclined gravity, with every setting left alone. Its bonds are those of
+// 4 x 4 points, an elastic section: the outer ones carry W (4.8 sin t - cos t)/A in tension, W sin t/A in shear, and
+// hold as long as c - tan(60 deg) times that tension exceeds that shear. Without bonds it topples from 26.6 degrees on.
+// Before its weight comes on, the face closes without force; what is first compressed is but the lower part of it.
+TEST(BondsOfAStage, ABondedFaceIsBondedAsAWhole) {
+  for (const std::string statics : {"newton", "adaptive"})
+    for (const double tilt : {20.0, 30.0, 34.0, 37.0, 50.0}) {
+      const double sine = std::sin(tilt * degree), cosine = std::cos(tilt * degree), weight = 2 * 2600 * 9.81;
+      const bool stands = 2e5 - std::sqrt(3.0) * weight * (4.8 * sine - cosine) > weight * sine;
+      EXPECT_EQ(stands, tilt < 35);
+      const Results results =
+          whole_run(scene_of<3>(fmt::format(
+                        "dimension = 3\ngravity = [{:.17g}, 0, {:.17g}]\ndensity = 2600\nstatics = \"{}\"\n"
+                        "[[blocks]]\nname = \"floor\"\nbox = {{ min = [-3, -3, -1], max = [3, 3, 0] }}\nfixed = true\n"
+                        "[[blocks]]\nname = \"cube\"\nbox = {{ min = [-0.5, -0.5, 0], max = [0.5, 0.5, 2] }}\n"
+                        "[[joint_properties]]\nname = \"rock\"\nnormal_stiffness = 1e9\nshear_stiffness = 1e9\n"
+                        "friction_deg = 60\ncohesion = 200e3\ntension = 200e3\n"
+                        "[[stage]]\nname = \"settle\"\nkind = \"settle\"\nbond = true\ngravity_ramp_s = 1\n"
+                        "[output]\nframes = false\n",
+                        9.81 * sine, -9.81 * cosine, statics)))
+              .results;
+      ASSERT_TRUE(results.bonds);
+      EXPECT_EQ(results.bonds->made, 16) << statics << ", " << tilt;
+      EXPECT_EQ(results.bonds->broken == 0, stands) << statics << ", " << tilt << ": " << results.message;
+    }
+}
+
 TEST(BondsAsSliced, ACheckpointKeepsSlippedBonds) {
   const Slope slope{3, 2, "cohesion_law = \"softening\"\ncohesion_slip_m = 1e-3\nresidual_cohesion = 5e3", search};
   const Prepared<3> scene = scene_of<3>(slope.text());

@@ -173,13 +173,19 @@ template <int Dim>
   return face_force<Dim>(properties, friction, dashpot, step.length, motion, geometry, face, history);
 }
 
-// Bonds the compressed parts of a contact whose bond is due.
+// Bonds the compressed parts of a contact whose bond is due. One that was `closed` without force when its bond became
+// due is bonded as a whole when a part of it is first compressed: the bond carries the load that would part the rest.
 template <int Dim>
-void bond_what_presses(const JointProperties& properties, std::size_t place, ContactsState<Dim>& contacts,
+void bond_what_presses(const JointProperties& properties, bool closed, std::size_t place, ContactsState<Dim>& contacts,
                        long long& made) {
   Contact<Dim>& c = contacts.list[place];
-  const auto bond = [&](double overlap, JointState<Dim>& history) {
-    if (history.bond != Bond::lost || !(normal_answer(properties, overlap, false).stress > 0)) return;
+  const auto presses = [&](double overlap) { return normal_answer(properties, overlap, false).stress > 0; };
+  const auto is_whole = [&](std::span<const SubContact<Dim>> cells) {
+    return closed &&
+           std::ranges::any_of(cells, [&](const SubContact<Dim>& s) { return s.area > 0 && presses(s.overlap); });
+  };
+  const auto bond = [&](bool bonds, JointState<Dim>& history) {
+    if (history.bond != Bond::lost || !bonds) return;
     history.bond = Bond::whole;
     history.bond_slip = 0;
     ++made;
@@ -187,11 +193,12 @@ void bond_what_presses(const JointProperties& properties, std::size_t place, Con
   if (!properties.laws.bond) {
     c.bond_due = false;
   } else if (c.cells == 0) {
-    bond(c.geometry.overlap, c.history);
+    bond(presses(c.geometry.overlap), c.history);
     c.bond_due = c.history.bond == Bond::lost;
   } else {
+    const bool whole = is_whole(subs_of(std::as_const(contacts), place));
     for (SubContact<Dim>& s : subs_of(contacts, place))
-      if (s.area > 0) bond(s.overlap, s.history);
+      if (s.area > 0) bond(whole || presses(s.overlap), s.history);
   }
 }
 
@@ -230,7 +237,7 @@ template <int Dim>
   if (!c.touching()) return;
   const JointProperties& properties = model.properties[c.properties];
   if (c.bond_due) [[unlikely]]
-    bond_what_presses(properties, place, contacts, sums.bonds_made);
+    bond_what_presses(properties, bonds_of(contacts, place).held() == 0, place, contacts, sums.bonds_made);
   const Friction& friction = frictions[c.properties];
   const PairMotion<Dim> motion = motion_of(model, bodies, c);
   if (is_integrated(settings.contact, properties)) [[unlikely]] {
@@ -390,7 +397,7 @@ void make_bonds(const Model<Dim>& model, const Settings& settings, BodiesState<D
   find_contacts(model, settings, bodies, contacts, counters);
   for (std::size_t i = 0; i < contacts.list.size(); ++i)
     if (const Contact<Dim>& c = contacts.list[i]; c.bond_due && c.touching())
-      bond_what_presses(model.properties[c.properties], i, contacts, bonds.made);
+      bond_what_presses(model.properties[c.properties], false, i, contacts, bonds.made);
 }
 
 template <int Dim>
