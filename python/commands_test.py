@@ -140,6 +140,9 @@ class Portions(unittest.TestCase):
         before = run._repr_html_()
         self.assertIn("<td>under way</td>", before)
         self.assertIn("iframe", before)
+        run.advance(10)
+        now = run.history["slab_displacement_x_m"][-1]
+        self.assertIn(f"<th>slab_displacement_x_m</th><td>{now:.6g}</td>", run._repr_html_())
         while run.advance():
             pass
         value = run.results["values"]["factor_of_safety"]

@@ -20,6 +20,9 @@ def shown(run: Run) -> str:
     """In a notebook: how far the run is, its monitored values, and the blocks as they are now, from the start on."""
     results = run.results
     rows = {"stage": run.stage, "time": f"{run.state.time:g} s", "steps": run.state.steps, "status": results["status"]}
+    for name, column in ({} if run.done else run.history).items():
+        if name not in ("time_s", "stage") and len(column) > 0:
+            rows[name] = f"{column[-1]:.6g}"
     for name, value in results["values"].items():
         rows[name] = _text_of(**value)
     cells = "".join(f"<tr><th>{html.escape(name)}</th><td>{html.escape(str(text))}</td></tr>" for name, text in rows.items())
