@@ -6,6 +6,7 @@
 
 #include "app/base/progress_line.hpp"
 #include "app/testing/program.hpp"
+#include "core/testing/dxf_drawing.hpp"
 
 namespace voussoir::cli_test {
 namespace {
@@ -256,6 +257,17 @@ TEST_F(Program, SliceListsTheBlocks) {
   ASSERT_EQ(rows[1].substr(0, 3), "0,,");
   EXPECT_NEAR(std::stod(rows[1].substr(3)), 1, 1e-14);
   EXPECT_TRUE(fs::exists(folder_ / "out/blocks.vtp"));
+}
+
+// read back as joints: every face of the drawing is a plane
+TEST_F(Program, SliceDrawsTheBlocksForCad) {
+  ASSERT_EQ(run("slice " + cubes_ + "--out out --dxf").code, 0);
+  const std::vector<test::DxfEntity> drawing = test::read_drawing(read(folder_ / "out/blocks.dxf"));
+  EXPECT_NEAR(volume_on(drawing, "BLOCKS"), 1, 1e-12);
+  EXPECT_NEAR(volume_on(drawing, "FIXED_BLOCKS"), 1, 1e-12);
+  const Ended read_back = run("import out/blocks.dxf --as dxf --out joints.csv");
+  EXPECT_EQ(read_back.code, 0) << read_back.err;
+  EXPECT_NE(read_back.out.find("joints: 12, 3-D"), std::string::npos) << read_back.out;
 }
 
 TEST_F(Program, DocsNameTheKeys) {

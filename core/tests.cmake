@@ -62,7 +62,7 @@ voussoir_test(unit.contact OPTIMISED LABEL unit SOURCES contact/*_test.cpp
 voussoir_test(unit.potential LONG LABEL unit SOURCES potential/*_test.cpp
   LIBS voussoir_core ${outside_cone_solver} Boost::headers)
 voussoir_test(unit.scene LABEL unit SOURCES scene/*_test.cpp LIBS voussoir_core voussoir_end_bytes Boost::headers fmt::fmt)
-voussoir_test(unit.output LABEL unit SOURCES output/*_test.cpp LIBS voussoir_core fmt::fmt nlohmann_json::nlohmann_json)
+voussoir_test(unit.output LABEL unit SOURCES output/*_test.cpp LIBS voussoir_core fmt::fmt nlohmann_json::nlohmann_json ZLIB::ZLIB)
 if(TARGET voussoir_limit)
   voussoir_test(unit.limit LABEL unit SOURCES limit/*_test.cpp LIBS voussoir_limit Boost::headers)
 endif()

@@ -12,6 +12,7 @@ import textwrap
 import time
 import tomllib
 import unittest
+import unittest.mock
 from pathlib import Path
 
 try:
@@ -117,6 +118,40 @@ class Commands(unittest.TestCase):
                                           "joint": ["a", "b"], "out": Path("x"), "begin": None})
         self.assertEqual(words, ["--view", "--until", "settle", "--threads", "2", "--as", "yade", "--joint", "a", "--joint", "b",
                                  "--out", "x"])
+
+
+class Portions(unittest.TestCase):
+    def test_keeps_the_data_of_the_page_that_the_scene_requests(self):
+        folder = scratch / "viewed"
+        run = voussoir.Scene(PLANE, set={"output.view": True}).start()
+        run.save(folder)
+        start = (folder / "view.bin").stat().st_size
+        while run.advance():
+            pass
+        run.save(folder)
+        self.assertGreater((folder / "view.bin").stat().st_size, start, "another frame")
+        self.assertIn("<html", voussoir.view(folder).page.read_text())
+        run.save(folder, overwrite=True)
+        voussoir.Scene(PLANE).start().save(scratch / "not_viewed")
+        self.assertFalse((scratch / "not_viewed/view.bin").exists())
+
+    def test_a_notebook_shows_the_run_and_its_blocks(self):
+        run = voussoir.Scene(PLANE).start()
+        before = run._repr_html_()
+        self.assertIn("<td>under way</td>", before)
+        self.assertIn("iframe", before)
+        run.advance(10)
+        now = run.history["slab_displacement_x_m"][-1]
+        self.assertIn(f"<th>slab_displacement_x_m</th><td>{now:.6g}</td>", run._repr_html_())
+        while run.advance():
+            pass
+        value = run.results["values"]["factor_of_safety"]
+        after = run._repr_html_()
+        self.assertIn(f"<th>factor_of_safety</th><td>{value['value']:.6g} ± {value['error_bar']:.2g}</td>", after)
+        self.assertIn(f"<td>{run.state.steps}</td>", after)
+        self.assertIn("<td>done</td>", after)
+        with unittest.mock.patch("voussoir.notebook.program", side_effect=FileNotFoundError):
+            self.assertNotIn("iframe", run._repr_html_(), "the module alone makes no page")
 
 
 class Errors(unittest.TestCase):

@@ -374,7 +374,8 @@ void bind_run(py::module_& module, const py::object& surface) {
           "Writes the files of `voussoir run`, with a frame of the present; results.json once the scene is done. Again "
           "into the "
           "same "
-          "folder: one more frame.");
+          "folder: one more frame, with output.view also in view.bin, of which voussoir.view makes the page.")
+      .def("write_view", [](const Run& r, const py::object& folder) { at_rest(r).write_view(path_of(folder)); });
 }
 
 void bind_state(py::module_& module) {

@@ -12,6 +12,7 @@
 #include "core/output/paraview.hpp"
 #include "core/output/results_json.hpp"
 #include "core/output/support_table.hpp"
+#include "core/output/view.hpp"
 #include "core/run/block_theory.hpp"
 #include "core/run/simulate.hpp"
 #include "core/run/snapshot.hpp"
@@ -63,7 +64,7 @@ void claim(const fs::path& folder, bool overwrite, const std::vector<fs::path>& 
     throw FileInTheWay("'" + folder.string() + "' contains a run of the program: save into another folder");
   std::vector<fs::path> files = series_files(folder);
   std::vector<std::string> names = support_table_files();
-  names.insert(names.end(), {"scene.toml", "history.csv", "results.json"});
+  names.insert(names.end(), {"scene.toml", "history.csv", "results.json", view_file});
   for (const std::string& name : names)
     if (fs::exists(folder / name, error)) files.push_back(name);
   for (const fs::path& name : files) {
@@ -105,10 +106,7 @@ class SteppedRunOf : public SteppedRun {
   long long steps() const override { return progress_.state.counters.steps; }
   std::string state_hash() const override { return voussoir::state_hash(model(), progress_.state); }
 
-  std::string stage() const override {
-    const int last = static_cast<int>(prepared_.stages.size()) - 1;
-    return last < 0 ? "" : prepared_.stages[std::min(progress_.stage, last)].name;
-  }
+  std::string stage() const override { return prepared_.stages.empty() ? "" : prepared_.stages[present_stage()].name; }
 
   std::vector<std::string> body_names() const override {
     std::vector<std::string> names;
@@ -162,17 +160,33 @@ class SteppedRunOf : public SteppedRun {
     if (!saved_ || saved_->folder != folder) {
       claim(folder, overwrite, scene_->stated.files);
       saved_ = FrameSeries{.folder = folder, .sets = prepared_.joint_sets};
+      saved_view_.reset();
+      if (prepared_.output.view) saved_view_ = begin_view(folder / view_file, prepared_);
       write_file(folder / "scene.toml", scene_->text);
     }
     write_history_csv(folder / "history.csv", history());
     write_support_tables(folder, progress_.results);
     if (const Snapshot<Dim> now = snapshot(prepared_, progress_);
-        saved_->times.empty() || saved_->times.back() != now.state.schedule.time)
+        saved_->times.empty() || saved_->times.back() != now.state.schedule.time) {
       write_frame(*saved_, now.model, now.state, now.state.schedule.time);
+      if (saved_view_) add_present(*saved_view_, now);
+    }
     if (done_) write_results_json(folder / "results.json", complete_results(), record());
   }
 
+  void write_view(const fs::path& folder) const override {
+    ViewSeries view = begin_view(folder / view_file, prepared_);
+    add_present(view, snapshot(prepared_, progress_));
+  }
+
  private:
+  void add_present(ViewSeries& view, const Snapshot<Dim>& now) const {
+    add_view_frame(view, now.model, now.state, {ViewMoment::Kind::frame, now.state.schedule.time, present_stage(), 0});
+  }
+
+  // or the last one
+  int present_stage() const { return std::min(progress_.stage, static_cast<int>(prepared_.stages.size()) - 1); }
+
   Results complete_results() const {
     Results complete = progress_.results;
     add_block_theory(prepared_, complete);
@@ -198,6 +212,7 @@ class SteppedRunOf : public SteppedRun {
   bool done_ = false, broken_ = false;
   std::shared_ptr<MotionArrays> motions_;
   std::optional<FrameSeries> saved_;
+  std::optional<ViewSeries> saved_view_;
 };
 
 template <int Dim>

@@ -79,11 +79,14 @@ class SteppedRun {
   virtual std::string results() const = 0;  // the text of results.json
   virtual History history() const = 0;
 
-  // Writes the files of the program's run: scene.toml, history.csv, bolts.csv, lining.csv, a frame of the present and,
-  // once the scene is done, results.json. Another call for the same folder adds a frame. Throws FileInTheWay if it
-  // would replace a file that the scene reads, a run of the program, or without `overwrite` any file of another run,
-  // and OutputError.
+  // Writes the files of the program's run: scene.toml, history.csv, bolts.csv, lining.csv, a frame of the present, with
+  // output.view in view.bin too, and, once the scene is done, results.json. Another call for the same folder adds a
+  // frame. Throws FileInTheWay if it would replace a file that the scene reads, a run of the program, or without
+  // `overwrite` any file of another run, and OutputError.
   virtual void save(const std::filesystem::path& folder, bool overwrite) = 0;
+
+  // Writes view.bin, the data of the interactive page: the start and the present. Throws OutputError.
+  virtual void write_view(const std::filesystem::path& folder) const = 0;
 };
 
 // from the start

@@ -23,6 +23,7 @@ except ImportError:
     print("skipped: numpy is not installed (Debian: python3-numpy)")
     sys.exit(77)
 import voussoir
+from frame_file import Frame
 
 SOURCE, PROGRAM = Path(os.environ["VOUSSOIR_SOURCE_DIR"]), os.environ["VOUSSOIR_PROGRAM"]
 WEDGE = SOURCE / "cases/wedge/scene.toml"  # 3-D, a search with rejected trials
@@ -46,27 +47,6 @@ def end_of(run, steps=1000):
     while run.advance(steps):
         pass
     return run
-
-
-class Frame:
-    """A .vtp file."""
-
-    def __init__(self, path):
-        piece = ElementTree.parse(path).getroot().find("PolyData/Piece")
-        self.points = next(iter(self.arrays(piece.find("Points")).values()))
-        self.point_data, self.cell_data = self.arrays(piece.find("PointData")), self.arrays(piece.find("CellData"))
-        polys = self.arrays(piece.find("Polys"))
-        self.cells = np.split(polys["connectivity"], polys["offsets"][:-1]) if polys else []
-
-    @staticmethod
-    def arrays(parent):
-        found = {}
-        for array in parent.findall("DataArray") if parent is not None else []:
-            whole = array.get("type").startswith("Int")
-            numbers = np.array((array.text or "").split(), dtype=np.int64 if whole else np.float64)
-            components = int(array.get("NumberOfComponents") or 1)
-            found[array.get("Name") or ""] = numbers.reshape(-1, components) if components > 1 else numbers
-        return found
 
 
 def setUpModule():

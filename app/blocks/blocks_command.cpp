@@ -20,6 +20,7 @@
 #include "core/base/bad_input.hpp"
 #include "core/output/atomic_file.hpp"
 #include "core/output/block_verdicts.hpp"
+#include "core/output/blocks_dxf.hpp"
 #include "core/output/view.hpp"
 #include "text/angle.hpp"
 
@@ -42,6 +43,7 @@ struct BlocksArguments {
   double friction = 0;  // deg; 0: that of the joints
   int top = 20;
   bool view = false;  // view.html
+  bool dxf = false;   // blocks.dxf
   bool overwrite = false;
 };
 
@@ -157,12 +159,14 @@ ExitCode judge_scene(const BlocksArguments& arguments, const SurveyRequest& requ
   if (arguments.view)
     for (const char* name : {view_file, page_file})
       outputs.files.emplace_back(name);
+  if (arguments.dxf) outputs.files.emplace_back(dxf_file);
   const ClaimedFolder claim(folder, outputs, scene.files, arguments.overwrite);
   tell_remarks(*scene.stated);
   const std::vector<Origin> origins{this_origin()};
   write_file(folder / "blocks_verdicts.csv", blocks_csv(survey));
   const PolyData faces = block_verdict_faces(survey);
   write_file(folder / "blocks.vtp", vtp(faces));
+  if (arguments.dxf) write_file(folder / dxf_file, blocks_dxf(survey.assembly.model, faces, key_blocks(survey)));
   write_file(folder / "blocks_verdicts.json", blocks_json(survey, scene.title, scene.hash, origins));
   if constexpr (Dim == 3) write_file(folder / "key_blocks.geojson", key_blocks_geojson(survey, faces));
   if (arguments.view) write_blocks_view(folder, prepared, survey);
@@ -194,8 +198,10 @@ ExitCode blocks_command(const BlocksArguments& arguments) {
   request.frictionless = arguments.frictionless;
   refuse_out_of_range(request);
   const LoadedScene scene = load_blocks(arguments.scene.scene, arguments.scene.overrides);
-  if (arguments.kinematics && arguments.view)
-    throw BadInput("--view shows the verdicts of blocks; --kinematics compares directions: leave out one of the two");
+  if (arguments.kinematics && (arguments.view || arguments.dxf))
+    throw BadInput(
+        fmt::format("--{} shows the verdicts of blocks; --kinematics compares directions: leave out one of the two",
+                    arguments.view ? "view" : "dxf"));
   if (arguments.kinematics) return analyse_directions(arguments, request, scene);
   if (!arguments.face.empty() || arguments.friction > 0) throw BadInput("--face and --friction belong to --kinematics");
   return scene.dimension == 2 ? judge_scene<2>(arguments, request, scene) : judge_scene<3>(arguments, request, scene);
@@ -254,6 +260,10 @@ void add_blocks(CLI::App& program, Action& action) {
       ->check(CLI::Range(1, 1'000'000));
   command->add_flag("--view", arguments.view,
                     "write the interactive page view.html: blocks by factor of safety, with each one's verdict");
+  command->add_flag(
+      "--dxf", arguments.dxf,
+      "write a drawing for CAD, blocks.dxf: key blocks (factor below --required), other blocks and bolts by "
+      "layers");
   add_overwrite(command, arguments.overwrite);
 }
 

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/testing/program.hpp"
+#include "core/testing/dxf_drawing.hpp"
 #include "text/angle.hpp"
 #include "text/csv_table.hpp"
 
@@ -27,7 +28,7 @@ std::vector<std::string> column(const fs::path& file, const std::string& name) {
 }
 
 TEST_F(Program, BlocksFindsThePairOfTheTutorial) {
-  const Ended ended = run("blocks " + quoted("examples/tutorial/slope.toml") + "--out out --required 1.3");
+  const Ended ended = run("blocks " + quoted("examples/tutorial/slope.toml") + "--out out --required 1.3 --dxf");
   EXPECT_EQ(ended.code, 0) << ended.err;
   for (const char* part : {"stage \"safety\": clay 29 deg, rough 41 deg", "38.0/169.1   1.0694  68.4 (-5.1/003.1)",
                            "lower than its blocks", "least factor 1.0694 (cluster 2+5)", "elastic shear closes B1"})
@@ -37,6 +38,8 @@ TEST_F(Program, BlocksFindsThePairOfTheTutorial) {
   EXPECT_NE(map.find("\"blocks\": \"2+5\""), std::string::npos);
   EXPECT_EQ(map.find("\"blocks\": \"2\""), std::string::npos) << "its factor is 23";
   const fs::path table = folder_ / "out/blocks_verdicts.csv";
+  const std::vector<test::DxfEntity> drawing = test::read_drawing(read(folder_ / "out/blocks.dxf"));
+  EXPECT_NEAR(volume_on(drawing, "KEY_BLOCKS"), std::stod(column(table, "volume_m3").at(2)), 1e-9);
   EXPECT_EQ(column(table, "blocks"), (std::vector<std::string>{"2", "5", "2 5"}));
   EXPECT_EQ(column(table, "joints"), (std::vector<std::string>{"A1;A2", "A2;B1", "A1;B1"}));
   EXPECT_NEAR(std::stod(column(table, "factor").at(2)), 1.069448089900, 1e-11);

@@ -15,6 +15,7 @@
 #include "core/exchange/mesh.hpp"
 #include "core/exchange/tables.hpp"
 #include "core/output/atomic_file.hpp"
+#include "core/output/blocks_dxf.hpp"
 #include "core/output/paraview.hpp"
 #include "core/output/view.hpp"
 #include "core/potential/particle.hpp"
@@ -29,9 +30,9 @@ namespace fs = std::filesystem;
 struct SliceArguments {
   SceneArguments scene;
   std::filesystem::path out;
-  bool view = false;                              // view.html
-  bool report = false;                            // on the joint sets, and joints.csv
-  bool planes = false, stl = false, obj = false;  // further formats of the blocks
+  bool view = false;                                           // view.html
+  bool report = false;                                         // on the joint sets, and joints.csv
+  bool planes = false, stl = false, obj = false, dxf = false;  // further formats of the blocks
   bool overwrite = false;
 };
 
@@ -123,6 +124,7 @@ Outputs outputs_of(const SliceArguments& arguments, int dimension) {
   add(arguments.planes, {"block_planes.csv"});
   add(arguments.stl, {"blocks.stl"});
   add(arguments.obj, {"blocks.obj"});
+  add(arguments.dxf, {dxf_file});
   add(arguments.report, {"report.md", "joints.csv", "spacing.svg", "block_sizes.svg"});
   add(arguments.report && dimension == 3, {"stereonet.svg"});
   return outputs;
@@ -132,7 +134,9 @@ template <int Dim>
 void write_blocks(const Prepared<Dim>& prepared, const SliceArguments& arguments) {
   const fs::path& folder = arguments.out;
   write_formats(prepared.model, arguments);
-  write_file(folder / "blocks.vtp", vtp(block_faces(prepared.model, prepared.state, 0, prepared.joint_sets)));
+  const PolyData faces = block_faces(prepared.model, prepared.state, 0, prepared.joint_sets);
+  write_file(folder / "blocks.vtp", vtp(faces));
+  if (arguments.dxf) write_file(folder / dxf_file, blocks_dxf(prepared.model, faces));
   write_file(folder / "blocks.csv", block_table(prepared.model));
   if (arguments.view) {
     begin_view(folder / view_file, prepared);
@@ -146,7 +150,7 @@ ExitCode slice_command(const SliceArguments& arguments) {
   const LoadedScene loaded = load_blocks(arguments.scene.scene, arguments.scene.overrides);
   tell_remarks(*loaded.stated);
   if (loaded.dimension == 2 && (arguments.stl || arguments.obj))
-    throw BadInput("--stl and --obj write blocks in space but the scene has dimension = 2; use --planes");
+    throw BadInput("--stl and --obj write blocks in space but the scene has dimension = 2; use --planes or --dxf");
   const bool particles = std::visit([](const auto& prepared) { return prepared.model.particles; }, loaded.prepared);
   if (particles && (arguments.planes || arguments.stl || arguments.obj))
     throw BadInput(
@@ -186,6 +190,7 @@ void add_slice(CLI::App& program, Action& action) {
                     "the planes of the blocks: block_planes.csv, readable as blocks_file");
   command->add_flag("--stl", arguments.stl, "the blocks as blocks.stl (ASCII; 3-D)");
   command->add_flag("--obj", arguments.obj, "the blocks as blocks.obj (3-D), readable as blocks_file");
+  command->add_flag("--dxf", arguments.dxf, "blocks and bolts as a drawing for CAD: blocks.dxf");
   add_overwrite(command, arguments.overwrite);
 }
 

@@ -154,6 +154,20 @@ std::string blocks_csv(const Survey<Dim>& survey) {
 }
 
 template <int Dim>
+bool is_key(const Survey<Dim>& survey, const SurveyRow<Dim>& row) {
+  return moves(row.kind()) && *row.bolted.factor < survey.request.required;
+}
+
+template <int Dim>
+std::set<int> key_blocks(const Survey<Dim>& survey) {
+  std::set<int> bodies;
+  for (const auto* list : {&survey.rows, &survey.clusters})
+    for (const SurveyRow<Dim>& row : *list)
+      if (is_key(survey, row)) bodies.insert(row.bodies.begin(), row.bodies.end());
+  return bodies;
+}
+
+template <int Dim>
 PolyData block_verdict_faces(const Survey<Dim>& survey) {
   const Model<Dim>& model = survey.assembly.model;
   PolyData data = block_faces(model, initial_state<Dim>(model), 0, survey.sets);
@@ -195,7 +209,9 @@ PolyData block_verdict_faces(const Survey<Dim>& survey) {
   template std::vector<double> normal_forces<Dim>(const SurveyRow<Dim>&);                          \
   template std::vector<std::string> loaded_joints<Dim>(const Survey<Dim>&, const SurveyRow<Dim>&); \
   template std::string blocks_csv<Dim>(const Survey<Dim>&);                                        \
-  template PolyData block_verdict_faces<Dim>(const Survey<Dim>&);
+  template PolyData block_verdict_faces<Dim>(const Survey<Dim>&);                                  \
+  template bool is_key<Dim>(const Survey<Dim>&, const SurveyRow<Dim>&);                            \
+  template std::set<int> key_blocks<Dim>(const Survey<Dim>&);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)
 #undef VOUSSOIR_INSTANTIATE

@@ -1,6 +1,7 @@
 // The files of block theory's verdicts.
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -30,7 +31,15 @@ std::string blocks_results_json(const Survey<Dim>& survey, const std::string& ti
 template <int Dim>
 PolyData block_verdict_faces(const Survey<Dim>& survey);
 
-// Outlines in plan of the key blocks and clusters (factor below the required one) as a map, in the scene's coordinates.
+// whether a block or cluster moves with a factor below the required one
+template <int Dim>
+bool is_key(const Survey<Dim>& survey, const SurveyRow<Dim>& row);
+
+// the bodies of all key blocks and clusters
+template <int Dim>
+std::set<int> key_blocks(const Survey<Dim>& survey);
+
+// Outlines in plan of the key blocks and clusters as a map, in the scene's coordinates.
 // `faces`: block_verdict_faces.
 std::string key_blocks_geojson(const Survey<3>& survey, const PolyData& faces);
 

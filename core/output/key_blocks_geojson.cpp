@@ -61,7 +61,7 @@ std::string key_blocks_geojson(const Survey<3>& survey, const PolyData& faces) {
   Json features = Json::array();
   for (const auto* list : {&survey.rows, &survey.clusters})
     for (const SurveyRow<3>& row : *list) {
-      if (!moves(row.kind()) || !(*row.bolted.factor < survey.request.required)) continue;
+      if (!is_key(survey, row)) continue;
       std::vector<PlanPoint> all;
       for (const int b : row.bodies)
         all.insert(all.end(), corners[b].begin(), corners[b].end());

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "core/output/xml_reader_test.hpp"
@@ -251,9 +253,32 @@ TEST(Paraview, LinesJoinBodiesThatTouch) {
 TEST(Vtp, SinglePrecisionReplacesWhatItCannotRepresent) {
   PolyData data;
   data.points = {{0, 0, 0}};
-  data.point_data = {{"some", 1, false, {0.1, -1e300, 1e-300, std::nan(""), -3e38}, true}};
+  data.point_data = {{"some", 5, false, {0.1, -1e300, 1e-300, std::nan(""), -3e38}, true}};
+  const std::vector<double> read =
+      checked_piece(vtp(data), "Polys", "NumberOfPolys").child("PointData").named("some").numbers();
+  EXPECT_EQ(read, (std::vector<double>{0.1F, 0, 0, 0, -3e38F}));
+}
+
+TEST(Vtp, NumbersAreTheirBits) {
+  PolyData data;
+  data.kind = PolyData::Cells::vertices;
+  // any bits of a double, also bytes that would be mark-up
+  std::vector<double> numbers{0.1, -0.0, 1 / 3.0, 5e-324, 1e300, 0x1.c3e3c2f3e2f3cp+10, -123456789.123456789};
+  while (numbers.size() % 3 != 0)
+    numbers.push_back(0);
+  for (std::size_t k = 0; k < numbers.size(); k += 3) {
+    data.points.push_back({numbers[k], numbers[k + 1], numbers[k + 2]});
+    data.cells.push_back({static_cast<int>(k / 3)});
+  }
+  data.cell_data = {{"whole", 1, true, {-1, 2147483648.0, std::nan("")}}};
   const std::string text = vtp(data);
-  EXPECT_NE(text.find("\n0.1 \n0 \n0 \n0 \n-3e+38 \n"), std::string::npos) << text;
+  const Element piece = checked_piece(text, "Verts", "NumberOfVerts");
+  const std::vector<double> read = piece.child("Points").named("Points").numbers();
+  ASSERT_EQ(read.size(), numbers.size());
+  for (std::size_t k = 0; k < numbers.size(); ++k)
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(read[k]), std::bit_cast<std::uint64_t>(numbers[k])) << k;
+  EXPECT_EQ(piece.child("CellData").named("whole").numbers(), (std::vector<double>{-1, 2147483648.0, 0}));
+  EXPECT_EQ(vtp(data), text);
 }
 
 TEST(Paraview, ASquareIsOnePolygonInThePlane) {

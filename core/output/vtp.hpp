@@ -1,4 +1,4 @@
-// VTK's XML PolyData (.vtp, ASCII): points, polygons or vertices, and named arrays on them. Opens in ParaView.
+// VTK's XML PolyData (.vtp): points, polygons or vertices, and named arrays, compressed. Opens in ParaView.
 #pragma once
 
 #include <array>

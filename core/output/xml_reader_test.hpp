@@ -1,7 +1,12 @@
-// Test help: a small XML reader that shares no code with the writer, sufficient to check its files.
+// Test help: a small reader of XML, with the appended numbers of VTK, that shares no code with the writer; sufficient
+// to check its files.
 #pragma once
 
+#include <zlib.h>
+
 #include <cctype>
+#include <cstdint>
+#include <cstring>
 #include <map>
 #include <memory>
 #include <sstream>
@@ -15,6 +20,7 @@ struct Element {
   std::string name, text;
   std::map<std::string, std::string> attributes;
   std::vector<Element> children;
+  std::vector<double> appended;  // numbers of an array with format "appended"
 
   const Element& child(const std::string& wanted) const {
     for (const Element& element : children)
@@ -28,6 +34,7 @@ struct Element {
   }
   double number(const std::string& attribute) const { return std::stod(attributes.at(attribute)); }
   std::vector<double> numbers() const {
+    if (attributes.count("format") && attributes.at("format") == "appended") return appended;
     std::istringstream stream(text);
     std::vector<double> list;
     for (double value; stream >> value;)
@@ -43,6 +50,7 @@ class XmlReader {
   explicit XmlReader(std::string text) : text_(std::move(text)) {}
 
   Element read() {
+    cut_appended();
     expect("<?xml version=\"1.0\"?>");
     skip_space();
     Element root = element();
@@ -66,6 +74,7 @@ class XmlReader {
     }
     if (text_.at(at_) == '/') {
       expect("/>");
+      if (result.attributes.count("offset")) result.appended = appended_numbers(result.attributes);
       return result;
     }
     expect(">");
@@ -79,6 +88,47 @@ class XmlReader {
     }
     expect("</" + result.name + ">");
     return result;
+  }
+
+  // the raw bytes, which are no XML
+  void cut_appended() {
+    const std::string open = "<AppendedData encoding=\"raw\">\n_", close = "\n  </AppendedData>";
+    const std::size_t begin = text_.find(open);
+    if (begin == std::string::npos) return;
+    const std::size_t first = begin + open.size(), end = text_.rfind(close);
+    bytes_ = text_.substr(first, end - first);
+    text_.erase(first - 1, end - first + 1);
+  }
+
+  template <class Number>
+  static std::vector<double> numbers_in(const std::string& plain) {
+    std::vector<Number> numbers(plain.size() / sizeof(Number));
+    if (numbers.size() * sizeof(Number) != plain.size()) throw std::runtime_error("part of a number");
+    std::memcpy(numbers.data(), plain.data(), plain.size());
+    return {numbers.begin(), numbers.end()};
+  }
+
+  std::vector<double> appended_numbers(const std::map<std::string, std::string>& attributes) const {
+    const std::string header = bytes_.substr(std::stoul(attributes.at("offset")), 4 * sizeof(std::uint64_t));
+    std::uint64_t blocks, size, last, packed;
+    std::memcpy(&blocks, header.data(), sizeof blocks);
+    std::memcpy(&size, header.data() + 8, sizeof size);
+    std::memcpy(&last, header.data() + 16, sizeof last);
+    if (blocks == 0) return {};
+    if (blocks != 1 || last != 0) throw std::runtime_error("not one whole block");
+    std::memcpy(&packed, header.data() + 24, sizeof packed);
+    std::string plain(size, 0);
+    uLongf found = size;
+    const std::string data = bytes_.substr(std::stoul(attributes.at("offset")) + header.size(), packed);
+    if (uncompress(reinterpret_cast<Bytef*>(plain.data()), &found, reinterpret_cast<const Bytef*>(data.data()),
+                   data.size()) != Z_OK ||
+        found != size)
+      throw std::runtime_error("not the bytes that the header promises");
+    const std::string& type = attributes.at("type");
+    return type == "Float64"   ? numbers_in<double>(plain)
+           : type == "Float32" ? numbers_in<float>(plain)
+           : type == "Int64"   ? numbers_in<std::int64_t>(plain)
+                               : throw std::runtime_error("an array of " + type);
   }
 
   std::string word() {
@@ -98,7 +148,7 @@ class XmlReader {
     at_ += wanted.size();
   }
 
-  std::string text_;
+  std::string text_, bytes_;
   std::size_t at_ = 0;
 };
 

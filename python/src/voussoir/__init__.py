@@ -7,6 +7,9 @@ from voussoir._core import Blocks, Run, Scene, SceneError, State, Surface, __ver
 from voussoir.commands import (check, docs, export, gather, import_, joint_test, limit, plan, program, report, resume,
                                run, slice, study, view)
 from voussoir.folder import Folder
+from voussoir.notebook import shown as _shown
+
+Run._repr_html_ = _shown
 
 __all__ = ["Blocks", "Folder", "Run", "Scene", "SceneError", "State", "Surface", "__version__", "blocks", "check", "docs",
            "export", "gather", "import_", "joint_test", "limit", "plan", "program", "report", "resume", "run", "slice",

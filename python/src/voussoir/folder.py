@@ -29,6 +29,12 @@ def columns_of(lines: Iterable[str]) -> Table:
     return columns
 
 
+def frame_of(page: Path, title: str) -> str:
+    """The interactive page within a notebook's."""
+    content = html.escape(page.read_text(encoding="utf-8"))
+    return f'<iframe srcdoc="{content}" style="width:100%;height:520px;border:0" title="{html.escape(title)}"></iframe>'
+
+
 class Folder:
     """A folder of results.
 
@@ -93,6 +99,5 @@ class Folder:
         """In a notebook: the interactive page if there is one, and what the command printed."""
         shown = f"<pre>{html.escape(self.text)}</pre>"
         if (self.path / "view.html").exists():
-            page = html.escape(self.page.read_text(encoding="utf-8"))
-            shown += f'<iframe srcdoc="{page}" style="width:100%;height:520px;border:0" title="{html.escape(str(self.path))}"></iframe>'
+            shown += frame_of(self.page, str(self.path))
         return shown
