@@ -31,8 +31,8 @@ ExitCode report_command(const ReportArguments& arguments) {
   const bool shown = fs::exists(blocks, error);
   const bool ours = arguments.out.empty() && made_here(arguments.folder, report_file);
   std::vector<fs::path> inputs;
-  for (const char* name : {"results.json", "scene.toml", "history.csv", "search.csv", view_file, "study.json",
-                           "study.csv", "kinematics.json", "kinematic_pairs.csv", joints_data_file})
+  for (const char* name : {"results.json", "scene.toml", "history.csv", "search.csv", "lining.csv", view_file,
+                           "study.json", "study.csv", "kinematics.json", "kinematic_pairs.csv", joints_data_file})
     inputs.push_back(arguments.folder / name);
   claim_file(target, "report", inputs, arguments.overwrite || ours);
   write_file(target, report_page(data, shown ? blocks : fs::path{}));

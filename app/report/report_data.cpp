@@ -8,6 +8,7 @@
 #include "app/report/joints_data.hpp"
 #include "app/run_folder/run_folder.hpp"
 #include "core/base/bad_input.hpp"
+#include "core/scene/toml_text.hpp"
 #include "text/read_file.hpp"
 
 namespace voussoir {
@@ -61,6 +62,21 @@ std::string thinned(const std::string& table, std::ptrdiff_t every) {
   return kept;
 }
 
+// of the effective scene, which states every name and number in one form
+nlohmann::json lining_sections(const std::string& scene) {
+  const Node tree = parse_toml(scene, std::make_shared<const std::string>("scene.toml"));
+  auto sections = nlohmann::json::array();
+  for (const Subject& lining : children({&tree, ""}, "linings")) {
+    nlohmann::json& section = sections.emplace_back();
+    section["name"] = name_of(*lining.node);
+    for (const auto& [key, column] : {std::pair{"thickness", "thickness_m"},
+                                      {"compressive_strength", "compressive_strength_Pa"},
+                                      {"tensile_strength", "tensile_strength_Pa"}})
+      if (const Node* number = lining.node->find(key); number && number->is_number()) section[column] = number->number;
+  }
+  return sections;
+}
+
 void add_run(const fs::path& folder, nlohmann::json& data) {
   data["results"] = json_of(folder / "results.json");
   if (data["results"].value("schema", "") != "voussoir.results")
@@ -70,10 +86,11 @@ void add_run(const fs::path& folder, nlohmann::json& data) {
   nlohmann::json& files = data["files"];
   files["scene"] = text_of(folder / "scene.toml");
   std::error_code error;
-  for (const char* name : {"history", "search"}) {
+  for (const char* name : {"history", "search", "lining"}) {
     const fs::path file = folder / fmt::format("{}.csv", name);
     if (fs::exists(file, error)) files[name] = text_of(file);
   }
+  if (files.contains("lining")) data["linings"] = lining_sections(files["scene"]);
   if (!files.contains("history")) return;
   const auto& text = files["history"].get_ref<const std::string&>();
   const std::ptrdiff_t every =

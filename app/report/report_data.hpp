@@ -4,8 +4,9 @@
 //   block     project, section, author, checked_by, date: as stated, or empty
 //   of a run
 //     results   results.json
-//     files     scene (the input in full), history, search: comma-separated, as their files; absent if there is none
-//     every     of history's rows each so many-th is kept
+//     files     scene (the input in full), history, search, lining: comma-separated, as their files; absent if there is
+//     none linings   of each its name and, as stated, thickness_m, compressive_strength_Pa, tensile_strength_Pa every
+//     of history's rows each so many-th is kept
 //   of a study
 //     study     study.json
 //     files     study, manifest: as their files; samples, grids: json and csv of each; input: name and text of each

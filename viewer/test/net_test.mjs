@@ -1,8 +1,10 @@
-// node net_test.mjs SOURCE: the stereonet's geometry and zones, without a browser, and a map's line: places against their formulas, counts of
-// 200 joints in the zones that are drawn against those that `voussoir blocks --kinematics` counts, density and means.
+// node net_test.mjs SOURCE: what reports draw, without a browser: places on the stereonet against their formulas, counts of
+// 200 joints in the zones that are drawn against those that `voussoir blocks --kinematics` counts, density, means, weights of
+// a scanline; the line of a level through a grid; the strength of a lining's section.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
+import { angles, envelope } from '../src/report/lining_section.js';
 import { levelLine } from '../src/report/level_line.js';
 import { between, daylightEnvelope, density, fisherMean, fromNet, greatCircle, lineOf, lineZones, onNet, planeOf, poleOf, poleZones, smallCircle, terzaghiWeight } from '../src/report/net.js';
 
@@ -101,4 +103,17 @@ assert.equal(terzaghiWeight(poleOf(0, 0), lineOf(0, 33), 10), 10);
   assert.deepEqual(levelLine(values, nx, 99), []);
   assert.ok(levelLine(values.map((v, k) => (k === 14 ? NaN : v)), nx, 0.55).length < line.length);
 }
-console.log('the stereonets are right');
+// ---- the strength of a lining's section: each point of the curve has a utilisation of 1, as core/support counts it
+{
+  const section = { thickness_m: 0.3, compressive_strength_Pa: 20e6, tensile_strength_Pa: 2e6 }, curve = envelope(section);
+  const use = ([moment, thrust]) => { const bending = (6 * Math.abs(moment)) / 0.3 ** 2, n = thrust / 0.3; return Math.max((bending + n) / 20e6, (bending - n) / 2e6); };
+  assert.equal(curve.length, 5);
+  curve.slice(1).forEach((point, k) => { for (const t of [0, 0.3, 1]) near(use(point.map((x, i) => x + t * (curve[k][i] - x))), 1, 1e-12); });
+  assert.deepEqual(envelope({ thickness_m: 0.3 }), []);
+  // once around from the right, over the crown; an arc from below the right to below the left
+  const ring = angles([359.99, 90, 180, 270].map((a) => ({ x: 5 + 3 * Math.cos((a * Math.PI) / 180), y: 3 * Math.sin((a * Math.PI) / 180) })));
+  ring.forEach((a, k) => near(a, 90 * k, 0.02));
+  const arc = angles([-30, 30, 90, 150, 210].map((a) => ({ x: Math.cos((a * Math.PI) / 180), y: Math.sin((a * Math.PI) / 180) })));
+  assert.ok(arc[0] < 0 && arc.at(-1) > 180 && arc.every((a, k) => !k || a > arc[k - 1]), arc.join());
+}
+console.log('the figures are right');

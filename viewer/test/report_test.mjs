@@ -124,6 +124,15 @@ await picture('tunnel');
   assert.deepEqual(bolts.slice(1, 3), [stage.bolts[0].bolts, String(stage.bolts[0].count)]);
   assert.ok(Math.abs(Number(bolts[3]) * 1000 / stage.bolts[0].force_N - 1) < 5e-3);
   assert.ok(Math.abs(Number(lining[2]) * 1000 / stage.linings[0].thrust_N_per_m - 1) < 5e-3);
+  // thrust against moment of each node, in the strength of the section; thrust and two moments along the outline
+  const drawn = await js(`return ['interaction', 'thrust', 'moment'].map((part) => {
+    const figure = document.querySelector('figure[data-name=lining-1-' + part + ']'), of = (css) => figure.querySelectorAll('svg[role=img] ' + css).length;
+    return { dots: of('[aria-label="dot"] circle'), lines: of('[aria-label="line"] path'), caption: figure.querySelector('figcaption').textContent };
+  })`);
+  assert.deepEqual(drawn.map(({ dots, lines }) => [dots, lines]), [[96 + 1, 1], [0, 1], [0, 2]]);
+  assert.ok(drawn[0].caption.includes('0.2 m thick, 25 MPa in compression and 2 MPa in tension'), drawn[0].caption);
+  const use = Number(drawn[0].caption.match(/most of it, ([\d.]+) %/)[1]);
+  assert.ok(Math.abs(use / (100 * stage.linings[0].use) - 1) < 5e-3, `${use} % ${stage.linings[0].use}`);
 }
 
 const names = run('viewer/test/names.toml', 'names', '--view');

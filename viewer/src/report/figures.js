@@ -174,3 +174,23 @@ export function blockSizes(blocks, label) {
     x: { type: 'log', label, tickFormat: '~g' }, y: shares('in blocks up to this (%)'), marks: [Plot.line(curves, { x: 'value', y: 'share', stroke: 'curve' }),
       blocks.count < 60 ? Plot.dot(curves, { x: 'value', y: 'share', fill: 'curve', r: 2 }) : null] }), 'block-sizes', 'Block sizes.');
 }
+
+// ---- linings
+
+// `curve`: the strength of the section, [moment, thrust]; empty if none is stated
+export function interaction(nodes, curve, worst, caption, name) {
+  return framed(Plot.plot({ ...LOOK, height: 380, x: { label: 'moment (kN m/m)', nice: true, grid: true }, y: { label: 'thrust (kN/m)', grid: true, nice: true },
+    marks: [Plot.ruleX([0], { stroke: '#b0b0b0' }), Plot.ruleY([0], { stroke: '#b0b0b0' }), Plot.line(curve, { stroke: FAILED, strokeWidth: 1.5 }),
+      Plot.dot(nodes, { x: 'moment', y: 'thrust', fill: STABLE, r: 2.5, title: (node) => `node ${node.node}` }),
+      curve.length ? Plot.dot([worst], { x: 'moment', y: 'thrust', stroke: FAILED, strokeWidth: 2, r: 6 }) : null,
+      curve.length ? Plot.text([worst], { x: 'moment', y: 'thrust', text: (node) => `node ${node.node}`, dy: -14 }) : null] }), name, caption);
+}
+
+// `columns`: key and name of each; those without a value are left out
+export function alongLining(nodes, columns, label, caption, name) {
+  const points = columns.flatMap(({ key, name: column }) => nodes.map((node) => ({ angle: node.angle, value: node[key], column }))).filter((point) => Number.isFinite(point.value));
+  const domain = columns.map((column) => column.name).filter((column) => points.some((point) => point.column === column));
+  const [first, last] = [nodes[0].angle, nodes.at(-1).angle], ticks = Array.from({ length: 17 }, (_, k) => 45 * (k - 4)).filter((t) => t >= first - 1 && t <= last + 1);
+  return framed(Plot.plot({ ...LOOK, height: 240, color: { domain, range: OKABE, legend: domain.length > 1 }, x: { label: 'angle about the middle (°), 0 at the right, 90 at the crown', ticks },
+    y: { label, grid: true, nice: true }, marks: [Plot.ruleY([0], { stroke: '#b0b0b0' }), Plot.line(points, { x: 'angle', y: 'value', stroke: 'column' })] }), name, caption);
+}

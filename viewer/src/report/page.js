@@ -7,6 +7,7 @@ import { convergence, history, knee, svgOf } from './figures.js';
 import { jointForces, lastState, lastTrial } from './forces.js';
 import { jointSections } from './joints.js';
 import { kinematicSections } from './kinematics.js';
+import { liningFigures } from './linings.js';
 import { downward } from './net.js';
 import { bullets, header, paragraph, section } from './parts.js';
 import { jointNets } from './stereonets.js';
@@ -126,7 +127,7 @@ function search({ results, files }) {
   }));
 }
 
-function supports({ results }) {
+function supports({ results, files, linings: strengths }) {
   const rows = [], linings = [];
   for (const stage of results.stages) {
     for (const b of stage.bolts ?? [])
@@ -136,7 +137,8 @@ function supports({ results }) {
   }
   return section('Supports',
     rows.length ? table(['after stage', 'bolts', 'number', 'largest force (kN)', 'largest shear (kN)', 'of yield', 'yielded', 'broken', 'slipped'], rows, { numbers: [2, 3, 4, 5, 6, 7, 8] }) : null,
-    linings.length ? table(['after stage', 'lining', 'thrust (kN/m)', 'moment (kN m/m)', 'pressure (kPa)', 'of strength'], linings, { numbers: [2, 3, 4, 5] }) : null);
+    linings.length ? table(['after stage', 'lining', 'thrust (kN/m)', 'moment (kN m/m)', 'pressure (kPa)', 'of strength'], linings, { numbers: [2, 3, 4, 5] }) : null,
+    ...liningFigures({ results, files, linings: strengths }));
 }
 
 function histories({ files, every }) {
