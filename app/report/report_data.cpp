@@ -123,6 +123,14 @@ void add_kinematics(const fs::path& folder, nlohmann::json& data) {
   data["files"]["pairs"] = text_of(folder / "kinematic_pairs.csv");
 }
 
+void add_joints(const fs::path& folder, nlohmann::json& data) {
+  const fs::path file = folder / joints_data_file;
+  nlohmann::json& joints = data["joints"] = json_of(file);
+  if (!joints.is_object() || joints.value("schema", "") != joints_schema)
+    throw BadInput(
+        fmt::format("'{}' is no file of 'voussoir slice --report': name the folder of {}", file.string(), reported));
+}
+
 }  // namespace
 
 std::string report_data(const fs::path& folder, const TitleBlock& block) {
@@ -135,7 +143,7 @@ std::string report_data(const fs::path& folder, const TitleBlock& block) {
   else if (fs::exists(folder / "kinematics.json", error))
     add_kinematics(folder, data);
   else if (fs::exists(folder / joints_data_file, error))
-    data["joints"] = json_of(folder / joints_data_file);
+    add_joints(folder, data);
   else
     refuse_folder(folder);
   data["block"] = {{"project", block.project},

@@ -201,7 +201,7 @@ const directions = join(folder, 'directions');
   // A1 46/128 and A2 49/125: 1/sin of the angle between plane and scanline, by their normals
   const weight = (dip, direction) => Math.min(10, 1 / Math.abs(Math.sin((dip * Math.PI) / 180) * Math.cos(((direction - 128) * Math.PI) / 180)));
   const clay = weights.find((row) => row[1] === '2');
-  assert.ok(Math.abs(Number(clay[2]) - weight(46, 128) - weight(49, 125)) < 0.06, JSON.stringify(weights));
+  assert.ok(Math.abs(Number(clay[3]) - weight(46, 128) - weight(49, 125)) < 0.06, JSON.stringify(weights));
   assert.equal((await rows('Zones of the face')).length, 17);
   await state({ trend: '', plunge: '' });
   assert.equal((await rows('Zones of the face')).length, 14);
@@ -292,7 +292,7 @@ const maps = join(folder, 'maps');
     assert.ok(Math.abs(dip - printed[k][2]) <= 0.55 && Math.abs(direction - printed[k][3]) <= 0.55 && Math.abs(constant / printed[k][4] - 1) < 6e-3, `${mean} ${constant} ${printed[k]}`);
   });
   await state({ trend: 20, plunge: 10, largest: 5 });
-  assert.ok((await rows('Orientations')).every((row) => row.length === 7));
+  assert.ok((await rows('Orientations')).every((row) => row.length === 8));
   await browser.quiet(join(folder, 'imported_report.html'));
 }
 
@@ -319,6 +319,12 @@ const verdicts = join(folder, 'verdicts');
 assert.equal(call('blocks', join(source, 'examples/wedge.toml'), '--out', verdicts).status, 0);
 refused(['report', verdicts], /of another command than 'run'/);
 refused(['report', plain, '--out', join(plain, 'scene.toml'), '--overwrite'], /is read/);
+const foreign = join(folder, 'foreign');
+mkdirSync(foreign);
+for (const [words, pattern] of [['{"schema": "mine"}', /joints\.json' is no file of 'voussoir slice --report'/], ['[1, 2]', /is no file of/], ['{', /is damaged/]]) {
+  writeFileSync(join(foreign, 'joints.json'), words);
+  refused(['report', foreign], pattern);
+}
 assert.equal(report(slope), page, 'its own page is replaced');
 
 await browser.close();

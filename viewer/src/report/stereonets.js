@@ -2,7 +2,7 @@
 // of density; with a rock face two nets, poles for plane sliding and flexural toppling, lines for wedges and direct
 // toppling, each with its own friction circle: 90° - φ from the rim for poles, φ for lines.
 import * as Plot from '@observablehq/plot';
-import { OKABE } from '../colours.js';
+import { digits, OKABE } from '../colours.js';
 import { framed, LOOK } from './figures.js';
 import { between, daylightEnvelope, density, fisherMean, fromNet, greatCircle, lineOf, lineZones, onNet, planeOf, poleZones, smallCircle, terzaghiWeight } from './net.js';
 import { paragraph } from './parts.js';
@@ -106,7 +106,7 @@ export function slidingLines(sets, request, kind) {
 
 // ---- the reader's choices
 
-const angle = (v, digits) => String(Math.round(v)).padStart(digits, '0');
+const angle = (v, places) => String(Math.round(v)).padStart(places, '0');
 
 // A scanline's direction, which the reader may state: `of` gives sets their weights, `text` says so, and `redraws` are
 // called when it changes.
@@ -122,7 +122,7 @@ export function scanlineChoice() {
   function read() {
     const fields = [trend, plunge, largest], valid = fields.every((input) => input.value !== '' && input.checkValidity());
     const line = lineOf(Number(plunge.value), Number(trend.value)), most = Number(largest.value);
-    choice.of = (sets) => (valid ? sets.map((set) => ({ ...set, weights: set.poles.map((pole) => terzaghiWeight(pole, line, most)) })) : sets);
+    choice.of = (sets) => (valid ? sets.map((set) => ({ ...set, largest: most, weights: set.poles.map((pole) => terzaghiWeight(pole, line, most)) })) : sets);
     choice.text = valid ? `A choice of this page's reader: joints are weighted for a scanline or borehole of plunge/trend ${angle(Number(plunge.value), 2)}/${angle(Number(trend.value), 3)} `
       + `by 1/sin of the angle between it and the joint, ${most} at most (Terzaghi 1965). Counts, densities and means follow.` : '';
     for (const redraw of choice.redraws) redraw();
@@ -145,11 +145,11 @@ export function withProjection(sets, scanline, draw) {
 // name, number of joints, mean dip and dip direction, Fisher's constant, cone of 95 %
 function setTable(sets) {
   const weighted = sets.some((set) => set.weights);
-  return table(['set', 'joints', ...(weighted ? ['weighted joints', 'weighted share (%)'] : []), 'mean dip/dip direction', 'Fisher\'s constant', 'cone of 95 % (°)'], sets.map((set) => {
+  return table(['set', 'joints', ...(weighted ? ['of the largest weight', 'weighted joints', 'weighted share (%)'] : []), 'mean dip/dip direction', 'Fisher\'s constant', 'cone of 95 % (°)'], sets.map((set) => {
     const { mean, constant, cone } = fisherMean(set.poles, weightsOf(set)), sum = total(set);
-    return [set.name, set.poles.length, ...(weighted ? [sum.toFixed(1), ((100 * sum) / sets.reduce((all, other) => all + total(other), 0)).toFixed(1)] : []),
-      orientation(planeOf(mean)), Number.isFinite(constant) ? constant.toPrecision(3) : '', Number.isFinite(cone) ? cone.toFixed(1) : ''];
-  }), { numbers: weighted ? [1, 2, 3, 5, 6] : [1, 3, 4] });
+    return [set.name, set.poles.length, ...(weighted ? [set.weights.filter((w) => w === set.largest).length, sum.toFixed(1), ((100 * sum) / sets.reduce((all, other) => all + total(other), 0)).toFixed(1)] : []),
+      orientation(planeOf(mean)), Number.isFinite(constant) ? digits(constant) : '', Number.isFinite(cone) ? cone.toFixed(1) : ''];
+  }), { numbers: weighted ? [1, 2, 3, 4, 6, 7] : [1, 3, 4] });
 }
 const total = (set) => weightsOf(set).reduce((sum, w) => sum + w, 0);
 
