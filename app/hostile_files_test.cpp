@@ -195,7 +195,7 @@ std::vector<Trial> over_others() {
   for (const char* name : {"blocks.vtp", "blocks.csv"})
     trials.push_back({name, "slice scene.toml --out out", name + foreign, file(std::string("out/") + name)});
   trials.push_back({"obj", "slice scene.toml --obj --out out", "blocks.obj" + foreign, file("out/blocks.obj")});
-  trials.push_back({"report", "slice scene.toml --report --out out", "report.md" + foreign, file("out/report.md")});
+  trials.push_back({"report", "slice scene.toml --report --out out", "report.html" + foreign, file("out/report.html")});
   for (const char* name : {"limit.svg", "forces.vtp"})
     trials.push_back({name, "limit plane.toml --out out", name + foreign, file(std::string("out/") + name)});
   for (const char* name : {"joint_test.csv", "joint_test.svg"})

@@ -3,7 +3,7 @@
 #                                         named: docs/pictures/*, and their rows of docs/pictures.csv
 # make_pictures.sh PROGRAM --into FOLDER  makes them all in FOLDER (make reports), and names those that differ from docs/pictures
 # make_pictures.sh PROGRAM --table        prints the rows of all pictures as the scenes are now, and makes no picture
-# SVG files are drawn by the program; PNG files are posters of its viewer (node, chromium). A row of the table has the picture, its
+# SVG files are drawn by the program or are figures of its reports, PNG files are posters of its viewer (node, chromium). A row of the table has the picture, its
 # scene, the keys that are set, and the input hash of that scene when the picture was made.
 set -euo pipefail
 program=$(realpath "$1")
@@ -54,6 +54,14 @@ drawn() {
   cp "$work/$1/$2" "${into:-$pictures}/$1.svg"
 }
 
+# reported NAME FIGURE COMMAND SCENE [OPTION …]: a figure of the report on the command's results
+reported() {
+  row "$1.svg" "$4" || return 0
+  quietly "$program" "${@:3}" --out "$work/$1"
+  quietly "$program" report "$work/$1"
+  node viewer/poster.mjs "$work/$1/report.html" "${into:-$pictures}/$1.svg" "figure=$2"
+}
+
 # poster NAME COMMAND SCENE LOOK SIZE [KEY=VALUE …]: the viewer at LOOK (viewer/README.md) of a run or slice; SIZE: WIDTHxHEIGHT
 poster() {
   local sets=()
@@ -67,11 +75,11 @@ echo picture,scene,set,input_hash >"$work/rows"
 drawn arch limit.svg limit cases/arch/scene.toml
 drawn gate limit.svg limit examples/gate.toml --load right
 drawn joint_sets limit.svg limit examples/joint_sets.toml
-drawn stereonet stereonet.svg slice docs/slicing.toml --report
-drawn block_sizes block_sizes.svg slice docs/slicing.toml --report
+reported stereonet poles slice docs/slicing.toml --report
+reported block_sizes block-sizes slice docs/slicing.toml --report
 drawn joint_laws joint_test.svg joint-test docs/joint_laws.toml --stress 1e6 --stress 2e6 --slip 5e-3 --steps 60
-drawn wet_slope_study sample_1.svg study examples/wet_slope_study.toml --quiet
-drawn tutorial_poles stereonet.svg slice examples/tutorial/slope.toml --report
+reported wet_slope_study sample-1-histogram study examples/wet_slope_study.toml --quiet
+reported tutorial_poles poles slice examples/tutorial/slope.toml --report
 poster slab run docs/scenes.toml 'frame=9999&forces=arrows' 760x440
 poster wedge run examples/wedge.toml 'frame=9&magnified=10&colour=displacement&forces=arrows' 760x440
 poster column run docs/faces.toml 'frame=9999&magnified=300&colour=displacement&forces=arrows' 760x440

@@ -321,7 +321,7 @@ std::vector<std::string> cited_paths(std::string_view text) {
 }
 
 std::vector<std::string> dead_citations(const fs::path& root) {
-  static const std::set<std::string> written{"report.md", "openings_draws.md"};  // by programs
+  static const std::set<std::string> written{"openings_draws.md"};  // by programs
   std::set<std::string> names;
   std::vector<fs::path> sources;
   for (const char* folder : top_folders) {

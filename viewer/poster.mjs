@@ -1,7 +1,8 @@
 // node poster.mjs PAGE PICTURE [LOOK [WIDTH HEIGHT [SCALE]]]: a still picture of a page that `voussoir run --view` wrote, by
 // headless Chromium. LOOK is the part after # in its address, e.g.
 // "frame=3&magnified=100&colour=displacement&forces=arrows". The page draws it as its button `save PNG` does, or, if
-// PICTURE ends in .webp, as lossless WebP, about 0.6 times as large.
+// PICTURE ends in .webp, as lossless WebP, about 0.6 times as large. If it ends in .svg, PAGE is a report and LOOK names its
+// figure, e.g. "figure=poles".
 import { spawnSync } from 'node:child_process';
 import { writeFileSync } from 'node:fs';
 import { resolve } from 'node:path';
@@ -18,7 +19,7 @@ if (error?.code === 'ENOENT') {
   console.error('poster.mjs: chromium is not installed');
   process.exit(77);
 }
-const data = stdout?.match(/data-picture="data:image\/\w+;base64,([^"]+)"/);
+const data = stdout?.match(/data-picture="data:image\/[\w+]+;base64,([^"]+)"/);
 if (!data) {
   console.error(`poster.mjs: no picture: ${stderr.trim().split('\n').at(-1)}`);
   process.exit(1);

@@ -23,11 +23,6 @@ MeanOrientation mean_orientation(const std::vector<Vector<Dim>>& normals) {
   return found;
 }
 
-std::pair<double, double> pole_of(const Vector<3>& normal) {
-  const DipAndDirection angles = angles_of(normal);
-  return {(angles.direction + 180) * degree, (90 - angles.dip) * degree};
-}
-
 template MeanOrientation mean_orientation<2>(const std::vector<Vector<2>>&);
 template MeanOrientation mean_orientation<3>(const std::vector<Vector<3>>&);
 

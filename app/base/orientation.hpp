@@ -1,8 +1,7 @@
-// Orientations for reports: the mean of a set's joints, and poles for a stereonet.
+// Orientations for reports: the mean of a set's joints.
 #pragma once
 
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "app/base/dip_angles.hpp"
@@ -18,9 +17,5 @@ struct MeanOrientation {
 // to its side, (n - 1)/(n - |sum|) (Fisher 1953). At least one normal.
 template <int Dim>
 MeanOrientation mean_orientation(const std::vector<Vector<Dim>>& normals);
-
-// Trend (clockwise from north) and plunge (below horizontal) of the downward normal, rad: it plunges as steeply as the
-// plane is flat, away from the dip direction.
-std::pair<double, double> pole_of(const Vector<3>& normal);
 
 }  // namespace voussoir

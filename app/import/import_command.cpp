@@ -11,11 +11,13 @@
 #include "app/base/arguments.hpp"
 #include "app/base/message.hpp"
 #include "app/base/orientation.hpp"
-#include "app/base/svg_figure.hpp"
 #include "app/import/formats.hpp"
+#include "app/report/joints_data.hpp"
 #include "app/run_folder/claimed_folder.hpp"
+#include "app/view/page.hpp"
 #include "core/base/bad_input.hpp"
 #include "core/output/atomic_file.hpp"
+#include "core/run/checkpoint.hpp"
 #include "core/scene/scene_text.hpp"
 #include "text/plain_text.hpp"
 #include "text/read_file.hpp"
@@ -166,15 +168,23 @@ std::string sets_text(const ImportedJoints& found) {
   return text;
 }
 
-std::string stereonet(const ImportedJoints& found, const fs::path& file) {
-  std::vector<PoleSet> poles;
-  for (const auto& [name, joints] : sets_of(found)) {
-    PoleSet set{fmt::format("{} ({})", name.empty() ? "(none)" : name, joints.size()), {}};
-    for (const JointRow* joint : joints)
-      set.poles.push_back(pole_of(Vector<3>(joint->normal.data())));
-    poles.push_back(std::move(set));
+// with the lines that are printed, as they are
+std::string page_of(const ImportedJoints& found, const fs::path& file, const std::string& report) {
+  nlohmann::ordered_json joints = {{"schema", joints_schema},
+                                   {"schema_version", 1},
+                                   {"title", "Joints of " + printable(file.filename().string())},
+                                   {"program", build_name()},
+                                   {"dimension", found.dimension},
+                                   {"report", report},
+                                   {"notes", found.warnings},
+                                   {"sets", nlohmann::ordered_json::array()}};
+  for (const auto& [name, members] : sets_of(found)) {
+    std::vector<std::vector<double>> normals;
+    for (const JointRow* joint : members)
+      normals.push_back(joint->normal);
+    joints["sets"].push_back({{"name", name}, {"drawn", false}, {"normals", short_normals(normals)}});
   }
-  return stereonet_svg("Poles of the joints of " + printable(file.filename().string()), poles);
+  return report_page(json_text({{"joints", joints}}));
 }
 
 ExitCode import_command(const ImportArguments& arguments) {
@@ -185,18 +195,16 @@ ExitCode import_command(const ImportArguments& arguments) {
         fmt::format("{}: its joints make a table of more than {} MB, the largest that a scene reads; divide the file",
                     printable(arguments.file.string()), largest_scene_file >> 20));
   const fs::path& out = arguments.out;
-  const fs::path figure = fs::path(out).replace_filename(out.stem().string() + "_stereonet.svg");
-  const bool has_stereonet = found.dimension == 3;
-  claim_file(out, "import", {arguments.file}, arguments.overwrite);
-  if (has_stereonet) claim_file(figure, "import", {arguments.file}, arguments.overwrite);
-  write_file(out, table);
-  if (has_stereonet) write_file(figure, stereonet(found, arguments.file));
+  const fs::path page = fs::path(out).replace_filename(out.stem().string() + "_report.html");
+  for (const fs::path& file : {out, page})
+    claim_file(file, "import", {arguments.file}, arguments.overwrite);
   std::string report = fmt::format("joints: {}, {}-D\n", found.joints.size(), found.dimension) + box_text(found) +
                        out_of_plane_text(found) + dropped_text(found);
   for (const std::string& remark : found.remarks)
     report += remark + "\n";
-  fmt::print("{}{}table: {}\n", report, sets_text(found), out.string());
-  if (has_stereonet) fmt::print("stereonet: {}\n", figure.string());
+  write_file(out, table);
+  write_file(page, page_of(found, arguments.file, report));
+  fmt::print("{}{}table: {}\npage: {}\n", report, sets_text(found), out.string(), page.string());
   for (const std::string& warning : found.warnings)
     tell("voussoir: warning: {}: {}\n", printable(arguments.file.string()), warning);
   return ExitCode::done;
@@ -228,7 +236,8 @@ void add_import(CLI::App& program, Action& action) {
       ->expected(3)
       ->allow_extra_args(false)
       ->check(finite(-largest_argument, largest_argument));
-  command->add_flag("--overwrite", arguments.overwrite, "replace the table; the input file is never replaced");
+  command->add_flag("--overwrite", arguments.overwrite,
+                    "replace the table and its page; the input file is never replaced");
 }
 
 }  // namespace voussoir

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/base/arguments.hpp"
+#include "app/report/joints_data.hpp"
 #include "app/report/report_data.hpp"
 #include "app/run_folder/claimed_folder.hpp"
 #include "app/run_folder/run_folder.hpp"
@@ -30,8 +31,8 @@ ExitCode report_command(const ReportArguments& arguments) {
   const bool shown = fs::exists(blocks, error);
   const bool ours = arguments.out.empty() && made_here(arguments.folder, report_file);
   std::vector<fs::path> inputs;
-  for (const char* name :
-       {"results.json", "scene.toml", "history.csv", "search.csv", view_file, "study.json", "study.csv"})
+  for (const char* name : {"results.json", "scene.toml", "history.csv", "search.csv", "lining.csv", view_file,
+                           "study.json", "study.csv", "kinematics.json", "kinematic_pairs.csv", joints_data_file})
     inputs.push_back(arguments.folder / name);
   claim_file(target, "report", inputs, arguments.overwrite || ours);
   write_file(target, report_page(data, shown ? blocks : fs::path{}));
@@ -44,9 +45,12 @@ ExitCode report_command(const ReportArguments& arguments) {
 }  // namespace
 
 void add_report(CLI::App& program, Action& action) {
-  const auto [command, arguments] = add_command(
-      program, action, "report", "write report.html, one page of a run or a study for a dossier", report_command);
-  command->add_option("folder", arguments.folder, "folder of the run or study")->required()->check(plain_text());
+  const auto [command, arguments] =
+      add_command(program, action, "report", "write report.html, one page of a run, a study or joints for a dossier",
+                  report_command);
+  command->add_option("folder", arguments.folder, "folder of the run, study, kinematic analysis or slice")
+      ->required()
+      ->check(plain_text());
   add_out(command, arguments.out, "the page (default: report.html in the folder)");
   TitleBlock& block = arguments.block;
   command->add_option("--project", block.project, "of the title block");

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "app/report/joints_data.hpp"
 #include "app/run_folder/run_folder.hpp"
 #include "core/base/bad_input.hpp"
+#include "core/scene/toml_text.hpp"
 #include "text/read_file.hpp"
 
 namespace voussoir {
@@ -16,6 +18,8 @@ namespace fs = std::filesystem;
 
 // rows of a history in a page: more than a figure has pixels
 constexpr std::ptrdiff_t most_rows = 2000;
+
+constexpr const char* reported = "a run, a study, a kinematic analysis or a slice with --report";
 
 std::string text_of(const fs::path& file) {
   constexpr std::uintmax_t most = std::uintmax_t{1} << 30;
@@ -35,8 +39,7 @@ nlohmann::json json_of(const fs::path& file) {
 [[noreturn]] void refuse_folder(const fs::path& folder) {
   std::error_code error;
   if (!fs::is_directory(folder, error))
-    throw BadInput(fmt::format("'{}' is not a folder: name the folder of a run, a study or a kinematic analysis",
-                               folder.string()));
+    throw BadInput(fmt::format("'{}' is not a folder: name the folder of {}", folder.string(), reported));
   if (holds_unfinished_run(folder))
     throw BadInput(fmt::format("the run in '{0}' has not ended: end it with 'voussoir resume {0}'", folder.string()));
   if (fs::exists(folder / "manifest.jsonl", error))
@@ -59,20 +62,35 @@ std::string thinned(const std::string& table, std::ptrdiff_t every) {
   return kept;
 }
 
+// of the effective scene, which states every name and number in one form
+nlohmann::json lining_sections(const std::string& scene) {
+  const Node tree = parse_toml(scene, std::make_shared<const std::string>("scene.toml"));
+  auto sections = nlohmann::json::array();
+  for (const Subject& lining : children({&tree, ""}, "linings")) {
+    nlohmann::json& section = sections.emplace_back();
+    section["name"] = name_of(*lining.node);
+    for (const auto& [key, column] : {std::pair{"thickness", "thickness_m"},
+                                      {"compressive_strength", "compressive_strength_Pa"},
+                                      {"tensile_strength", "tensile_strength_Pa"}})
+      if (const Node* number = lining.node->find(key); number && number->is_number()) section[column] = number->number;
+  }
+  return sections;
+}
+
 void add_run(const fs::path& folder, nlohmann::json& data) {
   data["results"] = json_of(folder / "results.json");
   if (data["results"].value("schema", "") != "voussoir.results")
-    throw BadInput(
-        fmt::format("'{}' has results of another command than 'run', of which there is no report: name the folder of a "
-                    "run, a study or a kinematic analysis",
-                    folder.string()));
+    throw BadInput(fmt::format(
+        "'{}' has results of another command than 'run', of which there is no report: name the folder of {}",
+        folder.string(), reported));
   nlohmann::json& files = data["files"];
   files["scene"] = text_of(folder / "scene.toml");
   std::error_code error;
-  for (const char* name : {"history", "search"}) {
+  for (const char* name : {"history", "search", "lining"}) {
     const fs::path file = folder / fmt::format("{}.csv", name);
     if (fs::exists(file, error)) files[name] = text_of(file);
   }
+  if (files.contains("lining")) data["linings"] = lining_sections(files["scene"]);
   if (!files.contains("history")) return;
   const auto& text = files["history"].get_ref<const std::string&>();
   const std::ptrdiff_t every =
@@ -86,11 +104,14 @@ void add_study(const fs::path& folder, nlohmann::json& data) {
   nlohmann::json& files = data["files"];
   files["study"] = text_of(folder / "study.csv");
   files["manifest"] = text_of(folder / "manifest.jsonl");
-  files["samples"] = files["input"] = nlohmann::json::array();
+  files["input"] = nlohmann::json::array();
   std::error_code error;
-  for (int k = 1; fs::exists(folder / fmt::format("sample_{}.json", k), error); ++k)
-    files["samples"].push_back({{"json", text_of(folder / fmt::format("sample_{}.json", k))},
-                                {"csv", text_of(folder / fmt::format("sample_{}.csv", k))}});
+  for (const char* kind : {"sample", "grid"}) {
+    auto& found = files[fmt::format("{}s", kind)] = nlohmann::json::array();
+    for (int k = 1; fs::exists(folder / fmt::format("{}_{}.json", kind, k), error); ++k)
+      found.push_back({{"json", text_of(folder / fmt::format("{}_{}.json", kind, k))},
+                       {"csv", text_of(folder / fmt::format("{}_{}.csv", kind, k))}});
+  }
   for (const nlohmann::json& input : study.at("input")) {
     const std::string name = input.at("file");
     if (name.ends_with(".toml")) files["input"].push_back({{"name", name}, {"text", text_of(folder / name)}});
@@ -100,6 +121,14 @@ void add_study(const fs::path& folder, nlohmann::json& data) {
 void add_kinematics(const fs::path& folder, nlohmann::json& data) {
   data["kinematics"] = json_of(folder / "kinematics.json");
   data["files"]["pairs"] = text_of(folder / "kinematic_pairs.csv");
+}
+
+void add_joints(const fs::path& folder, nlohmann::json& data) {
+  const fs::path file = folder / joints_data_file;
+  nlohmann::json& joints = data["joints"] = json_of(file);
+  if (!joints.is_object() || joints.value("schema", "") != joints_schema)
+    throw BadInput(
+        fmt::format("'{}' is no file of 'voussoir slice --report': name the folder of {}", file.string(), reported));
 }
 
 }  // namespace
@@ -113,6 +142,8 @@ std::string report_data(const fs::path& folder, const TitleBlock& block) {
     add_study(folder, data);
   else if (fs::exists(folder / "kinematics.json", error))
     add_kinematics(folder, data);
+  else if (fs::exists(folder / joints_data_file, error))
+    add_joints(folder, data);
   else
     refuse_folder(folder);
   data["block"] = {{"project", block.project},

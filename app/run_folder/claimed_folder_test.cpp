@@ -75,7 +75,7 @@ TEST_F(Claimed, InputsAreKeptEvenIfACommandMadeThem) {
   const Ended ended = run("slice out/again.toml --out out --overwrite");
   EXPECT_EQ(ended.code, 0) << ended.err;
   EXPECT_EQ(read(folder_ / "out/joints.csv"), joints);
-  EXPECT_FALSE(fs::exists(folder_ / "out/report.md"));
+  EXPECT_FALSE(fs::exists(folder_ / "out/report.html"));
   expect_one_line(run("slice out/again.toml --report --out out --overwrite"), 2, "out/joints.csv' is read by");
 }
 

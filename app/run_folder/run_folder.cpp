@@ -124,7 +124,7 @@ Outputs run_outputs() {
       true};
   for (const std::string& table : support_table_files())
     outputs.files.push_back(table);
-  outputs.files.insert(outputs.files.end(), {search_table, search_picture, report_file});
+  outputs.files.insert(outputs.files.end(), {search_table, report_file});
   return outputs;
 }
 

@@ -6,7 +6,7 @@
 //   end_state                  on request: the state at which another run can begin
 //   (app/run_folder/begin_run.hpp) history.csv, frames/, blocks.pvd, contacts.pvd; with bolts also bolts.pvd and
 //   bolts.csv, with linings linings.pvd and lining.csv; view.bin, view.html on request; of a search also
-//   search.csv, search.svg (app/run_folder/search_files.hpp), trial_blocks.pvd, trial_contacts.pvd
+//   search.csv (app/run_folder/search_files.hpp), trial_blocks.pvd, trial_contacts.pvd
 //   report.html, when `voussoir report` made it
 //   results.json               comes last: if it exists, the run is complete and the checkpoints are gone
 #pragma once

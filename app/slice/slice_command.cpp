@@ -8,7 +8,10 @@
 
 #include "app/base/arguments.hpp"
 #include "app/base/run_scene.hpp"
+#include "app/report/joints_data.hpp"
+#include "app/report/report_data.hpp"
 #include "app/run_folder/claimed_folder.hpp"
+#include "app/run_folder/run_folder.hpp"
 #include "app/slice/slice_report.hpp"
 #include "app/view/page.hpp"
 #include "core/base/bad_input.hpp"
@@ -31,7 +34,7 @@ struct SliceArguments {
   SceneArguments scene;
   std::filesystem::path out;
   bool view = false;                                           // view.html
-  bool report = false;                                         // on the joint sets, and joints.csv
+  bool report = false;                                         // report.html, on the joint sets, and joints.csv
   bool planes = false, stl = false, obj = false, dxf = false;  // further formats of the blocks
   bool overwrite = false;
 };
@@ -115,7 +118,7 @@ void write_formats(const Model<Dim>& model, const SliceArguments& arguments) {
   }
 }
 
-Outputs outputs_of(const SliceArguments& arguments, int dimension) {
+Outputs outputs_of(const SliceArguments& arguments) {
   Outputs outputs{"slice", {"blocks.csv", "blocks.vtp"}};
   const auto add = [&](bool wanted, std::initializer_list<const char*> names) {
     if (wanted) outputs.files.insert(outputs.files.end(), names.begin(), names.end());
@@ -125,8 +128,7 @@ Outputs outputs_of(const SliceArguments& arguments, int dimension) {
   add(arguments.stl, {"blocks.stl"});
   add(arguments.obj, {"blocks.obj"});
   add(arguments.dxf, {dxf_file});
-  add(arguments.report, {"report.md", "joints.csv", "spacing.svg", "block_sizes.svg"});
-  add(arguments.report && dimension == 3, {"stereonet.svg"});
+  add(arguments.report, {"joints.csv", joints_data_file, report_file});
   return outputs;
 }
 
@@ -156,7 +158,7 @@ ExitCode slice_command(const SliceArguments& arguments) {
     throw BadInput(
         "--planes, --stl and --obj write blocks of half-spaces but the scene has potential particles; blocks.vtp has "
         "their surfaces");
-  const ClaimedFolder claim(arguments.out, outputs_of(arguments, loaded.dimension), loaded.files, arguments.overwrite);
+  const ClaimedFolder claim(arguments.out, outputs_of(arguments), loaded.files, arguments.overwrite);
   std::visit(
       [&](const auto& prepared) {
         write_blocks(prepared, arguments);
@@ -169,6 +171,10 @@ ExitCode slice_command(const SliceArguments& arguments) {
     const BlockSizes sizes =
         std::visit([](const auto& prepared) { return block_sizes(prepared.model); }, loaded.prepared);
     fmt::print("\n{}", write_slice_report(scene, sizes, arguments.out));
+    const fs::path page = arguments.out / report_file;
+    write_file(page,
+               report_page(report_data(arguments.out, {}), arguments.view ? arguments.out / view_file : fs::path{}));
+    fmt::print("\npage: {}\n", page.string());
   }
   return ExitCode::done;
 }
@@ -180,11 +186,10 @@ void add_slice(CLI::App& program, Action& action) {
       add_command(program, action, "slice", "cut the blocks and write them, without running", slice_command);
   add_scene(command, arguments.scene);
   add_out(command, arguments.out, "folder of blocks.vtp and blocks.csv", true);
-  command->add_flag("--report", arguments.report,
-                    "report on joint sets, measured against stated, and on listed joints by their set: report.md, "
-                    "joints.csv, stereonet, "
-                    "spacings, block "
-                    "sizes");
+  command->add_flag(
+      "--report", arguments.report,
+      "write report.html, a page on joint sets, measured against stated, and on listed joints by their set, with "
+      "stereonet, spacings and block sizes; and joints.csv");
   command->add_flag("--view", arguments.view, "write the interactive 3-D page view.html");
   command->add_flag("--planes", arguments.planes,
                     "the planes of the blocks: block_planes.csv, readable as blocks_file");

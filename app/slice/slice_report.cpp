@@ -5,13 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <numeric>
 
 #include "app/base/orientation.hpp"
-#include "app/base/svg_figure.hpp"
+#include "app/report/joints_data.hpp"
 #include "core/exchange/tables.hpp"
 #include "core/joint_sets/statistics.hpp"
 #include "core/output/atomic_file.hpp"
+#include "core/run/checkpoint.hpp"
 #include "core/scene/bodies.hpp"
 #include "core/scene/draw_joint_sets.hpp"
 #include "core/scene/joint_outline.hpp"
@@ -137,80 +139,162 @@ std::string joints_csv(const Sample<Dim>& sample) {
   return joint_table(rows, Dim);
 }
 
-// ---- report.md
+// ---- the tables
 
-std::string row(const std::string& quantity, const std::string& unit, const std::string& stated,
-                const std::string& found, double error) {
-  return fmt::format("| {} | {} | {} | {} | {} |\n", quantity, unit, stated, found,
-                     error > 0 ? fmt::format("{:.2g}", error) : "");
+// a quantity of a set: as the scene states it, as measured, and the standard error; nothing: an empty cell
+struct QuantityRow {
+  std::string quantity, unit;
+  std::optional<double> stated;
+  double measured = 0;
+  std::optional<double> error;
+};
+
+struct SetReport {
+  std::string name;    // empty: joints without a set
+  bool drawn = false;  // from a [[joint_sets]] of the scene, else listed one by one
+  std::vector<QuantityRow> rows;
+  std::vector<std::vector<double>> normals;
+  std::vector<double> spacings;  // m, ascending, along the mean normal
+  double frequency = 0;          // 1/m, as stated
+};
+
+template <int Dim, class Joints>
+std::vector<std::vector<double>> normals_of(const Joints& joints) {
+  std::vector<std::vector<double>> normals;
+  for (const auto& joint : joints)
+    normals.push_back(numbers_of<Dim>(joint.normal));
+  return normals;
 }
 
-std::string row(const std::string& quantity, const std::string& unit, double stated, const Estimate& found) {
-  return row(quantity, unit, fmt::format("{:.5g}", stated), fmt::format("{:.5g}", found.value), found.error);
+std::optional<double> known(double error) {
+  return error > 0 ? std::optional<double>(error) : std::nullopt;
+}
+
+QuantityRow estimated(const std::string& quantity, const std::string& unit, std::optional<double> stated,
+                      const Estimate& found) {
+  return {quantity, unit, stated, found.value, known(found.error)};
 }
 
 template <int Dim>
-std::string orientation_rows(const JointSet& set, const SetStatistics<Dim>& found) {
-  if (Dim == 2 || found.fisher_constant.value == 0) return "";
-  if (set.scatter == Scatter::fisher) return row("Fisher's constant", "1", set.fisher_constant, found.fisher_constant);
-  return row("Fisher's constant", "1", "", fmt::format("{:.5g}", found.fisher_constant.value),
-             found.fisher_constant.error);
-}
+constexpr const char* intensity_name = Dim == 3 ? "P32, area per volume" : "P21, length per area";
 
 template <int Dim>
-std::string size_rows(const JointSet& set, const SetStatistics<Dim>& found) {
-  if (set.size_law == SizeLaw::persistent) return "";
+std::vector<QuantityRow> size_rows(const JointSet& set, const SetStatistics<Dim>& found) {
+  if (set.size_law == SizeLaw::persistent) return {};
   const double deviation = set.size_law == SizeLaw::lognormal     ? set.size_deviation
                            : set.size_law == SizeLaw::exponential ? set.size_mean
                                                                   : 0;
-  return row("joints centred in the domain", "1", "", fmt::format("{}", found.centred), 0) +
-         row("mean size of these", "m", set.size_mean, found.size) +
-         row("deviation of these", "m", fmt::format("{:.5g}", deviation), fmt::format("{:.5g}", found.size_deviation),
-             0);
+  return {{"joints centred in the domain", "1", {}, static_cast<double>(found.centred), {}},
+          estimated("mean size of these", "m", set.size_mean, found.size),
+          {"deviation of these", "m", deviation, found.size_deviation, {}}};
 }
 
 template <int Dim>
-std::string set_text(const JointSet& set, const SetStatistics<Dim>& found) {
-  std::string text = fmt::format(
-      "## {}\n\n| quantity | unit | stated | measured | standard error |\n|---|---|---|---|---|\n", set.name);
-  text += row("joints that meet the domain", "1", "", fmt::format("{}", found.inside), 0);
-  text +=
-      row(Dim == 3 ? "P32, area per volume" : "P21, length per area", "1/m", found.stated_intensity, found.intensity);
-  text += row("P10 along the mean normal", "1/m", found.stated_frequency, found.frequency);
+SetReport report_on(const DrawnSet<Dim>& drawn, const SetStatistics<Dim>& found) {
+  const JointSet& set = drawn.spec->set;
+  SetReport report{set.name, true, {}, normals_of<Dim>(drawn.joints), found.spacings, found.stated_frequency};
+  std::vector<QuantityRow>& rows = report.rows;
+  rows.push_back({"joints that meet the domain", "1", {}, static_cast<double>(found.inside), {}});
+  rows.push_back(estimated(intensity_name<Dim>, "1/m", found.stated_intensity, found.intensity));
+  rows.push_back(estimated("P10 along the mean normal", "1/m", found.stated_frequency, found.frequency));
   for (std::size_t k = 0; k < found.traces.size(); ++k)
-    text +=
-        row(fmt::format("P21 on the section normal to {}", "xyz"[k]), "1/m", found.stated_traces[k], found.traces[k]);
-  const Moments spacing = moments_of(found.spacings);
-  if (!found.spacings.empty())
-    text += row("spacing along the mean normal", "m", 1 / found.stated_frequency,
-                {spacing.mean.value, 0}) +  // several lines cross one joint: their spacings are not independent
-            row("its deviation over its mean", "1",
-                set.size_law == SizeLaw::persistent && set.arrangement == Arrangement::equal ? "0" : "1",
-                fmt::format("{:.4g}", spacing.deviation / spacing.mean.value), 0);
-  return text + orientation_rows<Dim>(set, found) + size_rows<Dim>(set, found) + "\n";
+    rows.push_back(estimated(fmt::format("P21 on the section normal to {}", "xyz"[k]), "1/m", found.stated_traces[k],
+                             found.traces[k]));
+  if (!found.spacings.empty()) {
+    // without an error: several lines cross one joint, so that their spacings are not independent
+    const Moments spacing = moments_of(found.spacings);
+    const bool equal = set.size_law == SizeLaw::persistent && set.arrangement == Arrangement::equal;
+    rows.push_back({"spacing along the mean normal", "m", 1 / found.stated_frequency, spacing.mean.value, {}});
+    rows.push_back({"its deviation over its mean", "1", equal ? 0.0 : 1.0, spacing.deviation / spacing.mean.value, {}});
+  }
+  if (Dim == 3 && found.fisher_constant.value != 0)
+    rows.push_back(estimated("Fisher's constant", "1",
+                             set.scatter == Scatter::fisher ? std::optional(set.fisher_constant) : std::nullopt,
+                             found.fisher_constant));
+  for (QuantityRow& row : size_rows<Dim>(set, found))
+    rows.push_back(std::move(row));
+  return report;
 }
 
 template <int Dim>
-std::string measured_text(const MeasuredSet<Dim>& set) {
+SetReport report_on(const MeasuredSet<Dim>& set) {
   const SetStatistics<Dim>& found = set.statistics;
-  std::string text =
-      fmt::format("## {} (stated)\n\n| quantity | unit | measured | standard error |\n|---|---|---|---|\n", set.name);
-  const auto add = [&](const char* quantity, const char* unit, const std::string& value, double error = 0) {
-    text +=
-        fmt::format("| {} | {} | {} | {} |\n", quantity, unit, value, error > 0 ? fmt::format("{:.2g}", error) : "");
-  };
-  const auto add_estimate = [&](const char* quantity, const Estimate& value) {
-    add(quantity, "1/m", fmt::format("{:.5g}", value.value), value.error);
-  };
-  add("joints", "1", fmt::format("{}", set.joints.size()));
-  add("joints that meet the domain", "1", fmt::format("{}", found.inside));
-  add("mean dip", "deg", fmt::format("{:.1f}", set.mean.angles.dip));
-  add("mean dip direction", "deg", fmt::format("{:.1f}", set.mean.angles.direction));
-  if (set.mean.fisher_constant) add("Fisher's constant", "1", fmt::format("{:.4g}", *set.mean.fisher_constant));
-  add_estimate(Dim == 3 ? "P32, area per volume" : "P21, length per area", found.intensity);
-  add_estimate("P10 along the mean normal", found.frequency);
+  SetReport report{set.name, false, {}, normals_of<Dim>(set.joints), found.spacings, 0};
+  std::vector<QuantityRow>& rows = report.rows;
+  rows.push_back({"joints", "1", {}, static_cast<double>(set.joints.size()), {}});
+  rows.push_back({"joints that meet the domain", "1", {}, static_cast<double>(found.inside), {}});
+  rows.push_back({"mean dip", "deg", {}, set.mean.angles.dip, {}});
+  rows.push_back({"mean dip direction", "deg", {}, set.mean.angles.direction, {}});
+  if (set.mean.fisher_constant) rows.push_back({"Fisher's constant", "1", {}, *set.mean.fisher_constant, {}});
+  rows.push_back(estimated(intensity_name<Dim>, "1/m", {}, found.intensity));
+  rows.push_back(estimated("P10 along the mean normal", "1/m", {}, found.frequency));
   if (!found.spacings.empty())
-    add("spacing along the mean normal", "m", fmt::format("{:.5g}", moments_of(found.spacings).mean.value));
+    rows.push_back({"spacing along the mean normal", "m", {}, moments_of(found.spacings).mean.value, {}});
+  return report;
+}
+
+template <int Dim>
+std::vector<SetReport> reports_on(const Sample<Dim>& sample) {
+  std::vector<SetReport> reports;
+  for (const MeasuredSet<Dim>& set : sample.measured)
+    reports.push_back(report_on<Dim>(set));
+  for (std::size_t s = 0; s < sample.sets.size(); ++s)
+    reports.push_back(report_on<Dim>(sample.sets[s], sample.statistics[s]));
+  if (sample.single.empty()) return reports;
+  SetReport& single = reports.emplace_back();
+  for (const Vector<Dim>& normal : sample.single)
+    single.normals.push_back(numbers_of<Dim>(normal));
+  return reports;
+}
+
+// remarks on how sets were measured
+template <int Dim>
+std::vector<std::string> notes_on(const Sample<Dim>& sample) {
+  const std::string domain = fmt::format("{:.6g} {}", sample.domain.mass.volume, Dim == 3 ? "m³" : "m²");
+  std::vector<std::string> notes;
+  if (!sample.sets.empty())
+    notes.push_back(
+        fmt::format("Drawn in unbounded rock and measured inside the domain ({}). A standard error is that of a "
+                    "Poisson process: the scatter between seeds. Scanlines are no longer than the domain: they miss "
+                    "wide spacings.",
+                    domain));
+  if (!sample.measured.empty())
+    notes.push_back(
+        fmt::format("Sets marked as stated were not drawn at random: they are the joints that the scene lists, by "
+                    "their `set`, in the domain ({}). The mean orientation is that of all joints of a set; the "
+                    "standard error is that of a Poisson process of such joints.",
+                    domain));
+  if (!sample.single.empty())
+    notes.push_back(fmt::format("{} stated without a set.", sample.single.size() == 1
+                                                                ? "1 joint is"
+                                                                : fmt::format("{} joints are", sample.single.size())));
+  const auto confined = std::ranges::count_if(
+      sample.scene.joints, [](const JointSpec& spec) { return spec.within || !spec.ends_at.empty(); });
+  if (confined > 0)
+    notes.push_back(fmt::format(
+        "`within` and `ends_at` of {} stated joints are not counted here: intensities are too high by that.",
+        confined));
+  return notes;
+}
+
+// ---- as text
+
+constexpr int block_shares[] = {10, 25, 50, 75, 90};  // %
+
+// counts in full, other numbers to five digits
+std::string cell(std::optional<double> number) {
+  if (!number) return "";
+  return std::round(*number) == *number ? fmt::format("{:.0f}", *number) : fmt::format("{:.5g}", *number);
+}
+
+std::string set_text(const SetReport& set) {
+  std::string text =
+      fmt::format("## {}{}\n\n| quantity | unit |{} measured | standard error |\n|---|---|{}---|---|\n", set.name,
+                  set.drawn ? "" : " (stated)", set.drawn ? " stated |" : "", set.drawn ? "---|" : "");
+  for (const QuantityRow& row : set.rows)
+    text += fmt::format("| {} | {} |{} {} | {} |\n", row.quantity, row.unit,
+                        set.drawn ? fmt::format(" {} |", cell(row.stated)) : "", cell(row.measured),
+                        row.error ? fmt::format("{:.2g}", *row.error) : "");
   return text + "\n";
 }
 
@@ -221,132 +305,90 @@ std::string block_text(const BlockSizes& blocks, int dimension) {
   std::string text =
       fmt::format("## Blocks\n\n{} blocks, {:.6g} {} in total.\n\n| blocks up to this size make up | {} |\n|---|---|\n",
                   v.size(), total, unit, unit);
-  for (const int fraction : {10, 25, 50, 75, 90})
-    text += fmt::format("| {} % of the whole | {:.4g} |\n", fraction, size_at_fraction(v, fraction / 100.0));
+  for (const int share : block_shares)
+    text += fmt::format("| {} % of the whole | {:.4g} |\n", share, size_at_fraction(v, share / 100.0));
   return text + fmt::format("| smallest block | {:.4g} |\n| largest block | {:.4g} |\n", v.front(), v.back());
 }
 
-template <int Dim>
-std::string report_text(const Sample<Dim>& sample, const BlockSizes& blocks) {
-  const char* const cubic = Dim == 3 ? "m³" : "m²";
-  std::string text =
-      fmt::format("# Joints of {}\n\n", sample.scene.title.empty() ? sample.scene.file : sample.scene.title);
-  if (!sample.sets.empty())
-    text += fmt::format(
-        "Drawn in unbounded rock and measured inside the domain ({:.6g} {}). A standard error is that of a Poisson "
-        "process: the scatter between seeds. Scanlines are no longer than the domain: they miss wide "
-        "spacings.\n\n",
-        sample.domain.mass.volume, cubic);
-  if (!sample.measured.empty())
-    text += fmt::format(
-        "Sets marked as stated were not drawn at random: they are the joints that the scene lists, by their `set`, "
-        "in "
-        "the domain ({:.6g} {}). The mean orientation is that of all joints of a set; the standard error is that of a "
-        "Poisson process of such joints.\n\n",
-        sample.domain.mass.volume, cubic);
-  if (!sample.single.empty())
-    text += fmt::format("{} stated without a set.\n\n",
-                        sample.single.size() == 1 ? "1 joint is" : fmt::format("{} joints are", sample.single.size()));
-  const auto confined = std::ranges::count_if(
-      sample.scene.joints, [](const JointSpec& spec) { return spec.within || !spec.ends_at.empty(); });
-  if (confined > 0)
-    text += fmt::format(
-        "`within` and `ends_at` of {} stated joints are not counted here: intensities are too high by that.\n\n",
-        confined);
-  for (const MeasuredSet<Dim>& set : sample.measured)
-    text += measured_text<Dim>(set);
-  for (std::size_t s = 0; s < sample.sets.size(); ++s)
-    text += set_text<Dim>(sample.sets[s].spec->set, sample.statistics[s]);
-  text += block_text(blocks, Dim);
-  return text;
+std::string title_of(const Scene& scene) {
+  return "Joints of " + (scene.title.empty() ? scene.file : scene.title);
 }
 
-// ---- figures
+// ---- as data of the page
 
-// at most about a hundred points of a cumulative distribution
-Points cumulative(const std::vector<double>& ascending, const std::vector<double>& weights) {
+// of at most some hundred points of a cumulative distribution: a value and the share of the whole up to it, %
+nlohmann::ordered_json cumulative(const std::vector<double>& ascending, const std::vector<double>& weights) {
   constexpr std::size_t most_points = 400;
   const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
   const std::size_t stride = std::max<std::size_t>(1, ascending.size() / most_points);
-  Points points;
+  auto points = nlohmann::ordered_json::array();
   double sum = 0;
   for (std::size_t i = 0; i < ascending.size(); ++i) {
     sum += weights[i];
-    if (i % stride == stride - 1 || i + 1 == ascending.size()) points.emplace_back(ascending[i], 100 * sum / total);
+    if (i % stride == stride - 1 || i + 1 == ascending.size()) points.push_back({ascending[i], 100 * sum / total});
   }
   return points;
 }
 
-Curve spacing_curve(const std::string& name, const std::vector<double>& spacings) {
-  return {Curve::Kind::line, name, cumulative(spacings, std::vector<double>(spacings.size(), 1.0))};
+nlohmann::ordered_json by_number(const std::vector<double>& ascending) {
+  return cumulative(ascending, std::vector<double>(ascending.size(), 1.0));
 }
 
-template <int Dim>
-std::string spacing_figure(const Sample<Dim>& sample) {
-  Diagram diagram{"Spacing along the mean normals", "spacing (m)", "spacings up to this (%)", false, {}};
-  for (const MeasuredSet<Dim>& set : sample.measured)
-    diagram.curves.push_back(spacing_curve(set.name + ", stated", set.statistics.spacings));
-  for (std::size_t s = 0; s < sample.sets.size(); ++s)
-    diagram.curves.push_back(spacing_curve(sample.sets[s].spec->set.name, sample.statistics[s].spacings));
-  // the distribution of a Poisson process along a line, for the widest set
-  double rarest = 0, widest = 0;
-  for (const SetStatistics<Dim>& found : sample.statistics) {
-    if (found.spacings.empty()) continue;
-    widest = std::max(widest, found.spacings.back());
-    rarest = rarest == 0 ? found.stated_frequency : std::min(rarest, found.stated_frequency);
-  }
-  if (sample.sets.empty()) return svg(diagram);
-  Curve exponential{Curve::Kind::line, fmt::format("exponential, {:.3g} /m", rarest), {}};
-  constexpr int steps = 100;
-  for (int k = 0; k <= steps && rarest > 0; ++k)
-    exponential.points.emplace_back(widest * k / steps, 100 * (1 - std::exp(-rarest * widest * k / steps)));
-  diagram.curves.push_back(std::move(exponential));
-  return svg(diagram);
+nlohmann::ordered_json or_null(std::optional<double> number) {
+  return number ? nlohmann::ordered_json(*number) : nlohmann::ordered_json(nullptr);
 }
 
-std::string block_figure(const BlockSizes& blocks, int dimension) {
-  const std::vector<double>& v = blocks.volumes;
-  return svg({"Block sizes",
-              dimension == 3 ? "volume (m³)" : "area (m²)",
-              "in blocks up to this (%)",
-              true,
-              {{Curve::Kind::line, "of their number", cumulative(v, std::vector<double>(v.size(), 1.0))},
-               {Curve::Kind::line, "of the whole", cumulative(v, v)}}});
+nlohmann::ordered_json set_json(const SetReport& set) {
+  nlohmann::ordered_json json = {{"name", set.name}, {"drawn", set.drawn}, {"rows", nlohmann::ordered_json::array()}};
+  for (const QuantityRow& row : set.rows)
+    json["rows"].push_back({{"quantity", row.quantity},
+                            {"unit", row.unit},
+                            {"stated", or_null(row.stated)},
+                            {"measured", row.measured},
+                            {"error", or_null(row.error)}});
+  json["frequency_per_m"] = set.frequency;
+  json["spacings_m"] = by_number(set.spacings);
+  json["normals"] = short_normals(set.normals);
+  return json;
 }
 
-std::string stereonet(const Sample<3>& sample) {
-  std::vector<PoleSet> sets;
-  const auto add = [&](const std::string& name, std::size_t count) -> PoleSet& {
-    return sets.emplace_back(PoleSet{fmt::format("{} ({})", name, count), {}});
-  };
-  for (const MeasuredSet<3>& measured : sample.measured) {
-    PoleSet& set = add(measured.name + ", stated", measured.joints.size());
-    for (const DrawnJoint<3>& joint : measured.joints)
-      set.poles.push_back(pole_of(joint.normal));
-  }
-  if (!sample.single.empty()) {
-    PoleSet& set = add("without a set", sample.single.size());
-    for (const Vector<3>& normal : sample.single)
-      set.poles.push_back(pole_of(normal));
-  }
-  for (const DrawnSet<3>& drawn : sample.sets) {
-    PoleSet& set = add(drawn.spec->set.name, drawn.joints.size());
-    for (const DrawnJoint<3>& joint : drawn.joints)
-      set.poles.push_back(pole_of(joint.normal));
-  }
-  return stereonet_svg("Poles of the joints", sets);
+nlohmann::ordered_json block_json(const std::vector<double>& volumes) {
+  nlohmann::ordered_json json = {{"count", volumes.size()},
+                                 {"total", std::accumulate(volumes.begin(), volumes.end(), 0.0)},
+                                 {"smallest", volumes.front()},
+                                 {"largest", volumes.back()}};
+  for (const int share : block_shares)
+    json["shares"].push_back({share, size_at_fraction(volumes, share / 100.0)});
+  json["by_number"] = by_number(volumes);
+  json["by_size"] = cumulative(volumes, volumes);
+  return json;
 }
 
 template <int Dim>
 std::string write_report(const Scene& scene, const BlockSizes& blocks, const fs::path& folder) {
   const Sample<Dim> sample = sample_of<Dim>(scene);
-  const std::string text = report_text<Dim>(sample, blocks);
+  const std::vector<SetReport> sets = reports_on<Dim>(sample);
+  const std::vector<std::string> notes = notes_on<Dim>(sample);
+  std::string text = fmt::format("# {}\n\n", title_of(scene));
+  for (const std::string& note : notes)
+    text += note + "\n\n";
+  nlohmann::ordered_json json = {{"schema", joints_schema},
+                                 {"schema_version", 1},
+                                 {"title", title_of(scene)},
+                                 {"program", build_name()},
+                                 {"input_hash", input_hash(scene)},
+                                 {"dimension", Dim},
+                                 {"domain", sample.domain.mass.volume},
+                                 {"notes", notes},
+                                 {"sets", nlohmann::ordered_json::array()}};
+  for (const SetReport& set : sets) {
+    if (!set.name.empty()) text += set_text(set);
+    json["sets"].push_back(set_json(set));
+  }
+  json["blocks"] = block_json(blocks.volumes);
   write_file(folder / "joints.csv", joints_csv<Dim>(sample));
-  write_file(folder / "report.md", text);
-  if constexpr (Dim == 3) write_file(folder / "stereonet.svg", stereonet(sample));
-  write_file(folder / "spacing.svg", spacing_figure<Dim>(sample));
-  write_file(folder / "block_sizes.svg", block_figure(blocks, Dim));
-  return text;
+  write_file(folder / joints_data_file, json_text(json) + "\n");
+  return text + block_text(blocks, Dim);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // A report on a scene's joints in its domain: drawn sets, measured against stated, and listed joints by their set; a
-// table, joints.csv and figures.
+// table, joints.csv, and the data of the page.
 #pragma once
 
 #include <filesystem>
@@ -19,8 +19,8 @@ struct BlockSizes {
 template <int Dim>
 BlockSizes block_sizes(const Model<Dim>& model);
 
-// Draws the sets of a scene and writes joints.csv, report.md and figures to the folder; returns report.md's text.
-// Throws SceneError, OutputError.
+// Draws the sets of a scene and writes joints.csv and joints.json (app/report/joints_data.hpp) to the folder; returns
+// the tables as text. Throws SceneError, OutputError.
 std::string write_slice_report(const Scene& scene, const BlockSizes& blocks, const std::filesystem::path& folder);
 
 }  // namespace voussoir

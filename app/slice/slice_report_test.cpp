@@ -1,7 +1,7 @@
 // `voussoir slice` with its report and its formats, as users see it.
 #include <gtest/gtest.h>
 
-#include <map>
+#include <nlohmann/json.hpp>
 
 #include "app/testing/program.hpp"
 
@@ -36,23 +36,56 @@ spacing = 2.5
 arrangement = "equal"
 )";
 
-class SliceReport : public Program {};
+class SliceReport : public Program {
+ protected:
+  nlohmann::json joints_of(const std::string& folder) const {
+    return nlohmann::json::parse(read(folder_ / folder / "joints.json"));
+  }
+};
 
-TEST_F(SliceReport, WritesTablesFiguresAndFormats) {
+// of a set the row with this quantity
+nlohmann::json row_of(const nlohmann::json& set, const std::string& quantity) {
+  for (const nlohmann::json& row : set.at("rows"))
+    if (row.at("quantity") == quantity) return row;
+  return nullptr;
+}
+
+// a cumulative curve rises to the whole
+void expect_cumulative(const nlohmann::json& curve) {
+  ASSERT_FALSE(curve.empty());
+  double value = 0, share = 0;
+  for (const nlohmann::json& point : curve) {
+    EXPECT_GE(point.at(0).get<double>(), value);
+    EXPECT_GE(point.at(1).get<double>(), share);
+    value = point.at(0), share = point.at(1);
+  }
+  EXPECT_NEAR(share, 100, 1e-9);
+}
+
+TEST_F(SliceReport, WritesTablesPageAndFormats) {
   write("scene.toml", in_space);
   const Ended ended = run("slice scene.toml --out out --report --planes --stl --obj");
   ASSERT_EQ(ended.code, 0) << ended.err;
-  const std::string report = read(folder_ / "out/report.md");
-  EXPECT_NE(ended.out.find(report), std::string::npos);
   for (const char* part :
        {"# Joints of two sets & a bed", "## A", "## B", "## Blocks", "P32", "P10", "Fisher's constant"})
-    EXPECT_NE(report.find(part), std::string::npos) << part;
-  for (const char* name : {"out/stereonet.svg", "out/spacing.svg", "out/block_sizes.svg"}) {
-    const std::string figure = read(folder_ / name);
-    EXPECT_TRUE(figure.starts_with("<svg ") && figure.ends_with("</svg>\n")) << name;
-    EXPECT_EQ(figure.find("nan"), std::string::npos) << name;
-    EXPECT_EQ(figure.find("inf"), std::string::npos) << name;
+    EXPECT_NE(ended.out.find(part), std::string::npos) << part;
+  const nlohmann::json joints = joints_of("out");
+  EXPECT_EQ(joints["title"], "Joints of two sets & a bed");
+  ASSERT_EQ(joints["sets"].size(), 3u);
+  for (const nlohmann::json& set : joints["sets"]) {
+    for (const nlohmann::json& normal : set["normals"])
+      EXPECT_NEAR(std::hypot(normal[0].get<double>(), normal[1].get<double>(), normal[2].get<double>()), 1, 1e-6);
+    if (set["drawn"]) expect_cumulative(set["spacings_m"]);
   }
+  expect_cumulative(joints["blocks"]["by_number"]);
+  expect_cumulative(joints["blocks"]["by_size"]);
+
+  // the page has the text of a scene as data only, and is made again from the folder
+  const std::string page = read(folder_ / "out/report.html");
+  EXPECT_TRUE(page.starts_with("<!doctype html>"));
+  EXPECT_EQ(page.find("two sets"), std::string::npos);
+  ASSERT_EQ(run("report out").code, 0);
+  EXPECT_EQ(read(folder_ / "out/report.html"), page);
 
   // read back: the same blocks from the table of joints, from planes, and from vertices
   const std::string blocks = read(folder_ / "out/blocks.csv");
@@ -84,14 +117,6 @@ TEST_F(SliceReport, WritesTablesFiguresAndFormats) {
   }
 }
 
-// how many poles of each colour a stereonet has
-std::map<std::string, int> poles_of(const std::string& figure) {
-  std::map<std::string, int> poles;
-  for (const std::string& line : lines_of(figure))
-    if (const std::size_t at = line.find("r=\"2\" fill=\""); at != std::string::npos) ++poles[line.substr(at + 12, 7)];
-  return poles;
-}
-
 // joints of a table are judged by its column `set`, and never called drawn
 TEST_F(SliceReport, ReportsListedJointsByTheirSet) {
   std::string table = "name,set,x_m,y_m,z_m,dip_deg,dip_direction_deg\n";
@@ -106,33 +131,39 @@ TEST_F(SliceReport, ReportsListedJointsByTheirSet) {
             head);
   Ended ended = run("slice scene.toml --out out --report");
   ASSERT_EQ(ended.code, 0) << ended.err;
-  std::string report = read(folder_ / "out/report.md");
+  std::string report = ended.out;
   EXPECT_EQ(report.find("Drawn"), std::string::npos) << report;
   EXPECT_NE(report.find("were not drawn at random"), std::string::npos) << report;
   for (const char* part :
-       {"## bedding (stated)", "| joints | 1 | 6 |", "| mean dip | deg | 10.0 |", "| mean dip direction | deg | 90.0 |",
-        "## steep (stated)", "| joints | 1 | 4 |", "| mean dip | deg | 90.0 |", "1 joint is stated without a set"})
+       {"## bedding (stated)", "| joints | 1 | 6 |", "| mean dip | deg | 10 |", "| mean dip direction | deg | 90 |",
+        "## steep (stated)", "| joints | 1 | 4 |", "| mean dip | deg | 90 |", "1 joint is stated without a set"})
     EXPECT_NE(report.find(part), std::string::npos) << part << "\n" << report;
   // four squares of 100 m2 in 1000 m3; on every scanline at 2 m
   EXPECT_NE(report.find("| P32, area per volume | 1/m | 0.4 |"), std::string::npos) << report;
   EXPECT_NE(report.find("| spacing along the mean normal | m | 2 |"), std::string::npos) << report;
-  std::string net = read(folder_ / "out/stereonet.svg");
-  for (const char* part : {">bedding, stated (6)<", ">steep, stated (4)<", ">without a set (1)<"})
-    EXPECT_NE(net.find(part), std::string::npos) << part;
-  std::map<std::string, int> poles = poles_of(net);
-  EXPECT_EQ(poles.size(), 3u);
-  EXPECT_EQ(poles["#0072b2"], 6);
-  EXPECT_EQ(poles["#d55e00"], 4);
+  const nlohmann::json sets = joints_of("out")["sets"];
+  const std::pair<const char*, std::size_t> counts[] = {{"bedding", 6}, {"steep", 4}, {"", 1}};
+  ASSERT_EQ(sets.size(), std::size(counts));
+  for (std::size_t k = 0; k < sets.size(); ++k) {
+    EXPECT_EQ(sets[k]["name"], counts[k].first);
+    EXPECT_EQ(sets[k]["drawn"], false);
+    EXPECT_EQ(sets[k]["normals"].size(), counts[k].second) << counts[k].first;
+  }
+  EXPECT_NEAR(row_of(sets[1], "P32, area per volume")["measured"].get<double>(), 0.4, 1e-12);
+  EXPECT_NEAR(row_of(sets[0], "mean dip")["measured"].get<double>(), 10, 0.1);
 
   // together with drawn sets, each is named by its kind
   write("both.toml",
         "base = \"scene.toml\"\n[[joint_sets]]\nname = \"bedding\"\ndip = 30\ndip_direction = 10\nspacing = 3\n");
   ended = run("slice both.toml --out both --report");
   ASSERT_EQ(ended.code, 0) << ended.err;
-  report = read(folder_ / "both/report.md");
+  report = ended.out;
   for (const char* part : {"Drawn in unbounded rock", "## bedding (stated)", "## bedding\n"})
     EXPECT_NE(report.find(part), std::string::npos) << part;
-  EXPECT_EQ(poles_of(read(folder_ / "both/stereonet.svg")).size(), 4u);
+  const nlohmann::json both = joints_of("both")["sets"];
+  ASSERT_EQ(both.size(), 4u);
+  EXPECT_EQ(both[0]["name"], both[2]["name"]);
+  EXPECT_NE(both[0]["drawn"], both[2]["drawn"]);
 }
 
 TEST_F(SliceReport, ReportsFiniteJoints) {
@@ -141,7 +172,10 @@ TEST_F(SliceReport, ReportsFiniteJoints) {
                           "\"lognormal\"\nsize_mean = 2\nsize_deviation = 1\n");
   const Ended ended = run("slice scene.toml --out out --report");
   ASSERT_EQ(ended.code, 0) << ended.err;
-  EXPECT_NE(read(folder_ / "out/report.md").find("mean size of these"), std::string::npos);
+  const nlohmann::json set = joints_of("out").at("sets").at(0);
+  EXPECT_EQ(row_of(set, "mean size of these")["stated"], 2);
+  EXPECT_GT(row_of(set, "mean size of these")["error"].get<double>(), 0);
+  EXPECT_TRUE(row_of(set, "P32, area per volume").is_null() && row_of(set, "P21, length per area").is_object());
   EXPECT_NE(read(folder_ / "out/joints.csv").find(",trace,"), std::string::npos);
   EXPECT_TRUE(fs::exists(folder_ / "out/blocks.csv"));
   expect_one_line(run("slice " + squares_ + "--out out --stl"), 2, "dimension = 2");

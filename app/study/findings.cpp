@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "app/base/svg_figure.hpp"
 #include "app/study/statistics.hpp"
 #include "core/joint_sets/statistics.hpp"
 #include "text/csv_table.hpp"
@@ -87,42 +86,23 @@ std::string table(const StudyPlan& plan, const Sweep& sweep, const std::vector<S
 
 // ---- grids
 
-// one for two keys, one for each value of the first for three
-std::size_t maps_of(const Sweep& grid) {
-  return grid.counts.size() == 3 ? grid.counts[0] : 1;
-}
-
-std::string map_name(const Sweep& grid, int number, std::size_t map) {
-  return maps_of(grid) == 1 && grid.counts.size() == 2 ? fmt::format("grid_{}.svg", number)
-                                                       : fmt::format("grid_{}_{}.svg", number, map + 1);
-}
-
-std::string map(const StudyPlan& plan, const Sweep& grid, const std::vector<StudyRow>& rows, std::size_t number) {
-  const std::size_t last = grid.counts.size() - 1, nx = grid.counts[last], ny = grid.counts[last - 1];
-  const std::size_t first = number * nx * ny;
-  const auto label = [&](std::size_t key, std::size_t place) { return shown_value(grid.with[key].values[place]); };
-  const auto title_of = [&](std::size_t key) { return with_unit(grid.with[key].key, grid.with[key].unit); };
-  MapFigure figure;
-  figure.title = grid.name;
-  if (last == 2) figure.title += fmt::format(", {} = {}", title_of(0), label(0, first));
-  figure.x_label = title_of(last);
-  figure.y_label = title_of(last - 1);
-  figure.value_label = with_unit(plan.quantity, unit_of(rows));
-  if (grid.fails) figure.mark_label = "fails: " + fails_text(*grid.fails);
-  if (grid.fails && verdicts_on(grid, rows).undecided > 0)
-    figure.ring_label = fmt::format("within its error bar of {:g}", grid.fails->limit);
-  for (std::size_t x = 0; x < nx; ++x)
-    figure.x.push_back(label(last, first + x));
-  for (std::size_t y = 0; y < ny; ++y)
-    figure.y.push_back(label(last - 1, first + y * nx));
-  for (std::size_t place = first; place < first + nx * ny; ++place) {
-    figure.values.push_back(rows[place].result);
-    const std::optional<RowVerdict> verdict = verdict_on(grid, rows[place]);
-    figure.marks.push_back(verdict == RowVerdict::fails       ? MapMark::cross
-                           : verdict == RowVerdict::undecided ? MapMark::ring
-                                                              : MapMark::none);
+// the axes of grid_N.csv, whose rows are every combination with the last key changing fastest
+std::string grid_json(const StudyPlan& plan, const Sweep& grid, const std::vector<StudyRow>& rows) {
+  nlohmann::ordered_json json = {{"schema", "voussoir.grid"},
+                                 {"schema_version", 1},
+                                 {"name", grid.name},
+                                 {"quantity", plan.quantity},
+                                 {"unit", unit_of(rows)}};
+  if (grid.fails) json[grid.fails->below ? "fails_below" : "fails_above"] = grid.fails->limit;
+  std::size_t repeated = rows.size();
+  for (std::size_t k = 0; k < grid.with.size(); ++k) {
+    repeated /= grid.counts[k];
+    auto values = nlohmann::ordered_json::array();
+    for (std::size_t place = 0; place < grid.counts[k]; ++place)
+      values.push_back(shown_value(grid.with[k].values[place * repeated]));
+    json["keys"].push_back({{"key", grid.with[k].key}, {"unit", grid.with[k].unit}, {"values", values}});
   }
-  return svg_map(figure);
+  return json.dump(2) + "\n";
 }
 
 std::string grid_line(const Sweep& grid, const std::vector<StudyRow>& rows) {
@@ -190,24 +170,6 @@ std::string sample_json(const StudyPlan& plan, const Sweep& sample, const Sample
   return json.dump(2) + "\n";
 }
 
-std::string histogram(const StudyPlan& plan, const Sweep& sample, const SampleFound& found,
-                      const std::vector<StudyRow>& rows) {
-  Diagram diagram{sample.name, with_unit(plan.quantity, unit_of(rows)), "runs", false, {}};
-  Curve curve{Curve::Kind::steps, fmt::format("{} runs", found.results.size()), {}};
-  int highest = 0;
-  for (const Bin& bin : histogram_of(found.results)) {
-    curve.points.emplace_back(bin.from, bin.count);
-    curve.points.emplace_back(bin.to, bin.count);
-    highest = std::max(highest, bin.count);
-  }
-  diagram.curves.push_back(curve);
-  if (sample.fails)
-    diagram.curves.push_back({Curve::Kind::line,
-                              "fails: " + fails_text(*sample.fails),
-                              {{sample.fails->limit, 0}, {sample.fails->limit, highest}}});
-  return svg(diagram);
-}
-
 std::string sample_line(const Sweep& sample, const SampleFound& found, const std::vector<StudyRow>& rows) {
   std::string line =
       fmt::format("sample '{}': {} of {} rows have a result", sample.name, found.results.size(), rows.size());
@@ -231,13 +193,13 @@ std::vector<std::string> finding_names(const StudyPlan& plan) {
   int grids = 0, samples = 0;
   for (const Sweep& sweep : plan.sweeps) {
     if (sweep.varied == Varied::grid) {
-      names.push_back(fmt::format("grid_{}.csv", ++grids));
-      for (std::size_t map = 0; map < maps_of(sweep); ++map)
-        names.push_back(map_name(sweep, grids, map));
+      ++grids;
+      for (const char* kind : {"csv", "json"})
+        names.push_back(fmt::format("grid_{}.{}", grids, kind));
     }
     if (sweep.varied == Varied::sample) {
       ++samples;
-      for (const char* kind : {"csv", "json", "svg"})
+      for (const char* kind : {"csv", "json"})
         names.push_back(fmt::format("sample_{}.{}", samples, kind));
     }
   }
@@ -255,14 +217,12 @@ Findings findings_of(const StudyPlan& plan, const std::vector<StudyRow>& all) {
     if (sweep.varied == Varied::one_key) continue;
     contents.push_back(table(plan, sweep, rows));
     if (sweep.varied == Varied::grid) {
-      for (std::size_t number = 0; number < maps_of(sweep); ++number)
-        contents.push_back(map(plan, sweep, rows, number));
+      contents.push_back(grid_json(plan, sweep, rows));
       findings.lines.push_back(grid_line(sweep, rows));
       continue;
     }
     const SampleFound found = found_by(sweep, rows);
     contents.push_back(sample_json(plan, sweep, found, rows));
-    contents.push_back(histogram(plan, sweep, found, rows));
     findings.lines.push_back(sample_line(sweep, found, rows));
   }
   const std::vector<std::string> names = finding_names(plan);

@@ -1,4 +1,4 @@
-// Results of a study's grids and samples: grid_1.csv and its maps, sample_1.csv, sample_1.json and its histogram.
+// Results of a study's grids and samples: grid_1.csv and its axes, grid_1.json; sample_1.csv and sample_1.json.
 #pragma once
 
 #include <string>

@@ -152,7 +152,7 @@ TEST_F(StudySample, IsTheSameInAnyOrderAndChunk) {
   ASSERT_EQ(run("study run out --chunk 3/3").code, 0);
   ASSERT_EQ(run("study run out --chunk 1/3").code, 0);
   ASSERT_EQ(run("study gather out").code, 0);
-  for (const char* name : {"sample_1.csv", "sample_1.json", "sample_1.svg"})
+  for (const char* name : {"sample_1.csv", "sample_1.json"})
     EXPECT_EQ(read(folder_ / "out" / name), read(folder_ / "whole" / name)) << name;
 
   // statics of one block: weight over stiffness, so that every row can be verified
@@ -253,10 +253,15 @@ TEST_F(StudySample, AGridIsEveryCombination) {
     EXPECT_TRUE(rows[k + 1].ends_with(k == 3 ? ",m,ok,yes" : ",m,ok,no")) << rows[k + 1];
   }
   EXPECT_EQ(table("out/grid_2.csv").size(), 9u);
-  for (const char* name : {"grid_1.svg", "grid_2_1.svg", "grid_2_2.svg"})
-    EXPECT_TRUE(read(folder_ / "out" / name).ends_with("</svg>\n")) << name;
-  EXPECT_FALSE(fs::exists(folder_ / "out/grid_2.svg"));
-  EXPECT_NE(read(folder_ / "out/grid_2_1.svg").find("three, statics = local"), std::string::npos);
+  const nlohmann::json axes = nlohmann::json::parse(read(folder_ / "out/grid_1.json"));
+  EXPECT_EQ(axes["name"], "stiffness over density");
+  EXPECT_EQ(axes["fails_below"], -1.5e-4);
+  EXPECT_EQ(axes["unit"], "m");
+  EXPECT_EQ(axes["keys"][0], (nlohmann::json{{"key", "density"}, {"unit", "kg/m3"}, {"values", {"1000", "2000"}}}));
+  EXPECT_EQ(axes["keys"][1]["values"], (nlohmann::json{"100000000", "200000000", "400000000"}));
+  const nlohmann::json three = nlohmann::json::parse(read(folder_ / "out/grid_2.json"));
+  ASSERT_EQ(three["keys"].size(), 3u);
+  EXPECT_EQ(three["keys"][0]["values"], (nlohmann::json{"local", "adaptive"}));
   const std::string csv = read(folder_ / "out/study.csv");
   EXPECT_NE(csv.find("three,\"statics, density, joint_properties.rock.normal_stiffness\",\"adaptive, 1000, "
                      "200000000\",,top_displacement_z,"),

@@ -1,9 +1,12 @@
-// node net_test.mjs SOURCE: the stereonet's geometry and zones, without a browser: places against their formulas, counts of
-// 200 joints in the zones that are drawn against those that `voussoir blocks --kinematics` counts, density and means.
+// node net_test.mjs SOURCE: what reports draw, without a browser: places on the stereonet against their formulas, counts of
+// 200 joints in the zones that are drawn against those that `voussoir blocks --kinematics` counts, density, means, weights of
+// a scanline; the line of a level through a grid; the strength of a lining's section.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { between, daylightEnvelope, density, fisherMean, fromNet, greatCircle, lineOf, lineZones, onNet, planeOf, poleOf, poleZones, smallCircle } from '../src/report/net.js';
+import { angles, envelope } from '../src/report/lining_section.js';
+import { levelLine } from '../src/report/level_line.js';
+import { between, daylightEnvelope, density, fisherMean, fromNet, greatCircle, lineOf, lineZones, onNet, planeOf, poleOf, poleZones, smallCircle, terzaghiWeight } from '../src/report/net.js';
 
 const [source] = process.argv.slice(2);
 const near = (found, wanted, tolerance = 1e-8) => assert.ok(Math.abs(found - wanted) <= tolerance, `${found}, not ${wanted}`);
@@ -65,4 +68,52 @@ near(density([[0, 0, -1]], [0, 0, -1]), 100, 1e-9);
   near(planeOf(third).dip, 75.41, 0.01);
   near(constant, 23.926, 1e-3);
 }
-console.log('the stereonets are right');
+// ---- weights of a scanline: 1/sin of its angle to the plane, by the angle itself; the largest; counts and densities
+for (const [dip, direction, plunge, trend, angle] of [[0, 0, 90, 0, 90], [90, 90, 0, 90, 90], [90, 90, 0, 120, 60], [60, 180, 30, 0, 90], [45, 90, 0, 90, 45], [30, 270, 0, 270, 30]])
+  near(terzaghiWeight(poleOf(dip, direction), lineOf(plunge, trend), 1000), 1 / Math.sin((angle * Math.PI) / 180), 1e-12);
+assert.equal(terzaghiWeight(poleOf(5, 90), lineOf(0, 90), 10), 10);
+assert.equal(terzaghiWeight(poleOf(0, 0), lineOf(0, 33), 10), 10);
+{
+  // a weight of 2 is a joint twice, and equal weights are none
+  const few = poles.slice(0, 40), at = poleOf(48, 195), weights = few.map((_, k) => 1 + (k % 2)), twice = [...few, ...few.filter((_, k) => k % 2)];
+  near(density(few, at, weights), density(twice, at), 1e-12);
+  nearPoint(fisherMean(few, weights).mean, fisherMean(twice).mean, 1e-12);
+  const same = fisherMean(few, few.map(() => 3)), plain = fisherMean(few);
+  near(same.constant, plain.constant, 1e-9);
+  near(same.cone, plain.cone, 1e-9);
+  // unequal weights know less of the mean than their number
+  assert.ok(fisherMean(few, few.map((_, k) => (k ? 1 : 10))).cone > plain.cone);
+  // joints that a vertical borehole meets at random: those it would meet less often count for as many as it missed
+  let counts = [0, 0], sums = [0, 0];
+  for (let k = 0; k < 100000; ++k) {
+    const steep = k % 2, pole = poleOf(steep ? 75 : 15, 40), met = ((k * 0.6180339887498949) % 1) < Math.abs(pole[2]);
+    if (met) { counts[steep] += 1; sums[steep] += terzaghiWeight(pole, lineOf(90, 0), 10); }
+  }
+  assert.ok(counts[1] < 0.3 * counts[0] && Math.abs(sums[1] / sums[0] - 1) < 0.01, `${counts} ${sums}`);
+}
+
+// ---- the line of a level through a grid: on a plane it is straight, wherever the cells are crossed
+{
+  const nx = 6, ny = 5, values = Array.from({ length: nx * ny }, (_, k) => 0.3 * (k % nx) + 0.7 * Math.floor(k / nx) - 1), line = levelLine(values, nx, 0.55);
+  assert.ok(line.length >= 5);
+  for (const [x, y] of line.flat()) near(0.3 * x + 0.7 * y - 1, 0.55, 1e-12);
+  const ends = line.flat(), length = line.reduce((sum, [a, b]) => sum + Math.hypot(a[0] - b[0], a[1] - b[1]), 0);
+  const [left, right] = [Math.min(...ends.map((p) => p[0])), Math.max(...ends.map((p) => p[0]))];
+  near(length, (right - left) * Math.hypot(1, 0.3 / 0.7), 1e-9);
+  assert.deepEqual(levelLine(values, nx, 99), []);
+  assert.ok(levelLine(values.map((v, k) => (k === 14 ? NaN : v)), nx, 0.55).length < line.length);
+}
+// ---- the strength of a lining's section: each point of the curve has a utilisation of 1, as core/support counts it
+{
+  const section = { thickness_m: 0.3, compressive_strength_Pa: 20e6, tensile_strength_Pa: 2e6 }, curve = envelope(section);
+  const use = ([moment, thrust]) => { const bending = (6 * Math.abs(moment)) / 0.3 ** 2, n = thrust / 0.3; return Math.max((bending + n) / 20e6, (bending - n) / 2e6); };
+  assert.equal(curve.length, 5);
+  curve.slice(1).forEach((point, k) => { for (const t of [0, 0.3, 1]) near(use(point.map((x, i) => x + t * (curve[k][i] - x))), 1, 1e-12); });
+  assert.deepEqual(envelope({ thickness_m: 0.3 }), []);
+  // once around from the right, over the crown; an arc from below the right to below the left
+  const ring = angles([359.99, 90, 180, 270].map((a) => ({ x: 5 + 3 * Math.cos((a * Math.PI) / 180), y: 3 * Math.sin((a * Math.PI) / 180) })));
+  ring.forEach((a, k) => near(a, 90 * k, 0.02));
+  const arc = angles([-30, 30, 90, 150, 210].map((a) => ({ x: Math.cos((a * Math.PI) / 180), y: Math.sin((a * Math.PI) / 180) })));
+  assert.ok(arc[0] < 0 && arc.at(-1) > 180 && arc.every((a, k) => !k || a > arc[k - 1]), arc.join());
+}
+console.log('the figures are right');

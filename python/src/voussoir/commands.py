@@ -194,7 +194,7 @@ def export(scene: Source, out: str | os.PathLike[str], *, set: Mapping[str, Any]
 
 
 def report(folder: str | os.PathLike[str], **options: Option) -> str:
-    """Writes one page of a run for a dossier: `voussoir report`, with its options (out, project, author, …). Returns its
+    """Writes one page of a run, a study or joints: `voussoir report`, with its options (out, project, author, …). Returns its
     path."""
     return _call("report", os.fspath(folder), *_words(options))[0].splitlines()[0]
 

@@ -3,7 +3,7 @@
 import { digits, listColour } from '../colours.js';
 import { downward } from './net.js';
 import { bullets, header, paragraph, section } from './parts.js';
-import { orientation, polesNet, setTable, slidingLines, slidingPoles, withProjection } from './stereonets.js';
+import { jointNets, orientation, scanlineChoice, slidingLines, slidingPoles, weightedZones, withProjection } from './stereonets.js';
 import { element, list, readCsv, table } from './table.js';
 
 const MOST_PAIRS = 25;
@@ -19,21 +19,22 @@ function worstPairs(csv) {
 export function kinematicSections({ kinematics, files, block }) {
   const names = [...new Set(kinematics.joints.map((joint) => joint.set))];
   const sets = names.map((name, k) => ({ name, colour: listColour(k), poles: kinematics.joints.filter((joint) => joint.set === name).map((joint) => downward(joint.normal)) }));
-  const { face_dip_deg: dip, face_direction_deg: direction, friction_deg: friction } = kinematics;
-  const request = { face: { dip, direction }, friction, limits: { plane: kinematics.limits_deg.plane_sliding, flexural: kinematics.limits_deg.flexural_toppling, direct: kinematics.limits_deg.direct_toppling } };
-  const pairs = worstPairs(files.pairs);
+  // the program counts in radians: degrees come back with the rounding of that
+  const asStated = (degrees) => Number(degrees.toPrecision(12)), { plane_sliding: plane, flexural_toppling: flexural, direct_toppling: direct } = kinematics.limits_deg;
+  const [dip, direction, friction] = [kinematics.face_dip_deg, kinematics.face_direction_deg, kinematics.friction_deg].map(asStated);
+  const request = { face: { dip, direction }, friction, limits: { plane: asStated(plane), flexural: asStated(flexural), direct: asStated(direct) } };
+  const pairs = worstPairs(files.pairs), scanline = scanlineChoice();
   return [
     header(kinematics.title || 'Kinematic analysis', block, { class: '', text: `Kinematic analysis of ${kinematics.joints.length} joints: face ${orientation(request.face)} (dip/dip direction), friction ${friction}°.` }),
-    section('Joints', withProjection((kind) => [polesNet(sets, kind)]),
-      setTable(sets)),
-    section('Zones of the face', withProjection((kind) => [slidingPoles(sets, request, kind), slidingLines(sets, request, kind)]),
-      table(['mode', 'count', 'of', 'share (%)'], kinematics.counts.map((row) => [row.mode, row.count, row.of, row.of > 0 ? digits((100 * row.count) / row.of) : '']), { numbers: [1, 2, 3], caption: 'A screen of directions' })),
+    section('Joints', jointNets(sets, scanline)),
+    section('Zones of the face', table(['mode', 'count', 'of', 'share (%)'], kinematics.counts.map((row) => [row.mode, row.count, row.of, row.of > 0 ? digits((100 * row.count) / row.of) : '']), { numbers: [1, 2, 3], caption: 'A screen of directions' }),
+      withProjection(sets, scanline, (kind, chosen) => [slidingPoles(chosen, request, kind), weightedZones(chosen, request), slidingLines(chosen, request, kind)])),
     section('What block theory says of the pairs', paragraph('The block above both planes, under weight and friction alone. The overlay is safe on neither side: pairs outside the primary zone may slide with a factor below 1, and pairs inside it may stand.'),
       table(['pairs whose line leaves the face', 'F < 1', 'F ≥ 1', 'no block above both planes'], kinematics.pairs.map((row) => [row.zone, row.below_one, row.at_least_one, row.buried]), { numbers: [1, 2, 3] }),
       pairs.judged ? paragraph(`The lowest ${Math.min(MOST_PAIRS, pairs.judged)} of ${pairs.judged} factors:`) : null, pairs.judged ? pairs.table : null),
     section('Assumptions', bullets(['Directions only: neither places and sizes of the joints, nor water, cohesion, supports, earthquake or stress are counted.',
       `All joints have one friction angle, ${friction}°.`, 'The lateral limits are usual ones, a choice of this analysis.',
-      'Sampling along a line or a face misses joints that are nearly parallel to it: counts are not corrected for that.'])),
+      'Sampling along a line or a face misses joints that are nearly parallel to it: counts are not corrected for that, unless the reader states a scanline above. Counts of lines of intersection never are.'])),
     section('How it was made', list([['program', kinematics.program], ['input', kinematics.input_hash]]),
       element('pre', {}, `voussoir blocks SCENE --kinematics --face ${dip}/${direction} --friction ${friction}`)),
   ];

@@ -67,23 +67,29 @@ export function daylightEnvelope({ dip, direction }, kind) {
 
 // ---- sets
 
-// Of axes without a sign: the mean, Fisher's constant and the half angle of the cone that holds the true mean with 95 %.
-export function fisherMean(poles) {
-  const first = meanAxis(poles), n = poles.length;
+// How many joints one that a scanline meets stands for (Terzaghi 1965): 1/sin of the angle between scanline and plane, at
+// most `largest`, since planes along the scanline would have weights without bound.
+export const terzaghiWeight = (pole, scanline, largest) => Math.min(largest, 1 / Math.abs(dot(pole, scanline)));
+const sumOf = (numbers) => numbers.reduce((sum, x) => sum + x, 0);
+
+// Of axes without a sign, each with its weight: the mean, Fisher's constant and the half angle of the cone that holds the
+// true mean with 95 %. Weighted ones count as (Σw)²/Σw² of equal weight (Kish).
+export function fisherMean(poles, weights = poles.map(() => 1)) {
+  const first = meanAxis(poles, weights), total = sumOf(weights), n = total ** 2 / sumOf(weights.map((w) => w * w));
   const sum = [0, 0, 0];
-  for (const pole of poles) pole.forEach((x, k) => { sum[k] += dot(pole, first) < 0 ? -x : x; });
-  const size = Math.hypot(...sum), mean = downward(sum.map((x) => x / size));
-  if (n < 3 || !(n - size > 1e-9)) return { mean, constant: Infinity, cone: NaN };
+  poles.forEach((pole, i) => pole.forEach((x, k) => { sum[k] += weights[i] * (dot(pole, first) < 0 ? -x : x); }));
+  const length = Math.hypot(...sum), size = (length * n) / total, mean = downward(sum.map((x) => x / length));
+  if (poles.length < 3 || !(n - size > 1e-9)) return { mean, constant: Infinity, cone: NaN };
   const cosine = 1 - ((n - size) / size) * (20 ** (1 / (n - 1)) - 1);
   return { mean, constant: (n - 1) / (n - size), cone: cosine > 0 ? Math.acos(cosine) / radians : NaN };
 }
 
-// the eigenvector of the sum of p pᵀ: a mean of poles across the horizon
-function meanAxis(poles) {
+// the eigenvector of the sum of w p pᵀ: a mean of poles across the horizon
+function meanAxis(poles, weights) {
   let axis = poles[0];
   for (let i = 0; i < 200; ++i) {
     const next = [0, 0, 0];
-    for (const pole of poles) pole.forEach((x, k) => { next[k] += dot(pole, axis) * x; });
+    poles.forEach((pole, j) => pole.forEach((x, k) => { next[k] += weights[j] * dot(pole, axis) * x; }));
     const turned = unit(next);
     if (Math.hypot(...turned.map((x, k) => x - axis[k])) < 1e-14) break;
     axis = turned;
@@ -93,10 +99,10 @@ function meanAxis(poles) {
 
 // Fisher counting: multiples of the uniform density, which are per cent for each 1 % of the net's area.
 const KAPPA = 100;
-export function density(poles, v) {
+export function density(poles, v, weights) {
   let sum = 0;
-  for (const pole of poles) sum += Math.exp(KAPPA * (Math.abs(dot(pole, v)) - 1));
-  return (KAPPA * sum) / (poles.length * (1 - Math.exp(-KAPPA)));
+  poles.forEach((pole, i) => { sum += (weights?.[i] ?? 1) * Math.exp(KAPPA * (Math.abs(dot(pole, v)) - 1)); });
+  return (KAPPA * sum) / ((weights ? sumOf(weights) : poles.length) * (1 - Math.exp(-KAPPA)));
 }
 
 // ---- zones of a face

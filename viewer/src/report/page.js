@@ -1,14 +1,16 @@
-// The report on a run or a study: its sections in the order in which a reader asks. The page contains the texts of their
+// The report on a run, a study, a kinematic analysis or joints: its sections in the order in which a reader asks. The page contains the texts of their
 // files (app/report/report_data.hpp); the blocks, if the run kept them, are the viewer's.
 import style from './style.css';
 import { digits, groupColour } from '../colours.js';
 import { inflate, readRun } from '../data.js';
-import { convergence, history, knee } from './figures.js';
+import { convergence, history, knee, svgOf } from './figures.js';
 import { jointForces, lastState, lastTrial } from './forces.js';
+import { jointSections } from './joints.js';
 import { kinematicSections } from './kinematics.js';
+import { liningFigures } from './linings.js';
 import { downward } from './net.js';
 import { bullets, header, paragraph, section } from './parts.js';
-import { polesNet, setTable, withProjection } from './stereonets.js';
+import { jointNets } from './stereonets.js';
 import { studySections } from './study.js';
 import { element, list, readCsv, table } from './table.js';
 import { aboutBar, capital, columnName, directionOf, kilo, partsOfBar, plural, quantityName, shownUnit, valueWithBar, withUnits } from './words.js';
@@ -106,8 +108,7 @@ function orientations({ blocks }) {
   if (!blocks || blocks.head.dimension === 2 || !blocks.head.joints.length) return null;
   const sets = blocks.groups.map((group, k) => ({ name: group.name, colour: groupColour(blocks, k), poles: group.joints.map((j) => downward(blocks.head.joints[j].normal)) }))
     .filter((set) => set.poles.length);
-  return section('Orientations', withProjection((kind) => [polesNet(sets, kind)]),
-    setTable(sets));
+  return section('Orientations', jointNets(sets));
 }
 
 function search({ results, files }) {
@@ -126,7 +127,7 @@ function search({ results, files }) {
   }));
 }
 
-function supports({ results }) {
+function supports({ results, files, linings: strengths }) {
   const rows = [], linings = [];
   for (const stage of results.stages) {
     for (const b of stage.bolts ?? [])
@@ -136,7 +137,8 @@ function supports({ results }) {
   }
   return section('Supports',
     rows.length ? table(['after stage', 'bolts', 'number', 'largest force (kN)', 'largest shear (kN)', 'of yield', 'yielded', 'broken', 'slipped'], rows, { numbers: [2, 3, 4, 5, 6, 7, 8] }) : null,
-    linings.length ? table(['after stage', 'lining', 'thrust (kN/m)', 'moment (kN m/m)', 'pressure (kPa)', 'of strength'], linings, { numbers: [2, 3, 4, 5] }) : null);
+    linings.length ? table(['after stage', 'lining', 'thrust (kN/m)', 'moment (kN m/m)', 'pressure (kPa)', 'of strength'], linings, { numbers: [2, 3, 4, 5] }) : null,
+    ...liningFigures({ results, files, linings: strengths }));
 }
 
 function histories({ files, every }) {
@@ -210,16 +212,26 @@ async function keepPrinted(viewer, fragment) {
   await draw();
 }
 
+const blocksOfPage = () => document.querySelector('#blocks')?.content.firstElementChild.cloneNode(true);
+const setLook = (fragment, look) => { fragment.dataset.look = btoa(new URLSearchParams(look).toString()); };
+
 async function showRun(main, data) {
-  const fragment = document.querySelector('#blocks')?.content.firstElementChild.cloneNode(true);
+  const fragment = blocksOfPage();
   const blocks = fragment ? readRun(await inflate(fragment.querySelector('script').textContent)) : null;
   const page = { ...data, blocks, fragment, scene: data.files.scene };
   if (fragment) {
     const failed = lastTrial(blocks), look = { colour: blocks.head.joints.length ? 'set' : 'displacement', panel: 0, frame: lastState(blocks) };
     if (failed >= 0) Object.assign(look, { frame: failed, colour: 'displacement' });
-    fragment.dataset.look = btoa(new URLSearchParams(look).toString());
+    setLook(fragment, look);
   }
   document.title = show(main, sections.map((make) => make(page)));
+  if (fragment) await keepPrinted(await window.voussoir.start(fragment), fragment);
+}
+
+async function showJoints(main, data) {
+  const fragment = blocksOfPage();
+  if (fragment) setLook(fragment, { colour: 'set', panel: 0, frame: 0 });
+  document.title = show(main, jointSections({ ...data, fragment }));
   if (fragment) await keepPrinted(await window.voussoir.start(fragment), fragment);
 }
 
@@ -232,7 +244,10 @@ async function begin() {
     const data = JSON.parse(new TextDecoder().decode(await inflate(document.getElementById('voussoir-report').textContent)));
     if (data.study) document.title = show(main, studySections(data));
     else if (data.kinematics) document.title = show(main, kinematicSections(data));
+    else if (data.joints) await showJoints(main, data);
     else await showRun(main, data);
+    const figure = new URLSearchParams(location.hash.slice(1)).get('figure');
+    if (figure) main.dataset.picture = `data:image/svg+xml;base64,${btoa(Array.from(new TextEncoder().encode(svgOf(figure)), (byte) => String.fromCharCode(byte)).join(''))}`;
     main.dataset.state = 'ready';
   } catch (error) {
     main.dataset.state = 'failed';

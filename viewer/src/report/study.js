@@ -1,10 +1,11 @@
 // The report on a study: of each sample how likely it fails, how the results scatter and what they depend on; of each
-// sweep the result against what it varies; the worst rows with their runs.
+// grid a map; of each sweep the result against what it varies; the worst rows with their runs.
 import { digits } from '../colours.js';
 import { cumulative, histogram, sweepFigure, tornado } from './figures.js';
+import { gridSection } from './grid.js';
 import { bullets, header, paragraph, section } from './parts.js';
 import { element, list, readCsv, table } from './table.js';
-import { capital, plural, quantityName, shownUnit, valueWithBar, withUnits } from './words.js';
+import { capital, keyName, plural, quantityName, shownUnit, valueWithBar, withUnits } from './words.js';
 
 const MOST_WORST = 10;
 
@@ -30,13 +31,6 @@ export function rankCorrelation(x, y) {
     bb += (b[i] - mean) ** 2;
   });
   return aa > 0 && bb > 0 ? ab / Math.sqrt(aa * bb) : 0;
-}
-
-// "joint_properties.joint.friction_deg (deg)": "joint: friction (°)"
-function keyName(head) {
-  const [, key, unit = ''] = head.match(/^(.*?)(?: \(([^)]*)\))?$/), parts = key.split('.');
-  const last = parts.pop().replace(/_(deg|Pa|m|N|s)$/, '').replaceAll('_', ' '), shown = shownUnit(unit);
-  return { name: `${parts.length > 1 ? `${parts.at(-1)}: ` : ''}${last}`, ...shown };
 }
 
 const folderOf = (study, row) => {
@@ -105,14 +99,16 @@ export function studySections({ study: stated, files, block }) {
     rows: rows.map((row) => Object.fromEntries(head.map((name, k) => [name, row[k] ?? '']))) };
   const title = files.input.map(({ text }) => text.match(/^title = "(.*)"$/m)?.[1]).find(Boolean) ?? 'Study';
   const samples = files.samples.map(({ json, csv }) => ({ summary: JSON.parse(json), csv }));
-  const sampled = new Set(samples.map(({ summary }) => summary.name));
-  const sweeps = [...new Set(study.rows.map((row) => row.sweep))].filter((name) => name !== 'default' && !sampled.has(name));
+  const grids = files.grids.map(({ json, csv }) => ({ axes: JSON.parse(json), csv }));
+  const named = new Set([...samples.map(({ summary }) => summary.name), ...grids.map(({ axes }) => axes.name)]);
+  const sweeps = [...new Set(study.rows.map((row) => row.sweep))].filter((name) => name !== 'default' && !named.has(name));
   const failed = study.rows.filter((row) => row.status !== 'ok'), [first] = study.rows.filter((row) => row.sweep === 'default');
   return [
     header(title, block, failed.length ? { class: 'incomplete', text: `${failed.length} of ${study.rows.length} rows have no result.` } : { class: '', text: `${plural(study.rows.length, 'row')}, all with a result.` }),
-    section('What was asked', paragraph(`${capital(quantityName(study.rows[0].quantity))} of one input with settings changed: ${[...samples.map(({ summary }) => `a sample of ${plural(summary.rows, 'row')} (${summary.name})`), ...sweeps.map((name) => `a sweep (${name})`)].join(', ')}.`),
+    section('What was asked', paragraph(`${capital(quantityName(study.rows[0].quantity))} of one input with settings changed: ${[...samples.map(({ summary }) => `a sample of ${plural(summary.rows, 'row')} (${summary.name})`), ...grids.map(({ axes }) => `a grid of ${axes.keys.map((key) => key.values.length).join(' × ')} (${axes.name})`), ...sweeps.map((name) => `a sweep (${name})`)].join(', ')}.`),
       first ? paragraph(`As the input states it: ${valueWithBar({ value: Number(first.result), unit: first.result_unit, error_bar: Number(first.error_bar) })}.`) : null),
     ...samples.map((sample, k) => sampleSection(study, sample, k + 1)),
+    ...grids.map((grid, k) => gridSection(grid, k + 1)),
     ...sweeps.map((name, k) => sweepSection(study, name, k + 1)),
     failed.length ? section('Rows without a result', bullets(failed.slice(0, 20).map((row) => `${row.sweep} ${row.value}: ${row.status}`))) : null,
     origin({ study, files }),

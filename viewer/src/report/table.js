@@ -50,11 +50,17 @@ export function list(rows) {
     .flatMap(([name, value]) => [element('dt', {}, name), element('dd', {}, value)]));
 }
 
-// A program's comma-separated file: names of its columns, and its rows as texts; no cell of it is quoted.
+// A comma-separated file of the program: names of its columns, and its rows as texts. Cells may be quoted.
 export function readCsv(text) {
-  const [head, ...rows] = text.trim().split('\n').map((line) => line.split(','));
-  return { head: head ?? [], rows };
+  const head = [], all = [head];
+  for (const [, quotedCell, plain, end] of text.trimEnd().matchAll(/(?:"((?:[^"]|"")*)"|([^,\n]*))(,|\n|$)/g)) {
+    all.at(-1).push(quotedCell?.replaceAll('""', '"') ?? plain);
+    if (end === '\n') all.push([]);
+    if (end === '') break;
+  }
+  return { head, rows: all.slice(1) };
 }
+
 export function save(name, blob) {
   const link = element('a', { href: URL.createObjectURL(blob), download: name });
   link.click();

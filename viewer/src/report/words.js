@@ -58,3 +58,10 @@ export function columnName(column) {
   const [end, unit] = LAST.find(([text]) => column.endsWith(text)) ?? ['', ''];
   return { name: column.slice(0, column.length - end.length).replaceAll('_', ' '), unit };
 }
+
+// "joint_properties.joint.friction_deg (deg)": "joint: friction (°)"
+export function keyName(head) {
+  const [, key, unit = ''] = head.match(/^(.*?)(?: \(([^)]*)\))?$/), parts = key.split('.');
+  const last = parts.pop().replace(/_(deg|Pa|m|N|s)$/, '').replaceAll('_', ' '), shown = shownUnit(unit);
+  return { name: `${parts.length > 1 ? `${parts.at(-1)}: ` : ''}${last}`, ...shown };
+}
