@@ -1,7 +1,7 @@
 // The report on a kinematic analysis of a rock face: two nets with its zones, their counts, and beside them what block
 // theory says of the pairs of joints, since the overlay is safe on neither side.
 import { digits, listColour } from '../colours.js';
-import { downward } from './net.js';
+import { poleWith } from './net.js';
 import { bullets, header, paragraph, section } from './parts.js';
 import { orientation, polesNet, setTable, slidingLines, slidingPoles, withProjection } from './stereonets.js';
 import { element, list, readCsv, table } from './table.js';
@@ -18,7 +18,7 @@ function worstPairs(csv) {
 
 export function kinematicSections({ kinematics, files, block }) {
   const names = [...new Set(kinematics.joints.map((joint) => joint.set))];
-  const sets = names.map((name, k) => ({ name, colour: listColour(k), poles: kinematics.joints.filter((joint) => joint.set === name).map((joint) => downward(joint.normal)) }));
+  const sets = names.map((name, k) => ({ name, colour: listColour(k), poles: kinematics.joints.filter((joint) => joint.set === name).map((joint) => poleWith(joint.normal)) }));
   const { face_dip_deg: dip, face_direction_deg: direction, friction_deg: friction } = kinematics;
   const request = { face: { dip, direction }, friction, limits: { plane: kinematics.limits_deg.plane_sliding, flexural: kinematics.limits_deg.flexural_toppling, direct: kinematics.limits_deg.direct_toppling } };
   const pairs = worstPairs(files.pairs);

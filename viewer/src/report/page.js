@@ -6,7 +6,7 @@ import { inflate, readRun } from '../data.js';
 import { convergence, history, knee } from './figures.js';
 import { jointForces, lastState, lastTrial } from './forces.js';
 import { kinematicSections } from './kinematics.js';
-import { downward } from './net.js';
+import { poleWith } from './net.js';
 import { bullets, header, paragraph, section } from './parts.js';
 import { polesNet, setTable, withProjection } from './stereonets.js';
 import { studySections } from './study.js';
@@ -104,7 +104,7 @@ function forces({ blocks, results }) {
 
 function orientations({ blocks }) {
   if (!blocks || blocks.head.dimension === 2 || !blocks.head.joints.length) return null;
-  const sets = blocks.groups.map((group, k) => ({ name: group.name, colour: groupColour(blocks, k), poles: group.joints.map((j) => downward(blocks.head.joints[j].normal)) }))
+  const sets = blocks.groups.map((group, k) => ({ name: group.name, colour: groupColour(blocks, k), poles: group.joints.map((j) => poleWith(blocks.head.joints[j].normal)) }))
     .filter((set) => set.poles.length);
   return section('Orientations', withProjection((kind) => [polesNet(sets, kind)]),
     setTable(sets));
