@@ -18,8 +18,10 @@ const isBolt = (support, i) => support.mark[i] !== LINING;
 const hasUse = (support, i) => isBolt(support, i) && support.use[i] >= 0;
 const bolts = (support) => Array.from(support.mark.keys()).filter((i) => isBolt(support, i));
 
+const NOISE = 1e-9; // of the largest contact force: forces of bolts that are rounding
+
 // What a run has at any time: bolts, stated yields, linings, and the largest force of a bolt and value of a diagram.
-export function supportsOf(run) {
+export function supportsOf(run, largestForce) {
   const all = { bolts: false, uses: false, linings: false, force: 0, thrust: 0, moment: 0, pressure: 0, half: 0 };
   for (const { support } of run.frames) {
     for (const i of bolts(support)) {
@@ -38,6 +40,7 @@ export function supportsOf(run) {
       all.half = Math.max(all.half, (high - low) / 2);
     }
   }
+  if (all.force < NOISE * largestForce) all.force = 0;
   return all;
 }
 

@@ -38,7 +38,7 @@ export class Viewer {
     this.faces = listFaces(run);
     this.normals = this.faces.map((face) => polygonNormal(run.shapes[face.shape].parts[face.part].points, face.corners));
     this.choices = choices(run, this.bodies);
-    this.supports = supportsOf(run);
+    this.supports = supportsOf(run, largestForce(run));
     this.measure = new Measure(this);
     this.look = initialLook(run, this.supports);
     this.build();

@@ -3,6 +3,7 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
+import { supportsOf } from '../src/supports.js';
 
 const near = (found, wanted, tolerance, what) => assert.ok(Math.abs(found - wanted) <= tolerance * Math.max(1e-9, Math.abs(wanted)), `${what}: ${found}, not ${wanted}`);
 const table = (file) => {
@@ -42,6 +43,10 @@ export async function testBolts(t) {
   await t.changes('before they were installed', () => t.set('frame', 1));
   assert.doesNotMatch((await t.seen()).text, /bolts: utilisation0/);
   await testSince(t, out);
+
+  // a force that is rounding has no colour
+  const rounding = { frames: [{ support: { mark: [2], use: [-1], force: [2e-9], linings: 0 } }] };
+  assert.deepEqual([1e4, 1].map((largest) => supportsOf(rounding, largest).force), [0, 2e-9]);
 
   // bars without a yield have no utilisation, and their segments one collar
   const bars = t.run(join(t.source, 'cases/support/grouted.toml'), 'grouted');
