@@ -202,8 +202,18 @@ PolyData bolt_lines(const Model<Dim>& model, const State<Dim>& state, double tim
   return data;
 }
 
-LinePull bolt_pull(const PolyData& lines, std::size_t line) {
-  return {(*values_of(lines.cell_data, "force_N"))[line], (*values_of(lines.cell_data, "use"))[line]};
+template <int Dim>
+ViewLine bolt_view(const Model<Dim>& model, const PolyData& lines, std::size_t line) {
+  const auto value = [&](const char* name, std::size_t i) { return (*values_of(lines.cell_data, name))[i]; };
+  const auto same_bolt = [&](std::size_t i) {
+    return value("bolts", i) == value("bolts", line) && value("bolt", i) == value("bolt", line);
+  };
+  ViewLine view;
+  view.force = value("force_N", line);
+  if (model.bolt_properties[static_cast<std::size_t>(value("bolts", line))].yield) view.use = value("use", line);
+  view.collar = value("joint", line) == 1 && (line == 0 || !same_bolt(line - 1));
+  view.broken = value("broken", line) != 0;
+  return view;
 }
 
 void add_bolt_columns(const Monitor& m, const AddColumn& add) {
@@ -235,6 +245,7 @@ void add_bolt_values(const Monitor& monitor, const Model<Dim>& model, const Stat
   template std::optional<double> largest_bolt_use<Dim>(const Model<Dim>&, const State<Dim>&);      \
   template std::string find_bolts_again<Dim>(const Model<Dim>&, int, const Results&, State<Dim>&); \
   template PolyData bolt_lines<Dim>(const Model<Dim>&, const State<Dim>&, double);                 \
+  template ViewLine bolt_view<Dim>(const Model<Dim>&, const PolyData&, std::size_t);               \
   template void add_bolt_values<Dim>(const Monitor&, const Model<Dim>&, const State<Dim>&, std::vector<double>&);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)

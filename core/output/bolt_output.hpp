@@ -7,6 +7,7 @@
 #include "core/model/prepared.hpp"
 #include "core/output/add_column.hpp"
 #include "core/output/results.hpp"
+#include "core/output/view_line.hpp"
 #include "core/output/vtp.hpp"
 
 namespace voussoir {
@@ -46,7 +47,8 @@ std::string find_bolts_again(const Model<Dim>& model, int stages, const Results&
 template <int Dim>
 PolyData bolt_lines(const Model<Dim>& model, const State<Dim>& state, double time);
 
-LinePull bolt_pull(const PolyData& lines, std::size_t line);
+template <int Dim>
+ViewLine bolt_view(const Model<Dim>& model, const PolyData& lines, std::size_t line);
 
 // of all bolts of a name; forces of one bolt, N
 void add_bolt_columns(const Monitor& monitor, const AddColumn& add);

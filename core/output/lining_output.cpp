@@ -123,11 +123,16 @@ PolyData lining_lines(const Model<Dim>& model, const State<Dim>& state, double t
     return {};
 }
 
-LinePull lining_pull(const PolyData& lines, std::size_t line) {
-  const std::vector<double>&thrust = *values_of(lines.point_data, "thrust_N"),
-        &use = *values_of(lines.point_data, "use");
-  const int a = lines.cells[line][0], b = lines.cells[line][1];
-  return {-0.5 * (thrust[a] + thrust[b]), std::max(use[a], use[b])};
+template <int Dim>
+ViewLine lining_view(const Model<Dim>&, const PolyData& lines, std::size_t line) {
+  const auto at_ends = [&](const char* name) {
+    const std::vector<double>& values = *values_of(lines.point_data, name);
+    return std::array{values[lines.cells[line][0]], values[lines.cells[line][1]]};
+  };
+  ViewLine view;
+  view.section = std::array{at_ends("thrust_N"), at_ends("moment_Nm"), at_ends("pressure_Pa")};
+  view.force = -0.5 * (view.section->at(0)[0] + view.section->at(0)[1]);
+  return view;
 }
 
 void add_lining_columns(const Monitor& m, const AddColumn& add) {
@@ -163,6 +168,7 @@ void add_lining_values(const Monitor& monitor, const Model<Dim>& model, const St
   template void add_lining_rows<Dim>(const Model<Dim>&, const State<Dim>&, int, Results&);           \
   template std::string find_linings_again<Dim>(const Model<Dim>&, int, const Results&, State<Dim>&); \
   template PolyData lining_lines<Dim>(const Model<Dim>&, const State<Dim>&, double);                 \
+  template ViewLine lining_view<Dim>(const Model<Dim>&, const PolyData&, std::size_t);               \
   template void add_lining_values<Dim>(const Monitor&, const Model<Dim>&, const State<Dim>&, std::vector<double>&);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)

@@ -7,6 +7,7 @@
 #include "core/model/prepared.hpp"
 #include "core/output/add_column.hpp"
 #include "core/output/results.hpp"
+#include "core/output/view_line.hpp"
 #include "core/output/vtp.hpp"
 
 namespace voussoir {
@@ -39,7 +40,8 @@ std::string find_linings_again(const Model<Dim>& model, int stages, const Result
 template <int Dim>
 PolyData lining_lines(const Model<Dim>& model, const State<Dim>& state, double time);
 
-LinePull lining_pull(const PolyData& lines, std::size_t line);
+template <int Dim>
+ViewLine lining_view(const Model<Dim>& model, const PolyData& lines, std::size_t line);
 
 // at a node, or the largest of all nodes and the largest utilisation; nothing before installation
 void add_lining_columns(const Monitor& monitor, const AddColumn& add);

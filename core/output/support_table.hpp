@@ -23,13 +23,12 @@ struct OutputSupport {
   // Numbers the installed supports by this model, which may have more: by the rows of the stage that ended last.
   // Returns a mismatch as the end of a sentence about the other run; empty: none.
   std::string (*find_again)(const Model<Dim>&, int stages, const Results&, State<Dim>&) = nullptr;
-  // frames: the word in the names of their files, whether the model has any, their drawing, and the force along a line,
-  // which the viewer draws in the style of this number (0: bolts, 1: linings)
+  // frames: the word in the names of their files, whether the model has any, their drawing, and what the viewer shows
+  // of a line
   const char* frames = nullptr;
   bool (*has)(const Model<Dim>&) = nullptr;
   PolyData (*lines)(const Model<Dim>&, const State<Dim>&, double time) = nullptr;
-  LinePull (*pull)(const PolyData& lines, std::size_t line) = nullptr;
-  float viewer_kind = 0;
+  ViewLine (*view)(const Model<Dim>&, const PolyData& lines, std::size_t line) = nullptr;
   // quantities of their monitors
   std::optional<Quantity> quantity = {};
   void (*add_columns)(const Monitor&, const AddColumn&) = nullptr;
@@ -46,8 +45,7 @@ constexpr OutputSupport<Dim> output_supports[] = {
      .frames = "bolts",
      .has = [](const Model<Dim>& model) { return !model.bolts.empty(); },
      .lines = bolt_lines<Dim>,
-     .pull = bolt_pull,
-     .viewer_kind = 0,
+     .view = bolt_view<Dim>,
      .quantity = Quantity::bolt_force,
      .add_columns = add_bolt_columns,
      .add_values = add_bolt_values<Dim>},
@@ -60,8 +58,7 @@ constexpr OutputSupport<Dim> output_supports[] = {
      .frames = "linings",
      .has = [](const Model<Dim>& model) { return !model.linings.empty(); },
      .lines = lining_lines<Dim>,
-     .pull = lining_pull,
-     .viewer_kind = 1,
+     .view = lining_view<Dim>,
      .quantity = Quantity::lining_force,
      .add_columns = add_lining_columns,
      .add_values = add_lining_values<Dim>},

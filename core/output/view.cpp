@@ -24,7 +24,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little,
               "records are little-endian, and written as they are in memory");
 
-constexpr std::string_view view_magic = "VOUSVIEW";
+constexpr std::string_view view_magic = "VOUSVIE2";  // VOUSVIEW had fewer data of supports
 constexpr std::uint32_t head_tag = 1, shape_tag = 2, frame_tag = 3, again_tag = 4, verdicts_tag = 5;
 
 // to single precision; values that it cannot represent are 0
@@ -292,27 +292,35 @@ void put_contacts(Record& record, ViewSeries& series, const Model<Dim>& model, c
 
 // ---- supports ------------------------------------------------------------------------------------------------------
 
-// Straight pieces: ends from the model's origin, m; the force along them, N, tension positive; utilisation; 0 for a
-// bolt, 1 for a lining.
+// Straight pieces: ends from the model's origin, m; the force along them, N, tension positive; utilisation, -1 for
+// none; kind: 1 for a lining, otherwise 2 if its first end is a bolt's collar, and 4 if it is broken. Then of linings
+// alone, at both ends: thrust, moment and pressure.
 template <int Dim>
 void put_support(Record& record, const Model<Dim>& model, const State<Dim>& state) {
   std::array<std::vector<float>, 2 * Dim + 3> columns;
-  const auto add = [&](const PolyData& data, std::size_t cell, const LinePull& pull, float kind) {
+  std::array<std::vector<float>, 6> sections;
+  const auto add = [&](const PolyData& data, std::size_t cell, const ViewLine& line) {
     for (int end = 0; end < 2; ++end)
       for (int k = 0; k < Dim; ++k)
         columns[Dim * end + k].push_back(single(data.points[data.cells[cell][end]][k] - model.origin[k]));
-    columns[2 * Dim].push_back(short_single(pull.force));
-    columns[2 * Dim + 1].push_back(short_single(pull.use));
-    columns[2 * Dim + 2].push_back(kind);
+    columns[2 * Dim].push_back(short_single(line.force));
+    columns[2 * Dim + 1].push_back(short_single(line.use.value_or(-1)));
+    const int kind = line.section ? 1 : (line.collar ? 2 : 0) | (line.broken ? 4 : 0);
+    columns[2 * Dim + 2].push_back(static_cast<float>(kind));
+    if (!line.section) return;
+    for (std::size_t k = 0; k < sections.size(); ++k)
+      sections[k].push_back(short_single((*line.section)[k / 2][k % 2]));
   };
   for (const OutputSupport<Dim>& row : output_supports<Dim>) {
     if (!row.lines || !row.has(model)) continue;
     const PolyData lines = row.lines(model, state, 0);
     for (std::size_t i = 0; i < lines.cells.size(); ++i)
-      add(lines, i, row.pull(lines, i), row.viewer_kind);
+      add(lines, i, row.view(model, lines, i));
   }
   record.put(static_cast<std::uint32_t>(columns[0].size()));
   for (const std::vector<float>& column : columns)
+    record.list(column);
+  for (const std::vector<float>& column : sections)
     record.list(column);
 }
 

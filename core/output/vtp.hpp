@@ -31,11 +31,6 @@ struct PolyData {
   std::vector<std::pair<std::string, std::vector<std::string>>> names;
 };
 
-// of a support that is drawn as a line: the force along it, N, tension positive, and its utilisation
-struct LinePull {
-  double force = 0, use = 0;
-};
-
 // A number that is not finite is written as 0: a failed run's last frame is useful, and no reader accepts "nan".
 std::string vtp(const PolyData& data);
 

@@ -59,6 +59,14 @@ export class Camera {
     this.changed();
   }
 
+  // the line of sight through a pixel of the picture, from its upper left
+  ray(x, y) {
+    const { right, up, eye } = this.axes(), { clientWidth: w, clientHeight: h } = this.element;
+    const from = this.target.clone().addScaledVector(right, (x - w / 2) * this.perPixel).addScaledVector(up, (h / 2 - y) * this.perPixel)
+      .addScaledVector(eye, 20 * this.box.radius);
+    return { from: from.toArray(), towards: eye.negate().toArray() };
+  }
+
   turn(da, dh) {
     this.azimuth += da;
     this.height = Math.max(-Math.PI / 2, Math.min(Math.PI / 2, this.height + dh));

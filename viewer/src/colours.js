@@ -1,5 +1,4 @@
-// Meaning of colours: the figures' colours (reports/style.gp), and for each choice its values, unit and range over all
-// times.
+// The figures' colours (reports/style.gp), scales and lists of colours, and numbers with their units.
 
 // Okabe and Ito (2008), which stay apart for colour-blind readers
 export const OKABE = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9', '#f0e442', '#404040'];
@@ -29,6 +28,8 @@ export function listColour(i) {
   const mixed = rgb(colour).map((c) => (round === 1 ? 0.6 * c : 0.5 + 0.5 * c));
   return `#${mixed.map((c) => Math.round(255 * c).toString(16).padStart(2, '0')).join('')}`;
 }
+// of blocks: light, medium and dark, without grey
+export const LISTED_COLOURS = [16, 0, 8].flatMap((from) => Array.from({ length: OKABE.length - 1 }, (_, i) => listColour(from + i)));
 export const groupColour = (run, group) => (group === run.noJoint ? ROCK : listColour(group));
 export const ramp = RAMP.map(rgb);
 
@@ -41,73 +42,6 @@ export function rampColour(t) {
 export function share(value, { low, high, logarithmic }) {
   const scale = logarithmic ? Math.log : (x) => x;
   return high > low ? (scale(value) - scale(low)) / (scale(high) - scale(low)) : 0;
-}
-
-// source of the value in the shader: none, of the point, of the body, of the face, its properties, a place in KINDS
-export const FLAT = 0, POINT = 1, BODY = 2, FACE = 3, PROPERTIES = 4, KIND = 5;
-
-export function choices(run, bodies) {
-  const plane = run.head.dimension === 2;
-  return {
-    set: { label: 'joint set', mode: FLAT },
-    displacement: { label: 'displacement', unit: 'm', mode: POINT, range: () => ({ low: 0, high: farthest(run, bodies) }) },
-    velocity: {
-      label: 'velocity', unit: 'm/s', mode: BODY, value: (shape, f) => run.frames[f].speed[shape.body],
-      range: () => ({ low: 0, high: largest(run.frames, (frame) => frame.speed) }),
-    },
-    friction: {
-      label: 'share of friction mobilised', unit: '', mode: FACE,
-      range: () => ({ low: 0, high: Math.max(1, largest(run.frames, (frame) => frame.contacts.friction)) }),
-    },
-    properties: { label: 'joint properties', mode: PROPERTIES },
-    size: {
-      label: plane ? 'block area' : 'block volume', unit: plane ? 'm²' : 'm³', mode: BODY, value: (shape) => shape.volume,
-      range: () => sizes(run),
-    },
-    ...(run.verdicts && { factor: byFactor(run) }),
-  };
-}
-
-// the kinds that occur, with numbers of blocks
-function byFactor(run) {
-  const value = (shape) => kindOf(run.verdicts.bodies[shape.body]), counts = KINDS.map(() => 0);
-  for (const shape of run.shapes) ++counts[value(shape)];
-  return {
-    label: 'factor of safety', note: 'least, alone or in a cluster', mode: KIND, value,
-    rows: KINDS.map(([name, colour], i) => [`${name} (${counts[i]})`, colour]).filter((_, i) => counts[i]),
-  };
-}
-
-function largest(frames, list) {
-  let most = 0;
-  for (const frame of frames) for (const value of list(frame)) if (value > most) most = value;
-  return most;
-}
-
-function sizes(run) {
-  let low = Infinity, high = 0;
-  for (const { volume } of run.shapes) {
-    if (volume > 0) low = Math.min(low, volume);
-    high = Math.max(high, volume);
-  }
-  return high > 1.001 * low ? { low, high, logarithmic: true } : { low: 0, high };
-}
-
-// the largest displacement of any corner at any time
-function farthest(run, bodies) {
-  const d = [0, 0, 0];
-  let most = 0;
-  run.frames.forEach((_, f) => {
-    for (const shape of run.shapes) {
-      if (!bodies.isShown(shape, f)) continue;
-      for (const { points } of shape.parts)
-        for (let i = 0; i < points.length; i += 3) {
-          bodies.away(f, shape.body, points[i], points[i + 1], points[i + 2], d);
-          most = Math.max(most, d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-        }
-    }
-  });
-  return Math.sqrt(most);
 }
 
 // The fraction of friction that is mobilised at each face: the largest over its contacts; -1 without contacts.
@@ -137,17 +71,17 @@ export function latestShapes(run, f) {
 const PREFIXES = [[1e9, 'G'], [1e6, 'M'], [1e3, 'k'], [1, ''], [1e-3, 'm'], [1e-6, 'µ']];
 
 // three digits with a prefix that people read; of m no kilometres, of areas and volumes none
-export function withUnit(value, unit) {
+export function withUnit(value, unit, count = 3) {
   if (!Number.isFinite(value)) return '–';
   const size = Math.abs(value);
   if (unit === '' || /[²³]/.test(unit)) return `${digits(value)}${unit && ' ' + unit}`;
   const list = PREFIXES.filter(([factor]) => !(unit.startsWith('m') && factor > 1));
   const [factor, prefix] = list.find(([at]) => size >= 0.9995 * at) ?? (size === 0 ? [1, ''] : list.at(-1));
-  return `${digits(value / factor)} ${prefix}${unit}`;
+  return `${digits(value / factor, count)} ${prefix}${unit}`;
 }
 
-export function digits(value) {
+export function digits(value, count = 3) {
   const size = Math.abs(value);
   if (size !== 0 && (size < 1e-3 || size >= 1e5)) return value.toExponential(2).replace('e', '·10^').replace('^+', '^');
-  return String(Number(value.toPrecision(3)));
+  return String(Number(value.toPrecision(count)));
 }

@@ -3,6 +3,7 @@
 export const HEAD = 1, SHAPE = 2, FRAME = 3, AGAIN = 4, VERDICTS = 5;
 export const START = 0, TRIAL = 2;
 export const PRESENT = 1, FIXED = 2;
+export const LINING = 1, COLLAR = 2, BROKEN = 4; // of a piece of support
 // the columns of a pair of faces in contact
 export const PAIR = ['bodyA', 'partA', 'faceA', 'bodyB', 'partB', 'faceB', 'joint', 'properties'];
 
@@ -87,9 +88,11 @@ function readFrame(reader, dimension, pairs, base) {
   const contacts = readContacts(reader, dimension, pairs, base);
   const pieces = reader.int();
   const ends = [0, 1].map(() => inSpace(reader.columns(Float32Array, pieces, dimension), dimension, pieces));
-  const [force, use, lining] = reader.columns(Float32Array, pieces, 3);
+  const [force, use, mark] = reader.columns(Float32Array, pieces, 3), linings = mark.filter((m) => m === LINING).length;
+  // of linings alone, at both ends of each piece
+  const [thrust, moment, pressure] = [0, 1, 2].map(() => reader.columns(Float32Array, linings, 2));
   return { kind, stage, trial, time, bodies, flags, displacement, turn, speed, contacts,
-    support: { count: pieces, ends, force, use, lining } };
+    support: { count: pieces, ends, force, use, mark, linings, thrust, moment, pressure } };
 }
 
 function readHead(reader) {
@@ -118,6 +121,7 @@ export function readRun(buffer) {
     if (tag === SHAPE) {
       const shape = readShape(reader, run.head.dimension);
       shape.from = run.frames.length;
+      shape.number = run.shapes.length;
       if (latest.has(shape.body)) latest.get(shape.body).to = shape.from;
       latest.set(shape.body, shape);
       run.shapes.push(shape);

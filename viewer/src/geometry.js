@@ -132,22 +132,42 @@ export function edgesOf(part) {
   return edges;
 }
 
+// In space the joint sets whose traces the edges of a part are: of edges of one face of a joint and one that is free, or
+// made by an excavation.
+function traces(run, part) {
+  const groups = new Map(), key = (a, b) => `${Math.min(a, b)},${Math.max(a, b)}`;
+  for (const { joint, corners } of part.faces) {
+    const own = run.head.joints[joint], group = own && !own.holds ? own.group : run.noJoint;
+    corners.forEach((a, i) => {
+      const k = key(a, corners[(i + 1) % corners.length]);
+      groups.set(k, [...(groups.get(k) ?? []), group]);
+    });
+  }
+  return ([a, b]) => {
+    const of = groups.get(key(a, b)), made = of.filter((group) => group !== run.noJoint);
+    return of.length === 2 && made.length === 1 ? made[0] : -1;
+  };
+}
+
 export function edgeGeometry(run) {
-  const position = [], shape = [];
-  const add = (point, number) => {
+  const position = [], shape = [], trace = [];
+  const add = (point, number, of = -1) => {
     position.push(...point);
     shape.push(number);
+    trace.push(of);
   };
   run.shapes.forEach((s, number) => {
     for (const part of s.parts) {
       if (part.outline && part.faces.length)
         for (const face of part.faces) for (const ends of edgePieces(part, face)) ends.forEach((point) => add(point, number));
-      else if (part.outline || !part.smooth)
+      else if (part.outline || !part.smooth) {
+        const traceOf = part.outline ? () => -1 : traces(run, part);
         for (const edge of edgesOf(part))
-          if (!part.isInner?.(edge)) for (const c of edge) add(part.points.subarray(3 * c, 3 * c + 3), number);
+          if (!part.isInner?.(edge)) for (const c of edge) add(part.points.subarray(3 * c, 3 * c + 3), number, traceOf(edge));
+      }
     }
   });
-  return buffers({ position: [new Float32Array(position), 3], shape: [new Float32Array(shape), 1] });
+  return buffers({ position: [new Float32Array(position), 3], shape: [new Float32Array(shape), 1], trace: [new Float32Array(trace), 1] });
 }
 
 function buffers(lists) {

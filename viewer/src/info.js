@@ -5,15 +5,17 @@ import { orientationText } from './stereonet.js';
 
 const MOST = 40; // contacts that are listed
 
-export function describe({ run, bodies, look, faces, plane }) {
+export function describe(viewer) {
+  const { run, bodies, look, faces, plane } = viewer;
   const shape = run.shapes[look.shape], b = shape.body, frame = run.frames[look.frame];
   if (!bodies.isShown(shape, look.frame)) return { title: nameOf(run, b), lines: [['', 'not there at this time']] };
-  const d = frame.displacement.map((column) => column[b]), turn = frame.turn.map((column) => column[b]);
+  const d = bodies.away(look.frame, shape, 0, 0, 0, [0, 0, 0]), since = viewer.sinceText(), turn = frame.turn.map((column) => column[b]);
   const lines = [
     [plane ? 'area' : 'volume', withUnit(shape.volume, plane ? 'm²' : 'm³')],
     ['displacement', withUnit(Math.hypot(...d), 'm')],
     ['', `(${d.slice(0, plane ? 2 : 3).map((x) => withUnit(x, 'm')).join(', ')})`],
-    ['rotation', `${digits((Math.hypot(...turn) * 180) / Math.PI)}°`],
+    ...(since ? [['', since]] : []),
+    [since ? 'rotation from the start' : 'rotation', `${digits((Math.hypot(...turn) * 180) / Math.PI)}°`],
     ['velocity', withUnit(frame.speed[b], 'm/s')],
   ];
   if (shape.name) lines.unshift(['block', String(b)]);

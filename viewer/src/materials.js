@@ -2,9 +2,10 @@
 // are some pixels wide (forces, bolts, edges in the plane); one for the faces of a section.
 import { Color, DataTexture, DoubleSide, FloatType, NearestFilter, RedFormat, RGBAFormat, ShaderMaterial, UnsignedByteType, Vector2, Vector3, Vector4 } from 'three';
 import { bodyShader } from './bodies.js';
-import { EDGE, HELD, KINDS, ramp, rgb, ROCK } from './colours.js';
+import { EDGE, HELD, LISTED_COLOURS, ramp, rgb, ROCK } from './colours.js';
 
 const LIST = 1024; // a row of a texture that is a list
+const MOST_LISTED = LISTED_COLOURS.length; // the longest list of a choice
 
 export function listTexture(count, { bytes = false } = {}) {
   const rows = Math.max(1, Math.ceil(count / LIST));
@@ -24,11 +25,13 @@ export function sharedUniforms(bodies, groups, properties, faceValues) {
     cut: u(new Vector4(0, 0, 0, 1)), showFixed: u(true),
     groups: u(groups.texture), propertyColours: u(properties.texture), faceValues: u(faceValues.texture),
     mode: u(0), low: u(0), high: u(1), logarithmic: u(false), ramp: u(ramp.map((c) => new Vector3(...c))),
-    kinds: u(KINDS.map(([, colour]) => new Vector3(...rgb(colour)))),
+    listed: u(listedColours([])),
     chosenGroup: u(-1), picked: u(-1), opacity: u(1), light: u(new Vector3(0, 0, 1)),
     viewport: u(new Vector2(1, 1)), widest: u(0),
   };
 }
+
+export const listedColours = (list) => Array.from({ length: MOST_LISTED }, (_, i) => new Vector3(...rgb(list[i] ?? ROCK)));
 
 const clip = `
   uniform vec4 cut;
@@ -64,7 +67,7 @@ const faceVertex = `
   }
 `;
 
-const listed = `vec4 listed(sampler2D list, float n) { int i = int(n); return texelFetch(list, ivec2(i % ${LIST}, i / ${LIST}), 0); }`;
+const entry = `vec4 entry(sampler2D list, float n) { int i = int(n); return texelFetch(list, ivec2(i % ${LIST}, i / ${LIST}), 0); }`;
 
 const shade = `
   uniform vec3 light;
@@ -77,13 +80,13 @@ const shade = `
 const faceFragment = `
   precision highp float;
   ${clip}
-  ${listed}
+  ${entry}
   ${shade}
   uniform sampler2D groups, propertyColours;
   uniform int mode;
   uniform float low, high, chosenGroup, picked, opacity;
   uniform bool logarithmic;
-  uniform vec3 ramp[${ramp.length}], kinds[${KINDS.length}];
+  uniform vec3 ramp[${ramp.length}], listed[${MOST_LISTED}];
   flat varying vec4 which;
   flat varying float held;
   varying float value;
@@ -97,7 +100,7 @@ const faceFragment = `
   }
   void main() {
     clip();
-    vec4 group = listed(groups, which.y);
+    vec4 group = entry(groups, which.y);
     if (group.a < 0.5) discard;
     #ifdef PICK
       float n = which.x + 1.0;
@@ -106,8 +109,8 @@ const faceFragment = `
       vec3 rock = held > 0.5 ? vec3(${held()}) : vec3(${rock()});
       bool bare = group.a < 0.75;
       vec3 colour = mode == 0 ? (bare ? rock : group.rgb)
-        : mode == 4 ? (which.z < 0.5 ? rock : listed(propertyColours, which.z).rgb)
-        : mode == 5 ? kinds[int(value + 0.5)]
+        : mode == 4 ? (which.z < 0.5 ? rock : entry(propertyColours, which.z).rgb)
+        : mode == 5 ? listed[int(value + 0.5)]
         : mode == 3 && value < 0.0 ? rock : rampOf(value);
       if (mode == 0 && held > 0.5 && !bare) colour = mix(colour, vec3(${held()}), 0.35);
       if (chosenGroup >= 0.0 && which.y != chosenGroup) colour = mix(colour, vec3(0.96), 0.82);
@@ -139,14 +142,24 @@ export function edgeMaterial(uniforms) {
   return material({ ...uniforms, colour: { value: new Color(EDGE) }, edgeOpacity: { value: 1 } }, `
     ${bodyShader}
     uniform bool showFixed;
+    uniform int mode;
+    uniform vec3 colour;
+    uniform highp sampler2D groups;
+    attribute float trace;
     varying vec3 at;
-    // nearer to the eye than the faces that it bounds
-    void main() { ${placed} gl_Position.z -= 1e-4; }
+    flat varying vec3 tint;
+    ${entry}
+    // nearer to the eye than the faces that it bounds; traces in the colour of their set
+    void main() {
+      ${placed}
+      gl_Position.z -= 1e-4;
+      tint = mode == 0 && trace >= 0.0 ? entry(groups, trace).rgb : colour;
+    }
   `, `
     ${clip}
-    uniform vec3 colour;
     uniform float edgeOpacity;
-    void main() { clip(); gl_FragColor = vec4(colour, edgeOpacity); }
+    flat varying vec3 tint;
+    void main() { clip(); gl_FragColor = vec4(tint, edgeOpacity); }
   `, { transparent: true });
 }
 
@@ -165,7 +178,7 @@ export function cutMaterial(uniforms) {
 
 // Straight pieces from `begin` to `end`, `width` pixels wide, with a head at their end if `head` is 1. With a `share`
 // their width is scaled up to that of `widest`. `position` is the place in one: along, across, and whether it belongs to
-// the head.
+// the head. If `head` is -1 it is a dot with a dark rim.
 export function pieceMaterial(uniforms) {
   return material(uniforms, `
     uniform vec2 viewport;
@@ -173,7 +186,7 @@ export function pieceMaterial(uniforms) {
     attribute vec3 begin, end, tint;
     uniform float widest;
     attribute float width, head, share;
-    varying vec3 colour;
+    varying vec3 colour, spot; // spot: the place in a dot, and 1
     void main() {
       vec4 a = projectionMatrix * viewMatrix * vec4(begin, 1.0), b = projectionMatrix * viewMatrix * vec4(end, 1.0);
       vec2 along = (b.xy - a.xy) * viewport * 0.5;
@@ -185,12 +198,21 @@ export function pieceMaterial(uniforms) {
       vec2 offset = along * t + vec2(-along.y, along.x) * position.y * half_width;
       float z = mix(a.z, b.z, size > 0.0 ? t / size : 0.0);
       colour = tint;
+      spot = vec3(0.0);
+      if (head < 0.0) {
+        spot = vec3(2.0 * position.x - 1.0, position.y, 1.0);
+        offset = position.z > 0.5 ? vec2(0.0) : spot.xy * 0.5 * width;
+      }
       vec3 middle = 0.5 * (begin + end);
       gl_Position = vec4(a.xy + offset * 2.0 / viewport, z - 2e-4, 1.0);
       if (dot(cut.xyz, middle) > cut.w) gl_Position = vec4(0.0, 0.0, -2.0, 1.0);
     }
   `, `
-    varying vec3 colour;
-    void main() { gl_FragColor = vec4(colour, 1.0); }
+    varying vec3 colour, spot;
+    void main() {
+      float radius = length(spot.xy);
+      if (spot.z > 0.5 && radius > 1.0) discard;
+      gl_FragColor = vec4(spot.z > 0.5 && radius > 0.7 ? colour * 0.25 : colour, 1.0);
+    }
   `, { transparent: true });
 }

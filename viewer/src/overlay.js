@@ -1,5 +1,6 @@
 // The overlay of the picture, also in its PNG: title and time, legend with units, scale bar, directions, stereonet.
 import { digits, groupColour, listColour, PRESSED, PULLED, rampColour, ROCK, withUnit } from './colours.js';
+import { boltColour } from './supports.js';
 import { label, shortened, svg } from './svg.js';
 
 const MOST_ROWS = 12;
@@ -34,10 +35,11 @@ export class Overlay {
     this.drawn.replaceChildren(
       label(left, 26, fitting(scene.title, 8.2), { 'font-size': 15 }),
       label(left, 45, fitting(scene.moment, 6.6)),
-      ...(scene.magnified !== 1 ? [label(left, 62, `displacements ×${digits(scene.magnified)}`)] : []),
+      ...(scene.magnified !== 1 || scene.since ? [label(left, 62, fitting(`displacements ${scene.magnified !== 1 ? `×${digits(scene.magnified)} ` : ''}${scene.since}`, 6.6))] : []),
       this.scaleBar(left, bottom, scene.perPixel),
       this.directions(left + 36, bottom - 62, scene),
       this.legend(right, 16, scene),
+      ...(scene.measured ? [this.measured(scene)] : []),
     );
   }
 
@@ -66,7 +68,7 @@ export class Overlay {
     return group;
   }
 
-  legend(x, y, { choice, legend, run, forces }) {
+  legend(x, y, { choice, legend, run, forces, supports }) {
     const group = svg('g', { class: 'legend' });
     let at = y + 12;
     const title = (text) => group.append(label(x, at, text, { 'text-anchor': 'end' }));
@@ -75,17 +77,17 @@ export class Overlay {
       this.bar(group, x - 18, at + 10, choice, legend);
       at += 170;
     } else {
+      const own = choice.legend?.();
       title(choice.label);
-      if (choice.note) {
+      if (own) {
         at += 16;
-        group.append(label(x, at, choice.note, { 'text-anchor': 'end', 'font-size': 11, fill: '#606060' }));
+        group.append(label(x, at, own.note, { 'text-anchor': 'end', 'font-size': 11, fill: '#606060' }));
       }
-      for (const [name, colour] of choice.rows ?? rowsOf(run, choice)) {
-        at += 18;
-        group.append(svg('rect', { x: x - 14, y: at - 10, width: 14, height: 11, fill: colour, stroke: '#606060', 'stroke-width': 0.6 }),
-          label(x - 20, at, shortened(name, choice.rows ? 40 : 24), { 'text-anchor': 'end' }));
-      }
-      at += 26;
+      at = this.rows(group, x, at, own?.rows ?? rowsOf(run, choice), own ? 40 : 24) + 26;
+    }
+    for (const support of supports) {
+      title(support.strip ?? support.measure);
+      at = this.rows(group, x, support.strip ? this.strip(group, x, at, support) : this.length(group, x, at, support), support.rows, 40) + 26;
     }
     if (forces)
       for (const [text, colour] of [[forces.label, PRESSED], ...(forces.pulls ? [['pulling', PULLED]] : [])]) {
@@ -93,6 +95,43 @@ export class Overlay {
           label(x - forces.pixels - 6, at, text, { 'text-anchor': 'end' }));
         at += 18 + forces.width / 2;
       }
+    return group;
+  }
+
+  // names with their colours; returns the last line
+  rows(group, x, at, rows, most) {
+    for (const [name, colour] of rows) {
+      at += 18;
+      group.append(svg('rect', { x: x - 14, y: at - 10, width: 14, height: 11, fill: colour, stroke: '#606060', 'stroke-width': 0.6 }),
+        label(x - 20, at, shortened(name, most), { 'text-anchor': 'end' }));
+    }
+    return at;
+  }
+
+  // the colours of bolts, from 0
+  strip(group, x, at, { high: [value, unit] }) {
+    const wide = 90, steps = 45, text = withUnit(value, unit), left = x - wide - 8 - 7.5 * text.length;
+    for (let i = 0; i < steps; ++i)
+      group.append(svg('rect', { x: left + (i * wide) / steps, y: at + 8, width: wide / steps + 0.5, height: 11, fill: css(boltColour((i + 0.5) / steps)) }));
+    group.append(svg('rect', { x: left, y: at + 8, width: wide, height: 11, fill: 'none', stroke: '#606060', 'stroke-width': 0.6 }),
+      label(left - 5, at + 18, '0', { 'text-anchor': 'end' }), label(x, at + 18, text, { 'text-anchor': 'end' }));
+    return at + 18;
+  }
+
+  // the length of a value in a diagram
+  length(group, x, at, { value: [value, unit], pixels }) {
+    group.append(svg('path', { d: `M${x} ${at + 9}v8M${x - pixels} ${at + 9}v8M${x} ${at + 13}h${-pixels}`, fill: 'none', stroke: '#202020', 'stroke-width': 1.5 }),
+      label(x - pixels - 6, at + 17, withUnit(value, unit), { 'text-anchor': 'end' }));
+    return at + 17;
+  }
+
+  // the line between two points with its length; before, the cross that Enter takes
+  measured({ measured: { ends, text }, width, height }) {
+    const group = svg('g', { class: 'measured' }), line = (d, stroke, wide) => group.append(svg('path', { d, fill: 'none', stroke, 'stroke-width': wide }));
+    if (ends.length === 2) for (const [stroke, wide] of [['#ffffff', 5], ['#202020', 2]]) line(`M${ends.map((end) => end.join()).join('L')}`, stroke, wide);
+    else for (const [stroke, wide] of [['#ffffff', 4], ['#202020', 1.5]]) line(`M${width / 2 - 9} ${height / 2}h18M${width / 2} ${height / 2 - 9}v18`, stroke, wide);
+    for (const [cx, cy] of ends) group.append(svg('circle', { cx, cy, r: 4, fill: '#f0e442', stroke: '#202020', 'stroke-width': 1.5 }));
+    if (text) group.append(label((ends[0][0] + ends[1][0]) / 2, Math.min(ends[0][1], ends[1][1]) - 10, text, { 'text-anchor': 'middle', 'font-size': 13 }));
     return group;
   }
 

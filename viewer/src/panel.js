@@ -1,6 +1,8 @@
 // The controls: plain form elements with labels, so that a keyboard reaches all of them. They change the look and call
 // back; the viewer calls `refresh` when something else has changed it.
 import { groupColour, digits } from './colours.js';
+import { stageEnds } from './look.js';
+import { BOLTS, LININGS } from './supports.js';
 
 const VIEWS = { top: [-90, 90], north: [90, 0], east: [0, 0], south: [-90, 0], west: [180, 0] };
 
@@ -18,14 +20,17 @@ export class Panel {
   constructor(viewer) {
     this.viewer = viewer;
     this.inputs = {};
-    const { run } = viewer;
+    const { run, supports } = viewer, ends = stageEnds(run), labelled = (list) => Object.entries(list).map(([key, { label }]) => [key, label]);
     this.plane = run.head.dimension === 2;
     this.element = node('form', { className: 'panel', autocomplete: 'off', onsubmit: (event) => event.preventDefault() });
     this.element.setAttribute('aria-label', 'controls');
     this.time = this.timeBar();
     this.element.append(
       this.slider('magnified', 'displacements', { min: 0, max: 3, step: 0.01 }, (v) => 10 ** v, (x) => Math.log10(x), (x) => `×${digits(x)}`),
-      this.select('colour', 'colour', Object.entries(viewer.choices).map(([key, choice]) => [key, choice.label])),
+      ...(ends.length ? [this.select('since', 'since', [['-1', 'start'], ...ends.map(([frame, name]) => [String(frame), `end of ${name}`])], Number)] : []),
+      this.select('colour', 'colour', labelled(viewer.choices)),
+      ...(supports.bolts ? [this.select('bolts', 'bolts', labelled(BOLTS).filter(([key]) => key !== 'use' || supports.uses))] : []),
+      ...(supports.linings ? [this.select('lining', 'lining', labelled(LININGS))] : []),
       this.select('forces', 'forces', [['none', 'none'], ['arrows', 'arrows'], ['network', 'network']]),
       this.slider('forceSize', 'size of forces', { min: -1, max: 1, step: 0.02 }, (v) => 10 ** v, (x) => Math.log10(x), (x) => `×${digits(x)}`),
       ...(this.plane ? [] : this.section()),
@@ -33,6 +38,7 @@ export class Panel {
       this.groups(),
       ...(this.plane ? [] : [this.views()]),
       this.blockInput(),
+      this.measureRow(),
       node('div', { className: 'buttons' },
         this.button('fit', 'whole model', () => viewer.fit()), this.button('save', 'save PNG', () => viewer.savePng()),
         this.button('keys', '?', () => (viewer.keys.hidden = !viewer.keys.hidden))),
@@ -62,9 +68,9 @@ export class Panel {
     return this.row(text, input, output);
   }
 
-  select(key, text, options) {
+  select(key, text, options, valueOf = (text) => text) {
     const input = node('select', { name: key }, ...options.map(([value, name]) => node('option', { value }, name)));
-    input.onchange = () => this.viewer.set({ [key]: input.value });
+    input.onchange = () => this.viewer.set({ [key]: valueOf(input.value) });
     this.inputs[key] = () => (input.value = this.viewer.look[key]);
     return this.row(text, input);
   }
@@ -77,6 +83,16 @@ export class Panel {
   }
 
   button(name, text, onclick) { return node('button', { type: 'button', name, onclick }, text); }
+
+  // the distance is beside it, too, also for readers of the screen
+  measureRow() {
+    const { viewer } = this, button = this.button('measure', 'measure', () => viewer.toggleMeasure()), found = node('output');
+    this.inputs.measure = () => {
+      button.setAttribute('aria-pressed', viewer.measure.on);
+      found.textContent = viewer.measure.text;
+    };
+    return node('div', { className: 'row' }, node('span', {}, 'distance'), button, found);
+  }
 
   section() {
     const { run } = this.viewer, most = 200;

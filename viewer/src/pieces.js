@@ -1,10 +1,12 @@
-// Straight pieces that are some pixels wide: forces, bolts, linings, and edges in the plane.
+// Straight pieces that are some pixels wide: forces, supports (supports.js), and edges in the plane.
 import { BufferAttribute, InstancedBufferAttribute, InstancedBufferGeometry, Mesh } from 'three';
 import { edgePieces } from './geometry.js';
-import { groupColour, latestShapes, listColour, PRESSED, PULLED, rampColour, rgb, share, HELD, OKABE, EDGE } from './colours.js';
+import { groupColour, latestShapes, listColour, PRESSED, PULLED, rampColour, rgb, share, HELD, EDGE } from './colours.js';
 
 // along (0 begin, 1 end of the shaft or begin of the head, 2 tip), across, of the head
 const CORNERS = new Float32Array([0, -1, 0, 1, -1, 0, 1, 1, 0, 0, 1, 0, 1, -1, 1, 2, 0, 1, 1, 1, 1]);
+
+const DOT = -1; // in place of a head
 
 export class Pieces {
   constructor(material) {
@@ -22,6 +24,8 @@ export class Pieces {
     list.head.push(head);
     list.share.push(share);
   }
+  // `width` is its diameter
+  addDot(at, tint, width) { this.add(at, at, tint, width, DOT); }
   show() {
     this.mesh.geometry.dispose();
     const geometry = new InstancedBufferGeometry();
@@ -101,15 +105,6 @@ export function addNetwork(pieces, { run, bodies, look, frame }) {
     if (!shapes[0] || !shapes[1] || size < 1e-4 * most) continue;
     shapes.forEach((shape, k) => bodies.place(shape, frame, 0, 0, 0, look, ends[k]));
     pieces.add(ends[0], ends[1], rgb(normal >= 0 ? PRESSED : PULLED), 1, 0, size / most);
-  }
-}
-
-// bolts and linings, at their true positions
-export function addSupport(pieces, run, frame) {
-  const { support } = run.frames[frame];
-  for (let i = 0; i < support.count; ++i) {
-    const ends = support.ends.map((e) => [e[0][i], e[1][i], e[2][i]]);
-    pieces.add(ends[0], ends[1], rgb(support.lining[i] ? OKABE[7] : OKABE[2]), support.lining[i] ? 4 : 2.5);
   }
 }
 

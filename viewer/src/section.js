@@ -1,7 +1,8 @@
 // A section: each convex part that the plane cuts gives a polygon, so blocks look solid and their joints show as lines.
 import { BufferAttribute, BufferGeometry } from 'three';
 import { edgesOf } from './geometry.js';
-import { HELD, KINDS, rampColour, rgb, ROCK, share } from './colours.js';
+import { BODY, LISTED, POINT } from './choices.js';
+import { HELD, rampColour, rgb, ROCK, share } from './colours.js';
 
 // the plane's unit normal and the position of the cut along it; everything beyond is removed
 export function cutParts({ run, bodies, look, frame, showFixed }, normal, offset) {
@@ -13,7 +14,7 @@ export function cutParts({ run, bodies, look, frame, showFixed }, normal, offset
       for (let i = 0; i < n; ++i) {
         const [x, y, z] = part.points.subarray(3 * i, 3 * i + 3);
         bodies.place(shape, frame, x, y, z, look, place);
-        bodies.away(frame, shape.body, x, y, z, away);
+        bodies.away(frame, shape, x, y, z, away);
         at.set([...place, Math.hypot(...away)], 4 * i);
         beyond[i] = place[0] * normal[0] + place[1] * normal[1] + place[2] * normal[2] - offset;
       }
@@ -49,13 +50,13 @@ const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a
 const dot = (c, u, middle) => u[0] * (c[0] - middle[0]) + u[1] * (c[1] - middle[1]) + u[2] * (c[2] - middle[2]);
 
 // Polygons as triangles with colours, and their outlines. Faces' values have no meaning inside of a block.
-export function cutGeometry(polygons, { run, bodies, frame, choice, mode, legend }) {
+export function cutGeometry(polygons, { run, bodies, frame, choice, legend }) {
   const position = [], colour = [], lines = [];
   for (const { shape, corners } of polygons) {
     const own = run.shapes[shape], rock = rgb(bodies.isFixed(own, frame) ? HELD : ROCK);
-    const tint = (c) => mode === 'point' ? rampColour(share(c[3], legend))
-      : mode === 'kind' ? rgb(KINDS[choice.value(own)][1])
-      : mode === 'body' ? rampColour(share(choice.value(own, frame), legend)) : rock;
+    const tint = (c) => choice.mode === POINT ? rampColour(share(c[3], legend))
+      : choice.mode === LISTED ? rgb(choice.list[choice.value(own)])
+      : choice.mode === BODY ? rampColour(share(choice.value(own, frame), legend)) : rock;
     for (let i = 1; i + 1 < corners.length; ++i)
       for (const c of [corners[0], corners[i], corners[i + 1]]) {
         position.push(c[0], c[1], c[2]);

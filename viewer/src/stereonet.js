@@ -1,28 +1,20 @@
 // Poles of the joints on the lower hemisphere in equal-area projection; in the plane their traces, as directions. A pole
 // chooses its set, and a face that is picked rings its pole.
 import { groupColour } from './colours.js';
-import { onNet } from './report/net.js';
+import { onNet, planeOf, poleWith } from './report/net.js';
 import { label, shortened, svg } from './svg.js';
 
 const MOST_LABELS = 8, MOST_POLES = 2000;
 const degrees = 180 / Math.PI;
 
-// dip and dip direction of a plane with this normal, degrees
-function orientation(normal) {
-  const up = normal[2] < 0 ? normal.map((c) => -c) : normal;
-  const dip = Math.acos(Math.min(1, up[2])) * degrees;
-  const direction = (Math.atan2(up[0], up[1]) * degrees + 360) % 360;
-  return { dip, direction };
-}
-
-const two = (x, n) => String(Math.round(x)).padStart(n, '0');
+const two = (x, n) => String(x).padStart(n, '0');
 export function orientationText(joint, plane) {
   if (plane) {
     const [x, y] = joint.normal, trace = (Math.atan2(x, -y) * degrees + 360) % 180;
     return `trace at ${Math.round(trace)}°`;
   }
-  const { dip, direction } = orientation(joint.normal);
-  return `${two(dip, 2)}°/${two(direction, 3)}°`;
+  const { dip, direction } = planeOf(poleWith(joint.normal));
+  return `${two(Math.round(dip), 2)}°/${two(Math.round(direction) % 360, 3)}°`;
 }
 
 // of planes, whose normals have no sign
@@ -67,7 +59,7 @@ export class Stereonet {
   }
 
   at(joint) {
-    const [x, y] = this.plane ? [-joint.normal[1], joint.normal[0]] : onNet(joint.normal);
+    const [x, y] = this.plane ? [-joint.normal[1], joint.normal[0]] : onNet(poleWith(joint.normal));
     return [x * this.radius, -y * this.radius];
   }
 

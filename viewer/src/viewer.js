@@ -2,47 +2,29 @@
 import { Color, LineSegments, Mesh, Scene, Vector3, WebGLRenderer, WebGLRenderTarget, LineBasicMaterial, LinearSRGBColorSpace } from 'three';
 import { Bodies } from './bodies.js';
 import { bestAzimuth, Camera } from './camera.js';
-import { BODY, choices, digits, EDGE, FACE, frictionByFace, groupColour, KIND, listColour, POINT, rgb, withUnit } from './colours.js';
+import { choices, FACE } from './choices.js';
+import { digits, EDGE, frictionByFace, groupColour, listColour, rgb, withUnit } from './colours.js';
 import { START, TRIAL, nameOf } from './data.js';
 import { boxOf, edgeGeometry, faceGeometry, findInner, listFaces, polygonNormal } from './geometry.js';
 import { describe } from './info.js';
-import { cutMaterial, edgeMaterial, faceMaterial, listTexture, pickMaterial, pieceMaterial, sharedUniforms } from './materials.js';
+import { keyTable } from './keys.js';
+import { firstFrame, initialLook, readAddress } from './look.js';
+import { cutMaterial, edgeMaterial, faceMaterial, listedColours, listTexture, pickMaterial, pieceMaterial, sharedUniforms } from './materials.js';
+import { Measure, pointUnder } from './measure.js';
 import { Overlay } from './overlay.js';
 import { Panel } from './panel.js';
-import { addArrows, addJointEdges, addNetwork, addSupport, largestBetween, largestForce, Pieces } from './pieces.js';
+import { addArrows, addJointEdges, addNetwork, largestBetween, largestForce, Pieces } from './pieces.js';
 import { cutGeometry, cutParts } from './section.js';
 import { Stereonet } from './stereonet.js';
-
-const KEYS = [['drag', 'rotates the blocks, in the plane moves them'], ['shift and drag, right button', 'moves'], ['wheel, + and −', 'zooms'],
-  ['arrow keys', 'turn, with shift move'], ['Home', 'whole model'], ['space', 'plays the frames'], ['click', 'picks a block or a pole'], ['Escape', 'picks nothing'], ['?', 'shows and hides this']];
+import { addSupport, supportLegends, supportsOf } from './supports.js';
 
 // pixels: of the network's widest line, at most; of blocks, below which their edges fade
 const WIDEST = 16, FULL_EDGES = 14;
-
-const initialLook = (run) => ({
-  frame: run.frames.length - 1, magnified: 1, exploded: 0, colour: run.verdicts ? 'factor' : run.head.joints.length ? 'set' : 'displacement',
-  forces: 'none', forceSize: 1, section: 'none', cutAt: 0.5, cutOther: false, hidden: new Set(), chosen: -1, showFixed: true,
-  edges: true, shape: -1, face: -1,
-});
 
 // m: width of a block of median volume
 function typicalSize(run) {
   const volumes = run.shapes.map((shape) => shape.volume).sort((a, b) => a - b);
   return volumes[volumes.length >> 1] ** (1 / run.head.dimension);
-}
-
-// the keys, hidden until they are asked for
-function keyTable() {
-  const list = document.createElement('dl');
-  list.className = 'keys';
-  list.hidden = true;
-  for (const [key, meaning] of KEYS) {
-    const [term, text] = ['dt', 'dd'].map((name) => document.createElement(name));
-    term.textContent = key;
-    text.textContent = meaning;
-    list.append(term, text);
-  }
-  return list;
 }
 
 export class Viewer {
@@ -56,9 +38,11 @@ export class Viewer {
     this.faces = listFaces(run);
     this.normals = this.faces.map((face) => polygonNormal(run.shapes[face.shape].parts[face.part].points, face.corners));
     this.choices = choices(run, this.bodies);
-    this.look = initialLook(run);
+    this.supports = supportsOf(run, largestForce(run));
+    this.measure = new Measure(this);
+    this.look = initialLook(run, this.supports);
     this.build();
-    this.readAddress(address);
+    readAddress(this, address);
     this.update();
     this.fit();
     if (this.poster) this.writePoster(this.poster);
@@ -124,6 +108,12 @@ export class Viewer {
     this.update();
   }
 
+  toggleMeasure(on) {
+    this.measure.toggle(on);
+    this.panel.refresh();
+    this.askDraw();
+  }
+
   hide(group, hidden) {
     if (hidden) this.look.hidden.add(group);
     else this.look.hidden.delete(group);
@@ -152,7 +142,8 @@ export class Viewer {
       clearInterval(this.playing);
       this.playing = 0;
     } else {
-      if (look.frame === run.frames.length - 1) look.frame = 0;
+      // from the start, also from the first picture
+      if ([firstFrame(run), run.frames.length - 1].includes(look.frame)) look.frame = 0;
       const pause = Math.min(500, Math.max(40, 6000 / run.frames.length));
       this.playing = setInterval(() => {
         if (look.frame + 1 >= run.frames.length) this.play();
@@ -173,59 +164,17 @@ export class Viewer {
 
   pickedName() { return this.look.shape >= 0 ? nameOf(this.run, this.run.shapes[this.look.shape].body) : ''; }
 
-  // The page's address may state the look: view.html#frame=3&magnified=100&colour=displacement. Names and values that
-  // this page does not have are told.
-  readAddress(address) {
-    const unread = new Set(address.keys()), unknown = [];
-    const has = (key) => unread.delete(key) || address.has(key);
-    const tell = (key, value = address.get(key)) => unknown.push(`${key}=${value}`);
-    const { look } = this, number = (key, low, high) => {
-      if (!has(key)) return;
-      const value = Number(address.get(key));
-      if (Number.isFinite(value) && address.get(key) !== '') look[key] = Math.min(high, Math.max(low, value));
-      else tell(key);
-    };
-    number('frame', 0, this.run.frames.length - 1);
-    look.frame = Math.round(look.frame);
-    number('magnified', 1, 1000);
-    number('exploded', 0, 2);
-    number('forceSize', 0.1, 10);
-    number('cutAt', 0, 1);
-    for (const [key, allowed] of [['colour', Object.keys(this.choices)], ['forces', ['none', 'arrows', 'network']]])
-      if (has(key)) allowed.includes(address.get(key)) ? (look[key] = address.get(key)) : tell(key);
-    const section = address.get('section'), joint = this.run.head.joints.findIndex((j) => j.name === section);
-    if (['x', 'y', 'z', 'none'].includes(section)) look.section = section;
-    else if (joint >= 0) look.section = `joint ${joint}`;
-    else if (has('section')) tell('section');
-    unread.delete('section');
-    const named = (name) => this.run.groups.findIndex((group) => group.name === name);
-    if (has('chosen') && (look.chosen = named(address.get('chosen'))) < 0) tell('chosen');
-    unread.delete('hidden');
-    for (const name of address.getAll('hidden')) named(name) >= 0 ? look.hidden.add(named(name)) : tell('hidden', name);
-    for (const key of ['showFixed', 'edges', 'cutOther']) if (has(key)) ['0', '1'].includes(address.get(key)) ? (look[key] = address.get(key) === '1') : tell(key);
-    if (has('block')) {
-      this.pickByName(address.get('block'));
-      if (look.shape < 0) tell('block');
-    }
-    const poster = address.get('poster')?.match(/^(\d{2,4})x(\d{2,4})(\.webp)?$/);
-    if (poster) {
-      Object.assign(this.element.style, { width: `${poster[1]}px`, height: `${poster[2]}px` });
-      this.poster = poster[3] ? 'image/webp' : 'image/png';
-    }
-    if (poster || address.get('panel') === '0') this.element.classList.add('bare');
-    for (const key of ['poster', 'panel', 'azimuth', 'height']) unread.delete(key);
-    for (const key of unread) tell(key);
-    if (unknown.length) this.panel.tell(`The address names what this page does not have: ${unknown.join(', ')}.`);
-    const view = ['azimuth', 'height'].map((key) => Number(address.get(key)));
-    if (!this.plane && address.has('azimuth') && view.every(Number.isFinite)) this.camera.look(...view);
-    this.size();
-  }
-
   // ---- the picture
 
   update() {
     const { look, run, uniforms: u } = this, choice = this.choices[look.colour];
+    if (this.bodies.since !== look.since) {
+      this.bodies.setBase(look.since);
+      this.choices.displacement.found = null;
+    }
     this.legend = choice.range ? (choice.found ??= choice.range()) : null;
+    choice.prepare?.(look.frame);
+    if (choice.list) u.listed.value = listedColours(choice.list);
     this.bodies.setFrame(look.frame, choice.value ? (shape) => choice.value(shape, look.frame) : undefined);
     if (choice.mode === FACE) {
       frictionByFace(run, this.faces, look.frame, this.faceValues.values);
@@ -292,8 +241,8 @@ export class Viewer {
     const sign = look.cutOther ? -1 : 1, n = plane.normal;
     u.cut.value.set(...n.map((c) => sign * c), sign * plane.offset + 1e-6 * this.box.radius);
     const scene = { run: this.run, bodies: this.bodies, look, frame: look.frame, showFixed: look.showFixed };
-    const mode = { [POINT]: 'point', [BODY]: 'body', [KIND]: 'kind' }[choice.mode];
-    const { faces, lines } = cutGeometry(cutParts(scene, n, plane.offset), { ...scene, choice, mode, legend: this.legend });
+    this.cutPolygons = cutParts(scene, n, plane.offset);
+    const { faces, lines } = cutGeometry(this.cutPolygons, { ...scene, choice, legend: this.legend });
     this.cut.geometry.dispose();
     this.cutLines.geometry.dispose();
     this.cut.geometry = faces;
@@ -308,7 +257,7 @@ export class Viewer {
       const colours = { choice: look.colour, values: this.faceValues.values, legend: this.legend };
       addJointEdges(pieces, { ...scene, colours, hidden: look.hidden, chosenGroup: look.chosen, showFixed: look.showFixed });
     }
-    addSupport(pieces, run, look.frame);
+    addSupport(pieces, run, look, this.supports);
     if (look.forces === 'arrows')
       addArrows(pieces, { ...scene, reach: 0.3 * this.box.radius * look.forceSize, picked: look.shape >= 0 ? run.shapes[look.shape] : null });
     if (look.forces === 'network') addNetwork(pieces, scene);
@@ -324,6 +273,12 @@ export class Viewer {
     if (network) return { label: withUnit(most, 'N'), pixels: 40, width: 1 + this.uniforms.widest.value, pulls };
     const reach = (0.3 * this.box.radius * look.forceSize) / camera.perPixel, scale = Math.min(1, 80 / reach);
     return { label: withUnit(most * scale, 'N'), pixels: reach * scale, width: 3, pulls };
+  }
+
+  // the stage at whose end displacements begin to count; empty: at the start
+  sinceText() {
+    const { run, look } = this;
+    return look.since < 0 ? '' : `after stage ${run.head.stages[run.frames[look.since].stage]}`;
   }
 
   moment() {
@@ -350,8 +305,9 @@ export class Viewer {
     this.renderer.render(this.scene, camera.camera);
     const { clientWidth: width, clientHeight: height } = this.picture;
     this.overlay.draw({ width, height, perPixel: camera.perPixel, axes: { right, up },
-      plane: this.plane, title: this.run.head.title || '', moment: this.moment(), magnified: this.look.magnified,
-      choice: this.choices[this.look.colour], legend: this.legend, run: this.run, forces: this.forcesLegend() });
+      plane: this.plane, title: this.run.head.title || '', moment: this.moment(), magnified: this.look.magnified, since: this.sinceText(),
+      choice: this.choices[this.look.colour], legend: this.legend, run: this.run, forces: this.forcesLegend(),
+      supports: supportLegends(this.run, this.look, this.supports, camera.perPixel), measured: this.measure.drawn });
   }
 
   size() {
@@ -379,18 +335,30 @@ export class Viewer {
     canvas.addEventListener('pointerdown', (event) => (down = [event.clientX, event.clientY]));
     canvas.addEventListener('pointerup', (event) => {
       if (!down || Math.hypot(event.clientX - down[0], event.clientY - down[1]) > 3) return;
-      const box = canvas.getBoundingClientRect();
-      const face = this.faceAt(event.clientX - box.left, event.clientY - box.top);
+      const box = canvas.getBoundingClientRect(), pixel = [event.clientX - box.left, event.clientY - box.top];
+      if (this.measure.on) return this.measureAt(...pixel);
+      const face = this.faceAt(...pixel);
       this.pick(face >= 0 ? this.faces[face].shape : -1, face);
     });
     this.picture.addEventListener('keydown', (event) => {
-      if (event.key === 'Escape') this.set({ shape: -1, face: -1, chosen: -1 });
+      if (event.ctrlKey || event.altKey || event.metaKey) return;
+      if (event.key === 'Escape') {
+        this.toggleMeasure(false);
+        this.set({ shape: -1, face: -1, chosen: -1 });
+      } else if (event.key === 'm') this.toggleMeasure();
+      else if (event.key === 'Enter' && this.measure.on && event.target === canvas) this.measureAt(canvas.clientWidth / 2, canvas.clientHeight / 2);
       else if (event.key === ' ' && event.target === canvas) this.play();
       else if (event.key === 'Home' && event.target === canvas) this.fit();
       else if (event.key === '?') this.keys.hidden = !this.keys.hidden;
       else return;
       event.preventDefault();
     });
+  }
+
+  measureAt(x, y) {
+    this.measure.add(pointUnder(this, x, y));
+    this.panel.refresh();
+    this.askDraw();
   }
 
   // number of the face under a pixel of the picture, -1: none

@@ -6,7 +6,8 @@ import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { angles, envelope } from '../src/report/lining_section.js';
 import { levelLine } from '../src/report/level_line.js';
-import { between, daylightEnvelope, density, fisherMean, fromNet, greatCircle, lineOf, lineZones, onNet, planeOf, poleOf, poleZones, smallCircle, terzaghiWeight } from '../src/report/net.js';
+import { between, daylightEnvelope, density, fisherMean, fromNet, greatCircle, lineOf, lineZones, onNet, planeOf, poleOf, poleWith, poleZones, smallCircle, terzaghiWeight } from '../src/report/net.js';
+import { orientationText } from '../src/stereonet.js';
 
 const [source] = process.argv.slice(2);
 const near = (found, wanted, tolerance = 1e-8) => assert.ok(Math.abs(found - wanted) <= tolerance, `${found}, not ${wanted}`);
@@ -28,6 +29,20 @@ for (const kind of ['area', 'angle']) {
 // a pole is where its plane's own line is not: the plane 46/128 dips to 128, its pole plunges 44 to 308
 nearPoint(onNet(poleOf(46, 128)), onNet(lineOf(44, 308)), 1e-12);
 { const { dip, direction } = planeOf(poleOf(46, 128)); near(dip, 46, 1e-9); near(direction, 128, 1e-9); }
+// Upward normals, as the records have them: viewer and report give a plane the same dip direction, also if it is exactly
+// vertical, when its normal is level and says to which side it dips.
+for (const [dip, direction] of [[46, 128], [10, 300], [0, 0]]) {
+  const slope = Math.sin((dip * Math.PI) / 180), a = (direction * Math.PI) / 180;
+  const of = planeOf(poleWith([slope * Math.sin(a), slope * Math.cos(a), Math.cos((dip * Math.PI) / 180)]));
+  near(of.dip, dip, 1e-6);
+  if (dip > 0) near(of.direction, direction, 1e-9);
+}
+for (const [normal, direction] of [[[1, 0, 0], 90], [[-1, 0, 0], 270], [[0, 1, 0], 0], [[0, -1, -0], 180]]) {
+  assert.deepEqual(planeOf(poleWith(normal)), { dip: 90, direction });
+  assert.equal(orientationText({ normal }, false), `90°/${String(direction).padStart(3, '0')}°`);
+  nearPoint(onNet(poleWith(normal)), onNet(poleOf(90, direction)), 1e-12);
+}
+assert.equal(orientationText({ normal: [-0.001, Math.SQRT1_2, Math.SQRT1_2] }, false), '45°/000°', 'not 360');
 
 // ---- friction circles: poles of planes that dip as the friction are nearer to the centre than lines that plunge as it does
 for (const [friction, pole, line] of [[29, 0.354090797, 0.717767636], [30, 0.366025404, 0.707106781], [41, 0.495268028, 0.586464808]]) {

@@ -1,7 +1,7 @@
 // The report on a kinematic analysis of a rock face: two nets with its zones, their counts, and beside them what block
 // theory says of the pairs of joints, since the overlay is safe on neither side.
 import { digits, listColour } from '../colours.js';
-import { downward } from './net.js';
+import { poleWith } from './net.js';
 import { bullets, header, paragraph, section } from './parts.js';
 import { jointNets, orientation, scanlineChoice, slidingLines, slidingPoles, weightedZones, withProjection } from './stereonets.js';
 import { element, list, readCsv, table } from './table.js';
@@ -18,7 +18,7 @@ function worstPairs(csv) {
 
 export function kinematicSections({ kinematics, files, block }) {
   const names = [...new Set(kinematics.joints.map((joint) => joint.set))];
-  const sets = names.map((name, k) => ({ name, colour: listColour(k), poles: kinematics.joints.filter((joint) => joint.set === name).map((joint) => downward(joint.normal)) }));
+  const sets = names.map((name, k) => ({ name, colour: listColour(k), poles: kinematics.joints.filter((joint) => joint.set === name).map((joint) => poleWith(joint.normal)) }));
   // the program counts in radians: degrees come back with the rounding of that
   const asStated = (degrees) => Number(degrees.toPrecision(12)), { plane_sliding: plane, flexural_toppling: flexural, direct_toppling: direct } = kinematics.limits_deg;
   const [dip, direction, friction] = [kinematics.face_dip_deg, kinematics.face_direction_deg, kinematics.friction_deg].map(asStated);

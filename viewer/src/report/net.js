@@ -21,6 +21,8 @@ export const planeOf = (pole) => {
   const { plunge, trend } = plungeAndTrend(downward(pole));
   return { dip: 90 - plunge, direction: (trend + 180) % 360 };
 };
+// The pole of a plane with this upward normal. A vertical plane dips to the side to which its normal points.
+export const poleWith = (normal) => (normal[2] < 0 ? normal : normal.map((x) => -x));
 export const between = (a, b) => downward(unit(cross(a, b)));
 
 // ---- the net

@@ -8,7 +8,7 @@ import { jointForces, lastState, lastTrial } from './forces.js';
 import { jointSections } from './joints.js';
 import { kinematicSections } from './kinematics.js';
 import { liningFigures } from './linings.js';
-import { downward } from './net.js';
+import { poleWith } from './net.js';
 import { bullets, header, paragraph, section } from './parts.js';
 import { jointNets } from './stereonets.js';
 import { studySections } from './study.js';
@@ -106,7 +106,7 @@ function forces({ blocks, results }) {
 
 function orientations({ blocks }) {
   if (!blocks || blocks.head.dimension === 2 || !blocks.head.joints.length) return null;
-  const sets = blocks.groups.map((group, k) => ({ name: group.name, colour: groupColour(blocks, k), poles: group.joints.map((j) => downward(blocks.head.joints[j].normal)) }))
+  const sets = blocks.groups.map((group, k) => ({ name: group.name, colour: groupColour(blocks, k), poles: group.joints.map((j) => poleWith(blocks.head.joints[j].normal)) }))
     .filter((set) => set.poles.length);
   return section('Orientations', jointNets(sets));
 }
