@@ -235,16 +235,11 @@ void visit_fields(Either<StaticBase> auto& b, auto&& visit) {
   visit(Saved{}, motions, histories, supports, ledger, loads.values, held_bonds, listed);
 }
 
-void visit_fields(Just<StepLength> auto& l, auto&& visit) {
-  auto& [now, too_short, left_if_short, too_long, left_if_long, evaluations] = l;
-  visit(Saved{}, now, too_short, left_if_short, too_long, left_if_long, evaluations);
-}
-
 void visit_fields(Just<StaticProgress> auto& p, auto&& visit) {
-  auto& [iteration, since_commit, tries, polished, regularisation, overshoot, length, accepted, residual, change,
-         merits] = p;
-  visit(Saved{}, iteration, since_commit, tries, polished, regularisation, overshoot, length, accepted, residual,
-        change, merits);
+  auto& [iteration, since_commit, tries, polished, regularisation, overshoot, length, lengths, accepted, residual,
+         change, merits] = p;
+  visit(Saved{}, iteration, since_commit, tries, polished, regularisation, overshoot, length, lengths, accepted,
+        residual, change, merits);
 }
 
 void visit_fields(Either<StaticSystem> auto& s, auto&& visit) {

@@ -56,20 +56,14 @@ struct StaticBase {
   long long listed = 0;  // Counters::neighbour_builds that the histories belong to
 };
 
-// The search for the length of a step, over that of the linear system's solution: the present one, between one that
-// proved too short and one too long (0: none yet), with the share of the work that was left there.
-struct StepLength {
-  double now = 1, too_short = 0, left_if_short = 1, too_long = 0, left_if_long = 0;
-  int evaluations = 0;
-};
-
 // How far the iterations of an increment have come.
 struct StaticProgress {
   int iteration = 0;  // accepted ones of this increment
   int since_commit = 0, tries = 0, polished = 0;
-  double regularisation = 1;             // lambda
-  double overshoot = 0;                  // the linear system's solution over the largest permitted step
-  StepLength length;                     // of the last step
+  double regularisation = 1;  // lambda
+  double overshoot = 0;       // the linear system's solution over the largest permitted step
+  double length = 1;          // of the last step, over the bounded solution; how often it was shortened
+  int lengths = 0;
   std::vector<double> accepted;          // by degree of freedom: motion since the reference state
   std::vector<double> residual, change;  // by degree of freedom: unbalanced forces, last step
   std::vector<double> merits;            // of the accepted ones

@@ -28,25 +28,21 @@ constexpr double first_regularisation = 1, least_regularisation = 1e-9;
 // Accepted iterations of an increment before it is left to relaxation.
 constexpr int iteration_limit = 150;
 
-// The length of a step is searched by the residual's work along it over that before it, 1 at no length and 0 at the
-// least energy. A step is too long if less than the first is left (negative: the joints drive it back), and could be
-// longer if more than the second is; it becomes at most so many times the solution of the linear system, at least so
-// much shorter between two evaluations, and has at most so many of them.
-constexpr double may_drive_back = -0.5, may_remain = 0.6, longest_factor = 4, most_shortening = 0.1,
-                 least_shortening = 0.7;
+// A step is shortened if less than this is left of the residual's work along it, 1 before it and 0 at the least energy
+// (negative: the joints drive it back): to where that work, interpolated, is zero, within these bounds. It has at most
+// so many lengths. None is made longer than the solution of the linear system, for slip is not taken back.
+constexpr double may_drive_back = -0.5, most_shortening = 0.1, least_shortening = 0.7;
 constexpr int most_lengths = 6;
 
-// Work left of a step whose loads are not finite.
-constexpr double beyond_all = -1e3;
-
-// Regularisation falls with the residual of a step that was not shortened, within these bounds, or, if the residual
-// falls slowly, by the third; it falls by the fourth if the step was bounded by the blocks' size, and rises by the last
-// if the step was shortened below that fraction of the solution.
+// Regularisation falls with the residual of a step that was not shortened, within these bounds, or by the third if more
+// than half of the work is left, since it is then regularisation that bounds the step; it falls by the fourth if the
+// step was bounded by the blocks' size, and rises by the last if the step was shortened below that fraction.
 constexpr double most_fall = 0.02, least_fall = 0.5, slow_fall = 0.1, bounded_fall = 0.5, far_shortened = 0.3, rise = 2;
 
-// With which an increment begins if most of its contacts carry: one in so many is closed without force.
-constexpr double first_if_carried = 0.01;
-constexpr std::size_t one_closed_of = 10;
+// With which an increment begins if the loads are balanced up to this fraction of the contact forces and of so many
+// joints that touch at most one carries nothing.
+constexpr double first_if_carried = 0.01, nearly_balanced = 0.1;
+constexpr std::ptrdiff_t one_closed_of = 10;
 
 // Refused steps, which break bonds, before an increment is left to relaxation; accepted ones before the increment so
 // far is kept.
@@ -177,44 +173,28 @@ struct Newton {
     return residual.dot(change) / numbers(progress.residual).dot(change);
   }
 
-  // whether another length of the last step is evaluated
-  bool searches_on(const Eigen::VectorXd& residual) {
-    StepLength& length = progress.length;
-    if (++length.evaluations >= most_lengths) return false;
+  // whether a shorter length of the last step is evaluated
+  bool shortens(const Eigen::VectorXd& residual) {
     const double left = work_left(residual);
-    double next = 0;
-    if (left >= may_drive_back) {
-      // at rest what is left is rounding, which a longer step would enlarge
-      const double longest = progress.polished > 0    ? 1
-                             : progress.overshoot > 0 ? std::min(longest_factor, 1 / progress.overshoot)
-                                                      : longest_factor;
-      if (left <= may_remain || length.now >= longest || length.too_long > 0) return false;
-      length.too_short = length.now;
-      length.left_if_short = left;
-      next = std::min(longest, length.now * std::min(longest_factor, std::max(1.5, 1 / (1 - std::min(left, 0.75)))));
-    } else {
-      length.too_long = length.now;
-      length.left_if_long = std::isfinite(left) ? left : beyond_all;
-      const double share = length.left_if_short / (length.left_if_short - length.left_if_long);
-      next = length.too_short +
-             std::clamp(share, most_shortening, least_shortening) * (length.too_long - length.too_short);
-    }
+    if (left >= may_drive_back || progress.lengths + 1 >= most_lengths) return false;
+    ++progress.lengths;
     ++state.counters.static_rejections;
-    keep(next / length.now * numbers(progress.change), progress.change);
-    length.now = next;
+    const double factor =
+        std::isfinite(left) ? std::clamp(1 / (1 - left), most_shortening, least_shortening) : most_shortening;
+    progress.length *= factor;
+    keep(factor * numbers(progress.change), progress.change);
     set_trial_at(numbers(progress.accepted) + numbers(progress.change), Trial::step);
     return true;
   }
 
-  void regularise(double merit_now) {
+  void regularise(const Eigen::VectorXd& residual, double merit_now) {
     if (progress.overshoot > 1)
       progress.regularisation *= bounded_fall;
-    else if (progress.length.now >= 1) {
-      const double fall = merit_now / progress.merits.back();
-      progress.regularisation *= fall < least_fall ? std::max(fall, most_fall) : slow_fall;
-    } else if (progress.length.now < far_shortened) {
+    else if (progress.length < far_shortened)
       progress.regularisation *= rise;
-    }
+    else if (progress.length >= 1)
+      progress.regularisation *=
+          work_left(residual) > 0.5 ? slow_fall : std::clamp(merit_now / progress.merits.back(), most_fall, least_fall);
     if (progress.regularisation < least_regularisation) progress.regularisation = 0;
   }
 
@@ -227,6 +207,13 @@ struct Newton {
       if (base.histories.contacts[i].history.normal.isZero(0)) of_new += force;
     }
     return all > 0 ? of_new / all : 0;
+  }
+
+  // whether the loads are nearly balanced already, and nearly all joints that are closed carry
+  bool is_carried() const {
+    const auto touching = std::ranges::count_if(state.contacts.list, &Contact<Dim>::touching);
+    return unbalanced_ratio(model, settings.threads, state) < nearly_balanced &&
+           std::ssize(system.closed) * one_closed_of < touching;
   }
 
   // ---- work ---------------------------------------------------------------------------------------------------------
@@ -278,10 +265,7 @@ struct Newton {
     progress.merits.clear();
     system.closed.clear();
     find_closed_joints(model, settings, state.bodies, state.contacts, base.histories, state.counters, system.closed);
-    const auto touching = std::ranges::count_if(state.contacts.list, &Contact<Dim>::touching);
-    progress.regularisation = system.closed.size() * one_closed_of < static_cast<std::size_t>(touching)
-                                  ? first_if_carried
-                                  : first_regularisation;
+    progress.regularisation = is_carried() ? first_if_carried : first_regularisation;
     // origins of the ledger's balances, if they are new
     const EnergyFlows before = base.ledger.energy.flows;
     state.ledger.energy.kinetic = 0;
@@ -326,7 +310,8 @@ struct Newton {
     Eigen::VectorXd dq = next_step(numbers(progress.residual));
     progress.overshoot = shorten(model, unknowns, state, dq);
     progress.overshoot = std::max(progress.overshoot, shorten_in_trial(unknowns, increment, dq));
-    progress.length = {};
+    progress.length = 1;
+    progress.lengths = 0;
     keep(dq, progress.change);
     set_trial_at(numbers(progress.accepted) + dq, Trial::step);
   }
@@ -371,9 +356,9 @@ struct Newton {
     const double now = merit(residual);
     if (breaks) return refuse_to_break();
     if (trial == Trial::step) {
-      if (searches_on(residual)) return;
+      if (shortens(residual)) return;
       if (!std::isfinite(now)) return set_trial_at(numbers(progress.accepted), Trial::last);
-      regularise(now);
+      regularise(residual, now);
     }
     accept(residual, now);
   }
