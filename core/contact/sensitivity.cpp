@@ -1,5 +1,6 @@
 #include "core/contact/sensitivity.hpp"
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -20,6 +21,14 @@ struct Moved {
   Vector<Dim> point, normal;  // of the contact
 
   Vector<Dim> turning(const Vector<Dim>& v) const { return cross(turn, v); }
+};
+
+// An edge of the section of two blocks through the contact's point; no motion changes on which plane it lies.
+struct SectionEdge {
+  int plane;
+  Vector<3> middle;                 // m, seen from the point
+  double along_normal, in_section;  // the plane's normal, along the contact's and across it
+  double length;                    // m
 };
 
 template <int Dim>
@@ -137,29 +146,43 @@ struct Finder {
     return nearest;
   }
 
-  double area_change(const Moved<Dim>& m, const Segment& section) const {
-    static_assert(Dim == 2);
-    const Vector<2> along = perpendicular(n), along_change = perpendicular(m.normal);
-    const int high = plane_at(section.high * along), low = plane_at(section.low * along);
-    return distance_change(high, along, along_change, m) + distance_change(low, -along, -along_change, m);
+  // The planes of the section's ends, its high one first.
+  std::array<int, 2> edges_of(const Segment& section) const {
+    const Vector<2> along = perpendicular(n);
+    return {plane_at(section.high * along), plane_at(section.low * along)};
   }
 
-  // Every edge moves outwards in the section's plane, linearly along itself: by its middle times its length.
-  double area_change(const Moved<Dim>& m, const std::vector<Vector<2>>& section) const {
+  double area_change(const Moved<Dim>& m, const std::array<int, 2>& ends) const {
+    static_assert(Dim == 2);
+    const Vector<2> along = perpendicular(n), along_change = perpendicular(m.normal);
+    return distance_change(ends[0], along, along_change, m) + distance_change(ends[1], -along, -along_change, m);
+  }
+
+  std::vector<SectionEdge> edges_of(const std::vector<Vector<2>>& section) const {
     static_assert(Dim == 3);
     FixedMatrix<3, 2> t;
     t.col(0) = perpendicular(n);
     t.col(1) = n.cross(Vector<3>(t.col(0)));
-    double sum = 0;
+    std::vector<SectionEdge> edges;
+    edges.reserve(section.size());
     for (std::size_t k = 0; k < section.size(); ++k) {
       const Vector<2>&here = section[k], &next = section[(k + 1) % section.size()];
       const Vector<3> middle = t * (0.5 * (here + next));
       const int plane = plane_at(middle);
       const Vector<3>& a = planes[plane].normal;
+      edges.push_back({plane, middle, a.dot(n), Vector<2>(t.transpose() * a).norm(), (next - here).norm()});
+    }
+    return edges;
+  }
+
+  // Every edge moves outwards in the section's plane, linearly along itself: by its middle times its length.
+  double area_change(const Moved<Dim>& m, const std::vector<SectionEdge>& edges) const {
+    double sum = 0;
+    for (const SectionEdge& e : edges) {
       // the section's axes turn with its normal and by nothing else
       const double growth =
-          slack_change(plane, m) - normal_change(plane, m).dot(middle) + a.dot(n) * m.normal.dot(middle);
-      sum += growth / Vector<2>(t.transpose() * a).norm() * (next - here).norm();
+          slack_change(e.plane, m) - normal_change(e.plane, m).dot(e.middle) + e.along_normal * m.normal.dot(e.middle);
+      sum += growth / e.in_section * e.length;
     }
     return sum;
   }
@@ -202,7 +225,8 @@ bool find_sensitivity(const Pair<Dim>& pair, const ContactSettings& settings, co
     const Vector<Dim> row = t.transpose() * p.normal / p.offset;
     hessian += weight_of(weights, i) * (row * row.transpose());
   }
-  const auto section = section_of<Dim>(planes, contact.proof.axis, 4 * std::min(pair.a->radius, pair.b->radius));
+  const auto edges =
+      finder.edges_of(section_of<Dim>(planes, contact.proof.axis, 4 * std::min(pair.a->radius, pair.b->radius)));
 
   for (int f = 0; f < freedoms<Dim>; ++f) {
     Moved<Dim> m;
@@ -219,7 +243,7 @@ bool find_sensitivity(const Pair<Dim>& pair, const ContactSettings& settings, co
     sensitivity.point.col(f) = m.point;
     sensitivity.normal.col(f) = m.normal;
     sensitivity.overlap[f] = finder.overlap_change(m);
-    sensitivity.area[f] = finder.area_change(m, section);
+    sensitivity.area[f] = finder.area_change(m, edges);
   }
   return sensitivity.point.allFinite() && sensitivity.normal.allFinite() && sensitivity.overlap.allFinite() &&
          sensitivity.area.allFinite();

@@ -132,9 +132,10 @@ struct MovedContacts {
     ContactSensitivity<Dim> sensitivity;
     const bool closed_form = !whole && c.proof.kind != ProofKind::least_point && has_sensitivity(settings.contact) &&
                              find_sensitivity<Dim>(here, settings.contact, c, sensitivity);
+    const bool one_point = closed_form && c.cells == 0;  // whose pair is not asked again
     for (int f = 0; f < freedoms<Dim>; ++f) {
       steps.push_back(f < Dim ? way : way / std::max(width, least_width * size));
-      pairs.push_back(moved(here, bodies.poses[p.body_b], f, steps.back()));
+      pairs.push_back(one_point ? here : moved(here, bodies.poses[p.body_b], f, steps.back()));
       contacts.push_back(c);
       if (f >= Dim && !turns(model, p.body_a) && !turns(model, p.body_b)) continue;  // held: its result is not used
       if (closed_form) {
