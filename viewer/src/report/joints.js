@@ -2,7 +2,7 @@
 // file (app/report/joints_data.hpp).
 import { digits, listColour } from '../colours.js';
 import { blockSizes, spacings } from './figures.js';
-import { downward } from './net.js';
+import { poleWith } from './net.js';
 import { bullets, header, paragraph, section } from './parts.js';
 import { rose, traceTable } from './rose.js';
 import { jointNets } from './stereonets.js';
@@ -36,7 +36,7 @@ function blockSection(blocks, dimension, fragment) {
 
 export function jointSections({ joints, block = {}, fragment }) {
   const { dimension, blocks, report } = joints;
-  const sets = joints.sets.map((set, k) => ({ ...set, colour: listColour(k), poles: dimension === 3 ? set.normals.map(downward) : [],
+  const sets = joints.sets.map((set, k) => ({ ...set, colour: listColour(k), poles: dimension === 3 ? set.normals.map((normal) => poleWith(normal)) : [],
     name: set.name ? (blocks && !set.drawn ? `${set.name}, stated` : set.name) : blocks ? 'without a set' : '(none)' })).filter((set) => set.normals.length || set.rows?.length);
   const measured = sets.filter((set) => set.normals.length), count = measured.reduce((sum, set) => sum + set.normals.length, 0);
   const many = `${plural(count, 'joint')} in ${plural(measured.length, 'set')}`;
