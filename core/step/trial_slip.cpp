@@ -43,8 +43,9 @@ double shorten_in_trial(const Unknowns<Dim>& unknowns, const StaticIncrement<Dim
   for (std::size_t i = 0; i < unknowns.count(); ++i)
     most = std::max(most, dq.template segment<Dim>(freedoms<Dim> * i).norm());
   const double longest = longest_of(unknowns, increment);
-  if (most > longest) dq *= longest / most;
-  return longest > 0 ? most / longest : 0;
+  if (!(most > longest)) return 0;
+  dq *= longest / most;
+  return most / longest;
 }
 
 template <int Dim>

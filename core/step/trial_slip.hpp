@@ -10,7 +10,7 @@
 namespace voussoir {
 
 // Shortens a step to two elastic displacements of the bodies that move, or to what the trial has moved so far if that
-// is longer; gives the ratio of the original to that length.
+// is longer; gives by how many times it was too long, 0 if it was not.
 template <int Dim>
 double shorten_in_trial(const Unknowns<Dim>& unknowns, const StaticIncrement<Dim>& increment, Eigen::VectorXd& dq);
 
