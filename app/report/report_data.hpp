@@ -4,13 +4,15 @@
 //   block     project, section, author, checked_by, date: as stated, or empty
 //   of a run
 //     results   results.json
-//     files     scene (the input in full), history, search, lining: comma-separated, as their files; absent if there is
-//     none linings   of each its name and, as stated, thickness_m, compressive_strength_Pa, tensile_strength_Pa every
-//     of history's rows each so many-th is kept
+//     files     scene (the input in full), history, search, lining:
+//               as their files; absent if there is none
+//     linings   of each its name and, as stated, thickness_m,
+//               compressive_strength_Pa, tensile_strength_Pa
+//     every     of history's rows each so many-th is kept
 //   of a study
 //     study     study.json
-//     files     study, manifest: as their files; samples, grids: json and csv of each; input: name and text of each
-//     file
+//     files     study, manifest: as their files; input: name and text of
+//               each file; samples, grids: json and csv of each
 //   of a kinematic analysis
 //     kinematics  kinematics.json
 //     files       pairs: as its file
