@@ -114,8 +114,11 @@ BlockFactors<Size>::BlockFactors(const BlockMatrix<Size>& matrix) {
   order = minimum_degree(rows);
   const Rows lower =
       lower_pattern(rows, order, iterations * products_an_iteration / Size * static_cast<double>(matrix.blocks.size()));
-  if (lower.empty()) order.clear();
-  factors = complete() ? filled(matrix, order, lower) : matrix;
+  if (lower.empty()) {
+    order.clear();
+    return;
+  }
+  factors = filled(matrix, order, lower);
   factorise();
 }
 
@@ -148,10 +151,9 @@ template <int Size>
 Eigen::VectorXd BlockFactors<Size>::solve(const Eigen::VectorXd& b) const {
   using Segment = FixedMatrix<Size, 1>;
   const std::vector<typename BlockMatrix<Size>::Block>& blocks = factors.blocks;
-  const auto from = [&](int i) { return Size * (complete() ? order[i] : i); };
   Eigen::VectorXd x(b.size());
   for (int i = 0; i < factors.rows(); ++i) {
-    Segment sum = b.template segment<Size>(from(i));
+    Segment sum = b.template segment<Size>(Size * order[i]);
     for (int p = factors.first[i]; p < factors.diagonal[i]; ++p)
       sum.noalias() -= blocks[p] * x.segment<Size>(Size * factors.column[p]);
     x.segment<Size>(Size * i) = sum;
@@ -162,10 +164,9 @@ Eigen::VectorXd BlockFactors<Size>::solve(const Eigen::VectorXd& b) const {
       sum.noalias() -= blocks[p] * x.segment<Size>(Size * factors.column[p]);
     x.segment<Size>(Size * i).noalias() = blocks[factors.diagonal[i]] * sum;
   }
-  if (!complete()) return x;
   Eigen::VectorXd answer(x.size());
   for (int i = 0; i < factors.rows(); ++i)
-    answer.segment<Size>(from(i)) = x.segment<Size>(Size * i);
+    answer.segment<Size>(Size * order[i]) = x.segment<Size>(Size * i);
   return answer;
 }
 

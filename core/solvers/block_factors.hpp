@@ -1,7 +1,6 @@
-// Factors of a sparse matrix of blocks, without pivots beyond the diagonal blocks: the preconditioner of solve_blocks.
-// Complete if elimination fills in little, as for chains and for blocks in a plane: an approximate minimum
-// degree order (Amestoy, Davis and Duff 1996, by Eigen), the rows of the factors by the elimination tree (Liu 1990).
-// Otherwise in the matrix's own pattern and order, ILU(0) (Meijerink and van der Vorst 1977).
+// Complete factors of a sparse matrix of blocks, without pivots beyond the diagonal blocks, if elimination fills in
+// little, as for chains and for blocks in a plane: an approximate minimum degree order (Amestoy, Davis and Duff 1996,
+// by Eigen), the rows of the factors by the elimination tree (Liu 1990).
 #pragma once
 
 #include "core/solvers/block_matrix.hpp"
@@ -13,18 +12,18 @@ class BlockFactors {
  public:
   explicit BlockFactors(const BlockMatrix<Size>& matrix);
 
+  // false: elimination would fill in too much, and there are no factors
+  bool complete() const { return !order.empty(); }
   // no pivot block is singular
   bool regular() const { return is_regular; }
-  bool complete() const { return !order.empty(); }
 
-  // of the factors' product; exact but for rounding if they are complete
   Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
 
  private:
   // unit lower blocks, upper blocks and inverted diagonal blocks
   void factorise();
 
-  std::vector<int> order;  // the matrix's row that is the factors' i-th; empty: its own order
+  std::vector<int> order;  // the matrix's row that is the factors' i-th
   BlockMatrix<Size> factors;
   bool is_regular = true;
 };

@@ -3,34 +3,31 @@
 #include <algorithm>
 
 #include "core/base/on_threads.hpp"
+#include "core/solvers/row_sum.hpp"
 
 namespace voussoir {
 
 template <int Size>
-void BlockMatrix<Size>::assign(int threads, const std::vector<std::vector<Entry>>& rows) {
-  const int count = static_cast<int>(rows.size());
-  std::vector<std::vector<Entry>> sorted(rows.size());
-  each_on_threads(threads, rows.size(), [&](int i) {
-    std::vector<Entry> row = rows[i];
-    std::stable_sort(row.begin(), row.end(), [](const Entry& x, const Entry& y) { return x.column < y.column; });
-    for (const Entry& e : row)
-      if (sorted[i].empty() || sorted[i].back().column != e.column)
-        sorted[i].push_back(e);
-      else
-        sorted[i].back().block += e.block;
-  });
+void BlockMatrix<Size>::lay_out(std::vector<std::vector<int>> columns) {
   first.assign(1, 0);
   column.clear();
-  blocks.clear();
-  diagonal.assign(count, -1);
-  for (int i = 0; i < count; ++i) {
-    for (const Entry& e : sorted[i]) {
-      if (e.column == i) diagonal[i] = static_cast<int>(column.size());
-      column.push_back(e.column);
-      blocks.push_back(e.block);
-    }
+  diagonal.clear();
+  for (int i = 0; i < static_cast<int>(columns.size()); ++i) {
+    std::vector<int>& row = columns[i];
+    row.push_back(i);
+    std::ranges::sort(row);
+    row.erase(std::unique(row.begin(), row.end()), row.end());
+    diagonal.push_back(first.back() + static_cast<int>(std::ranges::lower_bound(row, i) - row.begin()));
+    column.insert(column.end(), row.begin(), row.end());
     first.push_back(static_cast<int>(column.size()));
   }
+  blocks.assign(column.size(), Block::Zero());
+}
+
+template <int Size>
+typename BlockMatrix<Size>::Block& BlockMatrix<Size>::at(int row, int in_column) {
+  return blocks[std::lower_bound(column.begin() + first[row], column.begin() + first[row + 1], in_column) -
+                column.begin()];
 }
 
 template <int Size>
@@ -43,10 +40,10 @@ template <int Size>
 Eigen::VectorXd BlockMatrix<Size>::times(int threads, const Eigen::VectorXd& x) const {
   Eigen::VectorXd y(x.size());
   each_on_threads(threads, diagonal.size(), [&](int i) {
-    FixedMatrix<Size, 1> sum = FixedMatrix<Size, 1>::Zero();
+    RowSum<Size, double> sum = RowSum<Size, double>::zero();
     for (int p = first[i]; p < first[i + 1]; ++p)
-      sum.noalias() += blocks[p] * x.segment<Size>(Size * column[p]);
-    y.segment<Size>(Size * i) = sum;
+      sum.add(blocks[p].data(), x.data() + Size * column[p]);
+    sum.keep(y.data() + Size * i);
   });
   return y;
 }

@@ -13,13 +13,11 @@ template <int Size>
 struct BlockMatrix {
   using Block = FixedMatrix<Size, Size>;
 
-  struct Entry {
-    int column;
-    Block block;
-  };
+  // Blocks of zero in these columns of each row, which may be repeated and in any order, and on the diagonal.
+  void lay_out(std::vector<std::vector<int>> columns);
 
-  // Rows of entries in any order; those of one column are added in their order. Every row has a diagonal block.
-  void assign(int threads, const std::vector<std::vector<Entry>>& rows);
+  // of a row and a column that it has
+  Block& at(int row, int in_column);
 
   // adds to the diagonal, as many numbers as the matrix has rows
   void add_diagonal(const Eigen::VectorXd& more);

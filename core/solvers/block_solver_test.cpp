@@ -1,8 +1,9 @@
-// Linear systems of blocks: against dense factors, and when the sparse ones are complete.
+// Linear systems of blocks: against dense factors, by complete and by incomplete ones, and when factors are complete.
 #include "core/solvers/block_solver.hpp"
 
 #include <gtest/gtest.h>
 
+#include <numeric>
 #include <random>
 
 #include "core/solvers/block_factors.hpp"
@@ -11,22 +12,31 @@
 namespace voussoir::block_solver_test {
 namespace {
 
+std::vector<int> in_order(int count) {
+  std::vector<int> order(count);
+  std::iota(order.begin(), order.end(), 0);
+  return order;
+}
+
 // blocks in a ring with a few chords, diagonally dominant: against a dense factorisation
 template <int Size>
 void expect_solved() {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> uniform(-1, 1);
   constexpr int count = 40;
-  using Entry = typename BlockMatrix<Size>::Entry;
-  std::vector<std::vector<Entry>> rows(count);
+  BlockMatrix<Size> matrix;
+  std::vector<std::vector<int>> columns(count);
+  for (int i = 0; i < count; ++i)
+    columns[i] = {(i + 7) % count, (i + 1) % count, (i + 1) % count};
+  matrix.lay_out(columns);
   Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(Size * count, Size * count);
   const auto put = [&](int row, int column, double weight) {
-    Entry entry{column, {}};
+    typename BlockMatrix<Size>::Block block;
     for (int i = 0; i < Size * Size; ++i)
-      entry.block.data()[i] = weight * uniform(random);
-    if (row == column) entry.block.diagonal().array() += 3 * Size;
-    rows[row].push_back(entry);
-    dense.block<Size, Size>(Size * row, Size * column) += entry.block;
+      block.data()[i] = weight * uniform(random);
+    if (row == column) block.diagonal().array() += 3 * Size;
+    matrix.at(row, column) += block;
+    dense.block<Size, Size>(Size * row, Size * column) += block;
   };
   for (int i = 0; i < count; ++i) {
     put(i, (i + 1) % count, 1);
@@ -34,8 +44,6 @@ void expect_solved() {
     put(i, (i + 7) % count, 0.5);
     put(i, (i + 1) % count, 0.5);  // twice in the same place
   }
-  BlockMatrix<Size> matrix;
-  matrix.assign(1, rows);
   Eigen::VectorXd more(Size * count), b(Size * count);
   for (int i = 0; i < more.size(); ++i) {
     more[i] = 1 + uniform(random);
@@ -44,11 +52,11 @@ void expect_solved() {
   matrix.add_diagonal(more);
   dense.diagonal() += more;
   EXPECT_LT((matrix.times(1, b) - dense * b).norm(), 1e-13 * b.norm() * dense.norm());
-  const LinearAnswer answer = solve_blocks(matrix, b, 1e-12, 100, 1);
+  const LinearAnswer answer = solve_blocks(matrix, in_order(count), b, 1e-12, 100, 1);
   EXPECT_LE(answer.residual, 1e-12);
   EXPECT_LT((answer.x - oracle::solution(dense, b)).norm(), 1e-11 * answer.x.norm());
   EXPECT_LT((dense * answer.x - b).norm(), 1e-11 * b.norm());
-  EXPECT_EQ(solve_blocks(matrix, Eigen::VectorXd(0 * b), 1e-12, 100, 1).x.norm(), 0);
+  EXPECT_EQ(solve_blocks(matrix, in_order(count), Eigen::VectorXd(0 * b), 1e-12, 100, 1).x.norm(), 0);
 }
 
 TEST(BlockMatrix, SolvesSmallBlocks) {
@@ -63,24 +71,25 @@ BlockMatrix<Size> grid(int dimensions, int side) {
   int count = 1;
   for (int d = 0; d < dimensions; ++d)
     count *= side;
-  std::vector<std::vector<typename BlockMatrix<Size>::Entry>> rows(count);
-  for (int i = 0; i < count; ++i) {
-    rows[i].push_back({i, 2.01 * dimensions * BlockMatrix<Size>::Block::Identity()});
+  std::vector<std::vector<int>> columns(count);
+  for (int i = 0; i < count; ++i)
     for (int d = 0, step = 1; d < dimensions; ++d, step *= side)
       for (const int way : {-1, 1})
-        if (const int at = i / step % side + way; at >= 0 && at < side)
-          rows[i].push_back({i + way * step, -BlockMatrix<Size>::Block::Identity()});
-  }
+        if (const int at = i / step % side + way; at >= 0 && at < side) columns[i].push_back(i + way * step);
   BlockMatrix<Size> matrix;
-  matrix.assign(1, rows);
+  matrix.lay_out(columns);
+  for (typename BlockMatrix<Size>::Block& block : matrix.blocks)
+    block = -BlockMatrix<Size>::Block::Identity();
+  for (const int at : matrix.diagonal)
+    matrix.blocks[at] *= -2.01 * dimensions;
   return matrix;
 }
 
 // Complete factors solve chains and blocks in a plane directly, at any number; in a box they would fill in too much.
 TEST(BlockFactors, AreCompleteIfTheyFillInLittle) {
   const auto iterations = [](const auto& matrix) {
-    const LinearAnswer answer =
-        solve_blocks(matrix, Eigen::VectorXd(Eigen::VectorXd::Ones(matrix.rows() * 6)), 1e-10, 100, 1);
+    const LinearAnswer answer = solve_blocks(matrix, in_order(matrix.rows()),
+                                             Eigen::VectorXd(Eigen::VectorXd::Ones(matrix.rows() * 6)), 1e-10, 100, 1);
     EXPECT_LE(answer.residual, 1e-10);
     return answer.iterations;
   };
@@ -96,8 +105,9 @@ TEST(BlockFactors, AreCompleteIfTheyFillInLittle) {
 
 TEST(BlockMatrix, ReportsThatItIsSingular) {
   BlockMatrix<3> matrix;
-  matrix.assign(1, {{{0, BlockMatrix<3>::Block::Zero()}}});
-  EXPECT_FALSE(std::isfinite(solve_blocks(matrix, Eigen::VectorXd(Eigen::VectorXd::Ones(3)), 1e-3, 10, 1).residual));
+  matrix.lay_out({{0}});
+  EXPECT_FALSE(
+      std::isfinite(solve_blocks(matrix, {0}, Eigen::VectorXd(Eigen::VectorXd::Ones(3)), 1e-3, 10, 1).residual));
 }
 
 }  // namespace

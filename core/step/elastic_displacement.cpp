@@ -72,8 +72,8 @@ std::vector<double> elastic_displacements(const Model<Dim>& model, const Setting
   set_trial(model, unknowns, base, Eigen::VectorXd(Eigen::VectorXd::Zero(unknowns.free.size())), state.bodies,
             state.contacts, state.supports, state.ledger, state.time_step);
   const BlockMatrix<freedoms<Dim>> k = elastic_tangent(model, settings, unknowns, base, state);
-  const LinearAnswer solved = solve_blocks(k, loads_without_joints(state.loads, unknowns), elastic_tolerance,
-                                           elastic_iterations, settings.threads);
+  const LinearAnswer solved = solve_blocks(k, unknowns.upwards, loads_without_joints(state.loads, unknowns),
+                                           elastic_tolerance, elastic_iterations, settings.threads);
   for (std::size_t i = 0; i < unknowns.count(); ++i)
     displacements[unknowns.bodies[i]] = solved.x.template segment<Dim>(freedoms<Dim> * i).norm();
   return displacements;

@@ -61,7 +61,7 @@ constexpr double after_refusal = 0.5;
 // with almost no force: at 1e-3 they open and close alternately, and a wall of 1,000 bricks takes three times the
 // evaluations.
 constexpr double linear_tolerance = 1e-6;
-constexpr int linear_limit = 100;
+constexpr int linear_limit = 200;
 
 // Of the residual: a system of which more remains after the iterations is too far from definite. Joints that only just
 // touch cause it; more regularisation repairs it.
@@ -158,8 +158,8 @@ struct Newton {
   // A step along which the residual does positive work; if the tangent gives none, more regularisation.
   Eigen::VectorXd next_step(const Eigen::VectorXd& residual) {
     for (int tries = 0; tries < most_tries; ++tries) {
-      const LinearAnswer answer =
-          solve_blocks(tangent(progress.regularisation), residual, linear_tolerance, linear_limit, settings.threads);
+      const LinearAnswer answer = solve_blocks(tangent(progress.regularisation), unknowns.upwards, residual,
+                                               linear_tolerance, linear_limit, settings.threads);
       state.counters.linear_iterations += answer.iterations;
       if (answer.residual <= most_unsolved && residual.dot(answer.x) > 0) return answer.x;
       progress.regularisation = std::max(8 * progress.regularisation, 1e-6);

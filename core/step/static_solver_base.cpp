@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 namespace voussoir {
@@ -14,6 +15,10 @@ Unknowns<Dim>::Unknowns(const Model<Dim>& model) : place(model.bodies.size(), -1
       place[b] = static_cast<int>(bodies.size());
       bodies.push_back(static_cast<int>(b));
     }
+  upwards.resize(bodies.size());
+  std::iota(upwards.begin(), upwards.end(), 0);
+  std::ranges::stable_sort(upwards, std::ranges::greater{},
+                           [&](int i) { return model.gravity.dot(model.bodies[bodies[i]].reference); });
   double stiffest = 0;
   for (const JointProperties& p : model.properties)
     stiffest = std::max(stiffest, p.normal_stiffness);

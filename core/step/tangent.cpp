@@ -1,18 +1,22 @@
 #include "core/step/tangent.hpp"
 
+#include <utility>
+
+#include "core/base/on_threads.hpp"
+
 namespace voussoir {
 namespace {
 
 template <int Dim>
 using Block = typename PairStiffness<Dim>::Block;
 
-// displacement at the second body's centroid due to the first body's motion
+// displacement at the second body's centroid due to the first body's turns
 template <int Dim>
-Block<Dim> lever(const Vector<Dim>& apart) {
-  Block<Dim> j = Block<Dim>::Identity();
+FixedMatrix<Dim, spin_freedoms<Dim>> lever_of(const Vector<Dim>& apart) {
+  FixedMatrix<Dim, spin_freedoms<Dim>> lever;
   for (int s = 0; s < spin_freedoms<Dim>; ++s)
-    j.template block<Dim, 1>(0, Dim + s) = cross(Spin<Dim>(Spin<Dim>::Unit(s)), apart);
-  return j;
+    lever.col(s) = cross(Spin<Dim>(Spin<Dim>::Unit(s)), apart);
+  return lever;
 }
 
 // The forces rotate with the first body and keep their lines of action: the contribution to the two blocks of its
@@ -45,6 +49,27 @@ Turning<Dim> turning_of(const PairStiffness<Dim>& p) {
   return t;
 }
 
+// The blocks of one pair. The lever J of its first body is the identity but for its upper right corner L.
+template <int Dim>
+struct PairBlocks {
+  static constexpr int S = spin_freedoms<Dim>;
+  const PairStiffness<Dim>& pair;
+  FixedMatrix<Dim, S> lever;
+
+  explicit PairBlocks(const PairStiffness<Dim>& p) : pair(p), lever(lever_of<Dim>(p.apart)) {}
+
+  Block<Dim> times_lever() const {  // K J
+    Block<Dim> product = pair.stiffness;
+    product.template rightCols<S>() += pair.stiffness.template leftCols<Dim>().lazyProduct(lever);
+    return product;
+  }
+  Block<Dim> lever_times(const Block<Dim>& k) const {  // J' K
+    Block<Dim> product = k;
+    product.template bottomRows<S>() += lever.transpose().lazyProduct(k.template topRows<Dim>());
+    return product;
+  }
+};
+
 }  // namespace
 
 template <int Dim>
@@ -52,28 +77,44 @@ BlockMatrix<freedoms<Dim>> tangent_of(int threads, const std::vector<const PairS
                                       const std::vector<Block<Dim>>& own, const std::vector<int>& place,
                                       const Eigen::VectorXd& free) {
   constexpr int F = freedoms<Dim>;
-  using Entry = typename BlockMatrix<F>::Entry;
-  std::vector<std::vector<Entry>> rows(free.size() / F);
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    rows[i].push_back({static_cast<int>(i), Block<Dim>::Zero()});
-  const auto put = [&](int row, int column, const Block<Dim>& block) {
-    if (row < 0 || column < 0) return;
-    rows[row].push_back(
-        {column, Block<Dim>(free.segment<F>(F * row).asDiagonal() * block * free.segment<F>(F * column).asDiagonal())});
-  };
-  for (const PairStiffness<Dim>* p : pairs) {
-    const int a = place[p->body_a], b = place[p->body_b];
-    const Block<Dim> j = lever<Dim>(p->apart);
-    const Turning<Dim> t = turning_of(*p);
-    put(b, b, p->stiffness);
-    put(a, a, j.transpose() * p->stiffness * j + t.aa);
-    put(a, b, -(j.transpose() * p->stiffness) + t.ab);
-    put(b, a, -(p->stiffness * j) + t.ba);
+  const std::size_t count = free.size() / F;
+  std::vector<std::vector<int>> pairs_of(count), columns(count);
+  for (int k = 0; k < static_cast<int>(pairs.size()); ++k) {
+    const int a = place[pairs[k]->body_a], b = place[pairs[k]->body_b];
+    if (a >= 0) pairs_of[a].push_back(k);
+    if (b >= 0) pairs_of[b].push_back(k);
+    if (a < 0 || b < 0) continue;
+    columns[a].push_back(b);
+    columns[b].push_back(a);
   }
-  for (std::size_t b = 0; b < own.size(); ++b)
-    put(place[b], place[b], own[b]);
   BlockMatrix<F> k;
-  k.assign(threads, rows);
+  k.lay_out(std::move(columns));
+  const bool all_free = free.size() > 0 && free.minCoeff() > 0;
+  // each row by itself: no two threads write to one block, and sums are in the order of the pairs
+  each_on_threads(threads, count, [&](int row) {
+    const auto put = [&](int column, const Block<Dim>& block) {
+      Block<Dim>& to = k.at(row, column);
+      if (all_free)
+        to += block;
+      else
+        to += free.segment<F>(F * row).asDiagonal() * block * free.segment<F>(F * column).asDiagonal();
+    };
+    for (const int p : pairs_of[row]) {
+      const PairBlocks<Dim> of(*pairs[p]);
+      const Turning<Dim> turning = turning_of(*pairs[p]);
+      const int a = place[pairs[p]->body_a], b = place[pairs[p]->body_b];
+      if (b == row) {
+        put(b, pairs[p]->stiffness);
+        if (a >= 0) put(a, turning.ba - of.times_lever());
+      } else {
+        put(a, of.lever_times(of.times_lever()) + turning.aa);
+        if (b >= 0) put(b, turning.ab - of.lever_times(pairs[p]->stiffness));
+      }
+    }
+  });
+  for (std::size_t b = 0; b < own.size(); ++b)
+    if (const int i = place[b]; i >= 0)
+      k.at(i, i) += free.segment<F>(F * i).asDiagonal() * own[b] * free.segment<F>(F * i).asDiagonal();
   return k;
 }
 
