@@ -28,7 +28,8 @@ std::vector<std::string> column(const fs::path& file, const std::string& name) {
 }
 
 TEST_F(Program, BlocksFindsThePairOfTheTutorial) {
-  const Ended ended = run("blocks " + quoted("examples/tutorial/slope.toml") + "--out out --required 1.3 --dxf");
+  const Ended ended =
+      run("blocks " + quoted("examples/tutorial/slope.toml") + "--out out --required 1.3 --dxf --section 90/90/-3/0/0");
   EXPECT_EQ(ended.code, 0) << ended.err;
   for (const char* part : {"stage \"safety\": clay 29 deg, rough 41 deg", "38.0/169.1   1.0694  68.4 (-5.1/003.1)",
                            "lower than its blocks", "least factor 1.0694 (cluster 2+5)", "elastic shear closes B1"})
@@ -40,6 +41,9 @@ TEST_F(Program, BlocksFindsThePairOfTheTutorial) {
   const fs::path table = folder_ / "out/blocks_verdicts.csv";
   const std::vector<test::DxfEntity> drawing = test::read_drawing(read(folder_ / "out/blocks.dxf"));
   EXPECT_NEAR(volume_on(drawing, "KEY_BLOCKS"), std::stod(column(table, "volume_m3").at(2)), 1e-9);
+  const std::vector<test::DxfEntity> section = test::read_drawing(read(folder_ / "out/section.dxf"));
+  EXPECT_FALSE(points_on(section, "POLYLINE", "KEY_BLOCKS").empty());
+  EXPECT_FALSE(points_on(section, "POLYLINE", "FIXED_BLOCKS").empty());
   EXPECT_EQ(column(table, "blocks"), (std::vector<std::string>{"2", "5", "2 5"}));
   EXPECT_EQ(column(table, "joints"), (std::vector<std::string>{"A1;A2", "A2;B1", "A1;B1"}));
   EXPECT_NEAR(std::stod(column(table, "factor").at(2)), 1.069448089900, 1e-11);
