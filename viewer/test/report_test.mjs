@@ -73,6 +73,13 @@ await picture('slope');
   assert.equal(trials.length, readFileSync(join(slope, 'search.csv'), 'utf8').trim().split('\n').length - 1);
 }
 
+// the blocks open as the interactive page opens them: the failed trial, by joint sets
+{
+  const [frame, trial, colour, panel] = await js("const v = window.voussoir.views[0]; return [v.look.frame, v.run.frames.findLastIndex((f) => f.kind === 2), v.look.colour, !v.element.classList.contains('bare')]");
+  assert.ok(trial > 0);
+  assert.deepEqual([frame, colour, panel], [trial, 'set', false]);
+}
+
 // poles, not the planes' own lines: of A1, dip 46 towards 128, plunges 44 towards 308
 {
   const poles = await js(`
