@@ -132,6 +132,14 @@ TEST_F(Program, BlocksCountsTheZonesOfAFace) {
   EXPECT_EQ(drawn.at("joints").at(0).at("set"), "J1");
   EXPECT_NEAR(drawn.at("joints").at(0).at("normal").at(2).get<double>(), std::cos(46 * degree), 1e-12);
   EXPECT_EQ(drawn.at("counts").size(), 14u);
+  // degrees as stated: not what is left of 58 in radians, 57.99999999999999
+  ASSERT_EQ(run(scene + "--overwrite --face 58/170.3 --friction 30").code, 0);
+  const nlohmann::json stated = nlohmann::json::parse(read(folder_ / "out/kinematics.json"));
+  EXPECT_EQ(stated.at("face_dip_deg"), 58);
+  EXPECT_EQ(stated.at("face_direction_deg"), 170.3);
+  EXPECT_EQ(stated.at("friction_deg"), 30);
+  EXPECT_EQ(stated.at("limits_deg").at("flexural_toppling"), 30);
+  ASSERT_EQ(run(scene + "--overwrite --face 70/170 --friction 29").code, 0);
   const fs::path table = folder_ / "out/kinematic_pairs.csv";
   EXPECT_EQ(column(table, "motion").size(), column(table, "factor").size());
   const std::vector<std::string> first = column(table, "joint_a"), second = column(table, "joint_b");
