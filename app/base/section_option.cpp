@@ -43,7 +43,6 @@ void add_section(CLI::App* command, std::vector<std::string>& sections, const st
       ->check(plain_text());
 }
 
-template <>
 std::vector<SectionPolygon> section_polygons(const Model<2>&, const std::vector<std::string>& sections) {
   if (!sections.empty())
     throw BadInput(
@@ -51,7 +50,6 @@ std::vector<SectionPolygon> section_polygons(const Model<2>&, const std::vector<
   return {};
 }
 
-template <>
 std::vector<SectionPolygon> section_polygons(const Model<3>& model, const std::vector<std::string>& sections) {
   std::vector<SectionPolygon> all;
   if (model.particles && !sections.empty())
