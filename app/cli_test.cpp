@@ -266,6 +266,22 @@ TEST_F(Program, SliceDrawsTheBlocksForCad) {
   EXPECT_NE(read_back.out.find("joints: 12, 3-D"), std::string::npos) << read_back.out;
 }
 
+// cubes of 1 m, one on the other: the section through both is 2 m²
+TEST_F(Program, SliceDrawsSectionsForCad) {
+  ASSERT_EQ(run("slice " + cubes_ + "--out out --section 90/0/0.5/0.25/0").code, 0);
+  const std::vector<test::DxfEntity> drawing = test::read_drawing(read(folder_ / "out/section.dxf"));
+  ASSERT_EQ(drawing.size(), 2u);
+  const Ended read_back = run("import out/section.dxf --as dxf --out joints.csv");
+  EXPECT_EQ(read_back.code, 0) << read_back.err;
+  EXPECT_NE(read_back.out.find("joints: 2, 3-D"), std::string::npos) << read_back.out;
+  const std::string again = "slice " + cubes_ + "--out out --overwrite --section ";
+  ASSERT_EQ(run(again + "0/0/0/0/0.5 --section 90/90/0.5/0/0").code, 0);
+  EXPECT_EQ(test::read_drawing(read(folder_ / "out/section.dxf")).size(), 3u) << "planes together";
+  expect_one_line(run(again + "90/0/0"), 2, "--section 90/0/0: write dip/dip direction in degrees and x/y/z");
+  expect_one_line(run(again + "91/0/0/0/0"), 2, "the dip is 0 to 90");
+  expect_one_line(run(again + "0/0/0/0/50"), 2, "the plane cuts no block; the blocks have x");
+}
+
 TEST_F(Program, DocsNameTheKeys) {
   const Ended ended = run("docs");
   EXPECT_EQ(ended.code, 0);

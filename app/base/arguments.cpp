@@ -1,9 +1,12 @@
 #include "app/base/arguments.hpp"
 
+#include <fmt/format.h>
+
 #include <charconv>
 #include <cmath>
 #include <system_error>
 
+#include "core/base/bad_input.hpp"
 #include "text/plain_text.hpp"
 
 namespace voussoir {
@@ -27,6 +30,21 @@ CLI::Validator plain_text() {
             return fault ? "must not contain " + fault->what : "";
           },
           ""};
+}
+
+// numbers separated by a slash
+std::vector<double> slashed(const std::string& text, const char* option, const char* form) {
+  std::vector<double> numbers;
+  const char *place = text.data(), *end = place + text.size();
+  while (true) {
+    double number = 0;
+    const auto [next, error] = std::from_chars(place, end, number);
+    if (error != std::errc() || !std::isfinite(number) || (next != end && *next != '/'))
+      throw BadInput(fmt::format("{} {}: write {}", option, text, form));
+    numbers.push_back(number);
+    if (next == end) return numbers;
+    place = next + 1;
+  }
 }
 
 void add_scene(CLI::App* command, SceneArguments& arguments) {

@@ -42,6 +42,9 @@ CLI::Validator finite(double low, double high);
 // set.
 CLI::Validator plain_text();
 
+// Numbers separated by a slash, the value of an option. Throws BadInput, which says to write `form`.
+std::vector<double> slashed(const std::string& text, const char* option, const char* form);
+
 void add_scene(CLI::App* command, SceneArguments& arguments);
 void add_out(CLI::App* command, std::filesystem::path& out, const std::string& meaning, bool required = false);
 void add_overwrite(CLI::App* command, bool& overwrite);

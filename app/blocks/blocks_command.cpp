@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "app/base/arguments.hpp"
 #include "app/base/message.hpp"
 #include "app/base/run_scene.hpp"
+#include "app/base/section_option.hpp"
 #include "app/blocks/blocks_summary.hpp"
 #include "app/blocks/blocks_view.hpp"
 #include "app/blocks/kinematics_text.hpp"
@@ -42,8 +42,9 @@ struct BlocksArguments {
   std::string face;
   double friction = 0;  // deg; 0: that of the joints
   int top = 20;
-  bool view = false;  // view.html
-  bool dxf = false;   // blocks.dxf
+  bool view = false;                  // view.html
+  bool dxf = false;                   // blocks.dxf
+  std::vector<std::string> sections;  // planes, for section.dxf
   bool overwrite = false;
 };
 
@@ -51,21 +52,6 @@ fs::path folder_of(const BlocksArguments& arguments) {
   if (!arguments.out.empty()) return arguments.out;
   return fs::path("results") /
          (arguments.scene.scene.stem().string() + (arguments.kinematics ? "_kinematics" : "_blocks"));
-}
-
-// numbers separated by a slash
-std::vector<double> slashed(const std::string& text, const char* option, const char* form) {
-  std::vector<double> numbers;
-  const char *place = text.data(), *end = place + text.size();
-  while (true) {
-    double number = 0;
-    const auto [next, error] = std::from_chars(place, end, number);
-    if (error != std::errc() || !std::isfinite(number) || (next != end && *next != '/'))
-      throw BadInput(fmt::format("{} {}: write {}", option, text, form));
-    numbers.push_back(number);
-    if (next == end) return numbers;
-    place = next + 1;
-  }
 }
 
 std::optional<SeismicRequest> seismic_of(const BlocksArguments& arguments) {
@@ -153,6 +139,8 @@ template <int Dim>
 ExitCode judge_scene(const BlocksArguments& arguments, const SurveyRequest& request, const LoadedScene& scene) {
   const auto& prepared = std::get<Prepared<Dim>>(scene.prepared);
   const Survey<Dim> survey = survey_blocks(prepared, request);
+  const Model<Dim>& model = survey.assembly.model;
+  const std::vector<SectionPolygon> polygons = section_polygons(model, arguments.sections);
   const fs::path folder = folder_of(arguments);
   Outputs outputs{"blocks",
                   {"blocks_verdicts.json", "blocks_verdicts.csv", "blocks.vtp", "key_blocks.geojson", "results.json"}};
@@ -160,13 +148,16 @@ ExitCode judge_scene(const BlocksArguments& arguments, const SurveyRequest& requ
     for (const char* name : {view_file, page_file})
       outputs.files.emplace_back(name);
   if (arguments.dxf) outputs.files.emplace_back(dxf_file);
+  if (!polygons.empty()) outputs.files.emplace_back(section_file);
   const ClaimedFolder claim(folder, outputs, scene.files, arguments.overwrite);
   tell_remarks(*scene.stated);
   const std::vector<Origin> origins{this_origin()};
   write_file(folder / "blocks_verdicts.csv", blocks_csv(survey));
   const PolyData faces = block_verdict_faces(survey);
   write_file(folder / "blocks.vtp", vtp(faces));
-  if (arguments.dxf) write_file(folder / dxf_file, blocks_dxf(survey.assembly.model, faces, key_blocks(survey)));
+  if (arguments.dxf) write_file(folder / dxf_file, blocks_dxf(model, faces, key_blocks(survey)));
+  if constexpr (Dim == 3)
+    if (!polygons.empty()) write_file(folder / section_file, section_dxf(model, polygons, key_blocks(survey)));
   write_file(folder / "blocks_verdicts.json", blocks_json(survey, scene.title, scene.hash, origins));
   if constexpr (Dim == 3) write_file(folder / "key_blocks.geojson", key_blocks_geojson(survey, faces));
   if (arguments.view) write_blocks_view(folder, prepared, survey);
@@ -198,10 +189,12 @@ ExitCode blocks_command(const BlocksArguments& arguments) {
   request.frictionless = arguments.frictionless;
   refuse_out_of_range(request);
   const LoadedScene scene = load_blocks(arguments.scene.scene, arguments.scene.overrides);
-  if (arguments.kinematics && (arguments.view || arguments.dxf))
+  if (arguments.kinematics && (arguments.view || arguments.dxf || !arguments.sections.empty()))
     throw BadInput(
         fmt::format("--{} shows the verdicts of blocks; --kinematics compares directions: leave out one of the two",
-                    arguments.view ? "view" : "dxf"));
+                    arguments.view  ? "view"
+                    : arguments.dxf ? "dxf"
+                                    : "section"));
   if (arguments.kinematics) return analyse_directions(arguments, request, scene);
   if (!arguments.face.empty() || arguments.friction > 0) throw BadInput("--face and --friction belong to --kinematics");
   return scene.dimension == 2 ? judge_scene<2>(arguments, request, scene) : judge_scene<3>(arguments, request, scene);
@@ -264,6 +257,7 @@ void add_blocks(CLI::App& program, Action& action) {
       "--dxf", arguments.dxf,
       "write a drawing for CAD, blocks.dxf: key blocks (factor below --required), other blocks and bolts by "
       "layers");
+  add_section(command, arguments.sections, "key blocks and other blocks");
   add_overwrite(command, arguments.overwrite);
 }
 

@@ -28,7 +28,8 @@ std::vector<std::string> column(const fs::path& file, const std::string& name) {
 }
 
 TEST_F(Program, BlocksFindsThePairOfTheTutorial) {
-  const Ended ended = run("blocks " + quoted("examples/tutorial/slope.toml") + "--out out --required 1.3 --dxf");
+  const Ended ended =
+      run("blocks " + quoted("examples/tutorial/slope.toml") + "--out out --required 1.3 --dxf --section 90/90/-3/0/0");
   EXPECT_EQ(ended.code, 0) << ended.err;
   for (const char* part : {"stage \"safety\": clay 29 deg, rough 41 deg", "38.0/169.1   1.0694  68.4 (-5.1/003.1)",
                            "lower than its blocks", "least factor 1.0694 (cluster 2+5)", "elastic shear closes B1"})
@@ -40,6 +41,9 @@ TEST_F(Program, BlocksFindsThePairOfTheTutorial) {
   const fs::path table = folder_ / "out/blocks_verdicts.csv";
   const std::vector<test::DxfEntity> drawing = test::read_drawing(read(folder_ / "out/blocks.dxf"));
   EXPECT_NEAR(volume_on(drawing, "KEY_BLOCKS"), std::stod(column(table, "volume_m3").at(2)), 1e-9);
+  const std::vector<test::DxfEntity> section = test::read_drawing(read(folder_ / "out/section.dxf"));
+  EXPECT_FALSE(points_on(section, "POLYLINE", "KEY_BLOCKS").empty());
+  EXPECT_FALSE(points_on(section, "POLYLINE", "FIXED_BLOCKS").empty());
   EXPECT_EQ(column(table, "blocks"), (std::vector<std::string>{"2", "5", "2 5"}));
   EXPECT_EQ(column(table, "joints"), (std::vector<std::string>{"A1;A2", "A2;B1", "A1;B1"}));
   EXPECT_NEAR(std::stod(column(table, "factor").at(2)), 1.069448089900, 1e-11);
@@ -128,6 +132,14 @@ TEST_F(Program, BlocksCountsTheZonesOfAFace) {
   EXPECT_EQ(drawn.at("joints").at(0).at("set"), "J1");
   EXPECT_NEAR(drawn.at("joints").at(0).at("normal").at(2).get<double>(), std::cos(46 * degree), 1e-12);
   EXPECT_EQ(drawn.at("counts").size(), 14u);
+  // degrees as stated: not what is left of 58 in radians, 57.99999999999999
+  ASSERT_EQ(run(scene + "--overwrite --face 58/170.3 --friction 30").code, 0);
+  const nlohmann::json stated = nlohmann::json::parse(read(folder_ / "out/kinematics.json"));
+  EXPECT_EQ(stated.at("face_dip_deg"), 58);
+  EXPECT_EQ(stated.at("face_direction_deg"), 170.3);
+  EXPECT_EQ(stated.at("friction_deg"), 30);
+  EXPECT_EQ(stated.at("limits_deg").at("flexural_toppling"), 30);
+  ASSERT_EQ(run(scene + "--overwrite --face 70/170 --friction 29").code, 0);
   const fs::path table = folder_ / "out/kinematic_pairs.csv";
   EXPECT_EQ(column(table, "motion").size(), column(table, "factor").size());
   const std::vector<std::string> first = column(table, "joint_a"), second = column(table, "joint_b");

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <limits>
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "core/geometry/plunge_trend.hpp"
 #include "core/run/checkpoint.hpp"
@@ -30,6 +32,15 @@ std::string row(const ZoneCount& counted) {
 
 std::string row(const ZonePairs& pairs) {
   return fmt::format("  {:<48} {:>9} {:>9} {:>9}\n", pairs.zone, pairs.below_one, pairs.at_least_one, pairs.buried);
+}
+
+// The number of degrees as it was stated: of those that are these radians the one with the fewest digits.
+double stated_degrees(double radians) {
+  for (int digits = 1; digits < std::numeric_limits<double>::max_digits10; ++digits)
+    if (const double stated = std::stod(fmt::format("{:.{}g}", to_degrees(radians), digits));
+        stated * degree == radians)
+      return stated;
+  return to_degrees(radians);
 }
 
 }  // namespace
@@ -97,13 +108,13 @@ std::string kinematics_json(const KinematicRequest& request, const KinematicCoun
                          {"title", title},
                          {"input_hash", hash},
                          {"program", build_name()},
-                         {"face_dip_deg", to_degrees(request.face.dip)},
-                         {"face_direction_deg", to_degrees(request.face.direction)},
-                         {"friction_deg", to_degrees(request.friction)},
+                         {"face_dip_deg", stated_degrees(request.face.dip)},
+                         {"face_direction_deg", stated_degrees(request.face.direction)},
+                         {"friction_deg", stated_degrees(request.friction)},
                          {"limits_deg",
-                          {{"plane_sliding", to_degrees(request.limits.plane_sliding)},
-                           {"flexural_toppling", to_degrees(request.limits.flexural_toppling)},
-                           {"direct_toppling", to_degrees(request.limits.direct_toppling)}}},
+                          {{"plane_sliding", stated_degrees(request.limits.plane_sliding)},
+                           {"flexural_toppling", stated_degrees(request.limits.flexural_toppling)},
+                           {"direct_toppling", stated_degrees(request.limits.direct_toppling)}}},
                          {"counts", nlohmann::json::array()},
                          {"pairs", nlohmann::json::array()},
                          {"joints", nlohmann::json::array()}};

@@ -8,6 +8,7 @@
 
 #include "app/base/arguments.hpp"
 #include "app/base/run_scene.hpp"
+#include "app/base/section_option.hpp"
 #include "app/report/joints_data.hpp"
 #include "app/report/report_data.hpp"
 #include "app/run_folder/claimed_folder.hpp"
@@ -36,6 +37,7 @@ struct SliceArguments {
   bool view = false;                                           // view.html
   bool report = false;                                         // report.html, on the joint sets, and joints.csv
   bool planes = false, stl = false, obj = false, dxf = false;  // further formats of the blocks
+  std::vector<std::string> sections;                           // planes, for section.dxf
   bool overwrite = false;
 };
 
@@ -128,17 +130,21 @@ Outputs outputs_of(const SliceArguments& arguments) {
   add(arguments.stl, {"blocks.stl"});
   add(arguments.obj, {"blocks.obj"});
   add(arguments.dxf, {dxf_file});
+  add(!arguments.sections.empty(), {section_file});
   add(arguments.report, {"joints.csv", joints_data_file, report_file});
   return outputs;
 }
 
 template <int Dim>
-void write_blocks(const Prepared<Dim>& prepared, const SliceArguments& arguments) {
+void write_blocks(const Prepared<Dim>& prepared, const std::vector<SectionPolygon>& polygons,
+                  const SliceArguments& arguments) {
   const fs::path& folder = arguments.out;
   write_formats(prepared.model, arguments);
   const PolyData faces = block_faces(prepared.model, prepared.state, 0, prepared.joint_sets);
   write_file(folder / "blocks.vtp", vtp(faces));
   if (arguments.dxf) write_file(folder / dxf_file, blocks_dxf(prepared.model, faces));
+  if constexpr (Dim == 3)
+    if (!polygons.empty()) write_file(folder / section_file, section_dxf(prepared.model, polygons));
   write_file(folder / "blocks.csv", block_table(prepared.model));
   if (arguments.view) {
     begin_view(folder / view_file, prepared);
@@ -158,10 +164,12 @@ ExitCode slice_command(const SliceArguments& arguments) {
     throw BadInput(
         "--planes, --stl and --obj write blocks of half-spaces but the scene has potential particles; blocks.vtp has "
         "their surfaces");
+  const std::vector<SectionPolygon> polygons = std::visit(
+      [&](const auto& prepared) { return section_polygons(prepared.model, arguments.sections); }, loaded.prepared);
   const ClaimedFolder claim(arguments.out, outputs_of(arguments), loaded.files, arguments.overwrite);
   std::visit(
       [&](const auto& prepared) {
-        write_blocks(prepared, arguments);
+        write_blocks(prepared, polygons, arguments);
         if (const std::string endless = endless_joints(*loaded.stated, prepared.model.bodies.size()); !endless.empty())
           fmt::print("{}\n", endless);
       },
@@ -196,6 +204,7 @@ void add_slice(CLI::App& program, Action& action) {
   command->add_flag("--stl", arguments.stl, "the blocks as blocks.stl (ASCII; 3-D)");
   command->add_flag("--obj", arguments.obj, "the blocks as blocks.obj (3-D), readable as blocks_file");
   command->add_flag("--dxf", arguments.dxf, "blocks and bolts as a drawing for CAD: blocks.dxf");
+  add_section(command, arguments.sections, "fixed blocks and others");
   add_overwrite(command, arguments.overwrite);
 }
 

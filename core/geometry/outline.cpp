@@ -81,6 +81,17 @@ Polygon corners_of(const Outline<3>& outline) {
   return {{-a, -b}, {a, -b}, {a, b}, {-a, b}};
 }
 
+// the part of an outline that ends inside the solid, along the outline's axes from its centre; of an ellipse that of
+// the rectangle around it
+Polygon polygon_inside(const Outline<3>& outline, const Polytope<3>& solid) {
+  Polygon polygon = corners_of(outline);
+  for (const HalfSpace<3>& face : solid.faces) {
+    const Vector<2> normal = outline.axes.transpose() * face.normal;
+    polygon = clipped(polygon, normal, -signed_distance<3>(face, outline.centre));
+  }
+  return polygon;
+}
+
 // a corner that turns by less than this (rad) lies on an edge: far above the rounding of coordinates
 constexpr double straight = 1e-9;
 
@@ -120,12 +131,7 @@ PlaneAxes<2> plane_axes(const Vector<2>& n) {
 
 double measure_inside(const HalfSpace<3>& plane, const Outline<3>& stated, const Polytope<3>& solid) {
   const Outline<3> outline = bounded(plane, stated, solid);
-  Polygon polygon = corners_of(outline);
-  for (const HalfSpace<3>& face : solid.faces) {
-    const Vector<2> normal = outline.axes.transpose() * face.normal;
-    polygon = clipped(polygon, normal, -signed_distance<3>(face, outline.centre));
-    if (polygon.empty()) return 0;
-  }
+  Polygon polygon = polygon_inside(outline, solid);
   if (outline.shape != OutlineForm::ellipse) return std::abs(polygon_area(polygon));
   const double a = outline.half_sizes[0], b = outline.half_sizes[1];
   for (Vector<2>& p : polygon)
@@ -142,6 +148,16 @@ double measure_inside(const HalfSpace<2>& plane, const Outline<2>& outline, cons
   if (persistent) return (*inside)[1] - (*inside)[0];
   const double half = outline.half_sizes[0];
   return std::max(0.0, std::min((*inside)[1], half) - std::max((*inside)[0], -half));
+}
+
+std::vector<Vector<3>> section_of(const HalfSpace<3>& plane, const Polytope<3>& solid) {
+  const Outline<3> outline = bounded(plane, {}, solid);
+  Polygon polygon = polygon_inside(outline, solid);
+  std::reverse(polygon.begin(), polygon.end());  // the axes of a plane turn clockwise seen from its normal
+  std::vector<Vector<3>> corners;
+  for (const Vector<2>& p : polygon)
+    corners.emplace_back(outline.centre + outline.axes * p);
+  return corners;
 }
 
 template <int Dim>

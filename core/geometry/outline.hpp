@@ -1,4 +1,4 @@
-// Where a joint ends within its plane, and how much of it lies inside a solid.
+// Where a joint ends within its plane, how much of it lies inside a solid, and the sections of solids.
 #pragma once
 
 #include <array>
@@ -43,6 +43,10 @@ std::vector<Vector<2>> counter_clockwise(std::vector<Vector<2>> corners);
 // the area of the full section. Exact up to rounding, ellipses too.
 double measure_inside(const HalfSpace<3>& plane, const Outline<3>& outline, const Polytope<3>& solid);
 double measure_inside(const HalfSpace<2>& plane, const Outline<2>& outline, const Polytope<2>& solid);
+
+// Corners of the polygon in which a plane cuts a solid, in the solid's coordinates, m, counter-clockwise seen from
+// where the plane's normal points; none if it misses the solid.
+std::vector<Vector<3>> section_of(const HalfSpace<3>& plane, const Polytope<3>& solid);
 
 // whether a point of the plane lies within the outline
 template <int Dim>

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <numeric>
 #include <utility>
 
+#include "core/geometry/outline.hpp"
 #include "core/output/drawn_points.hpp"
 
 namespace voussoir {
@@ -43,8 +45,8 @@ class DxfText {
   std::string text_;
 };
 
-void add_head(DxfText& dxf) {
-  dxf.add(999, "blocks and bolts, coordinates in m");
+void add_head(DxfText& dxf, const char* content) {
+  dxf.add(999, fmt::format("{}, coordinates in m", content));
   dxf.add(0, "SECTION");
   dxf.add(2, "HEADER");
   dxf.add(9, "$ACADVER");
@@ -75,6 +77,19 @@ void add_head(DxfText& dxf) {
   }
   dxf.add(0, "ENDTAB");
   dxf.add(0, "ENDSEC");
+  dxf.add(0, "SECTION");
+  dxf.add(2, "ENTITIES");
+}
+
+std::string finished(DxfText dxf) {
+  dxf.add(0, "ENDSEC");
+  dxf.add(0, "EOF");
+  return std::move(dxf).text();
+}
+
+template <int Dim>
+const char* layer_of(const Model<Dim>& model, int body, const std::set<int>& key) {
+  return key.contains(body) ? key_layer : model.bodies[body].fixed ? fixed_layer : blocks_layer;
 }
 
 // a fan of quadrilaterals, and a triangle if a corner is left
@@ -92,49 +107,88 @@ void add_face(DxfText& dxf, const char* layer, const std::vector<Corner>& corner
   }
 }
 
-void add_outline(DxfText& dxf, const char* layer, const std::vector<Corner>& corners) {
+// flags of a POLYLINE, and that of its vertices if these have heights of their own
+constexpr int closed_line = 1, line_in_space = 8, vertex_in_space = 32;
+
+void add_outline(DxfText& dxf, const char* layer, const std::vector<Corner>& corners, bool has_heights) {
   dxf.entity("POLYLINE", layer);
   dxf.add(66, 1);  // vertices follow
   dxf.point(0, {0, 0, 0});
-  dxf.add(70, 1);  // closed
+  dxf.add(70, closed_line + (has_heights ? line_in_space : 0));
   for (const Corner& corner : corners) {
     dxf.entity("VERTEX", layer);
     dxf.point(0, corner);
+    if (has_heights) dxf.add(70, vertex_in_space);
   }
   dxf.entity("SEQEND", layer);
 }
+
+// The plane cuts a part this much farther along its normal, of the part's radius: far above the rounding of faces that
+// lie in the plane, far below what a drawing shows.
+constexpr double beyond_plane = 1e-9;
+
+// m² over the squared radius: a smaller section is that of a corner or an edge which touches the plane
+constexpr double least_section = 1e-7;
 
 }  // namespace
 
 template <int Dim>
 std::string blocks_dxf(const Model<Dim>& model, const PolyData& faces, const std::set<int>& key) {
   DxfText dxf;
-  add_head(dxf);
-  dxf.add(0, "SECTION");
-  dxf.add(2, "ENTITIES");
+  add_head(dxf, "blocks and bolts");
   const std::vector<double>& bodies = *values_of(faces.cell_data, "body");
   for (std::size_t c = 0; c < faces.cells.size(); ++c) {
     const int body = static_cast<int>(bodies[c]);
-    const char* layer = key.contains(body) ? key_layer : model.bodies[body].fixed ? fixed_layer : blocks_layer;
+    const char* layer = layer_of(model, body, key);
     std::vector<Corner> corners;
     for (const int p : faces.cells[c])
       corners.push_back(faces.points[p]);
     if constexpr (Dim == 3)
       add_face(dxf, layer, corners);
     else
-      add_outline(dxf, layer, corners);
+      add_outline(dxf, layer, corners, false);
   }
   for (const Bolt<Dim>& bolt : model.bolts) {
     dxf.entity("LINE", bolts_layer);
     dxf.point(0, in_space(Vector<Dim>(model.origin + bolt.collar)));
     dxf.point(1, in_space(Vector<Dim>(model.origin + bolt.toe)));
   }
-  dxf.add(0, "ENDSEC");
-  dxf.add(0, "EOF");
-  return std::move(dxf).text();
+  return finished(std::move(dxf));
 }
 
 template std::string blocks_dxf<2>(const Model<2>&, const PolyData&, const std::set<int>&);
 template std::string blocks_dxf<3>(const Model<3>&, const PolyData&, const std::set<int>&);
+
+std::vector<SectionPolygon> cut_blocks(const Model<3>& model, const SectionPlane& plane) {
+  std::vector<SectionPolygon> polygons;
+  for (const PartId& id : model.parts) {
+    const Body<3>& body = model.bodies[id.body];
+    if (!body.present) continue;
+    const Polytope<3>& part = body.parts[id.part];
+    // near the part, since far from the origin an offset has lost digits
+    const Vector<3> point = (plane.point - model.origin) - body.reference;
+    const Vector<3> beyond = beyond_plane * part.radius * plane.normal;
+    const std::vector<Vector<3>> section = section_of({plane.normal, plane.normal.dot(point + beyond)}, part);
+    std::vector<int> loop(section.size());
+    std::iota(loop.begin(), loop.end(), 0);
+    if (face_area<3>(section, loop) < least_section * part.radius * part.radius) continue;
+    SectionPolygon& polygon = polygons.emplace_back(SectionPolygon{id.body, {}});
+    for (const Vector<3>& corner : section)
+      polygon.corners.emplace_back(model.origin + (body.reference + (corner - beyond)));
+  }
+  return polygons;
+}
+
+std::string section_dxf(const Model<3>& model, const std::vector<SectionPolygon>& polygons, const std::set<int>& key) {
+  DxfText dxf;
+  add_head(dxf, "section of blocks");
+  for (const SectionPolygon& polygon : polygons) {
+    std::vector<Corner> corners;
+    for (const Vector<3>& corner : polygon.corners)
+      corners.push_back(in_space(corner));
+    add_outline(dxf, layer_of(model, polygon.body, key), corners, true);
+  }
+  return finished(std::move(dxf));
+}
 
 }  // namespace voussoir

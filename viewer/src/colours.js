@@ -85,3 +85,5 @@ export function digits(value, count = 3) {
   if (size !== 0 && (size < 1e-3 || size >= 1e5)) return value.toExponential(2).replace('e', '·10^').replace('^+', '^');
   return String(Number(value.toPrecision(count)));
 }
+// the same as other programs read it: 3.1·10^-4 is 3.1e-4
+export const asTyped = (text) => text.replace(/^(-?[\d.]+)·10\^(-?\d+)$/, '$1e$2');

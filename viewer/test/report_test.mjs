@@ -73,6 +73,13 @@ await picture('slope');
   assert.equal(trials.length, readFileSync(join(slope, 'search.csv'), 'utf8').trim().split('\n').length - 1);
 }
 
+// the blocks open as the interactive page opens them: the failed trial, by joint sets
+{
+  const [frame, trial, colour, panel] = await js("const v = window.voussoir.views[0]; return [v.look.frame, v.run.frames.findLastIndex((f) => f.kind === 2), v.look.colour, !v.element.classList.contains('bare')]");
+  assert.ok(trial > 0);
+  assert.deepEqual([frame, colour, panel], [trial, 'set', false]);
+}
+
 // poles, not the planes' own lines: of A1, dip 46 towards 128, plunges 44 towards 308
 {
   const poles = await js(`
@@ -91,6 +98,10 @@ await picture('slope');
   await js("[...document.querySelectorAll('button')].find((b) => b.textContent === 'copy as CSV').click()");
   await browser.until('a table is copied', 'window.copied !== null');
   assert.match(await js('return window.copied'), /^stage,kind,ended,steps,/);
+  // numbers as spreadsheets read them
+  const copies = await js("const all = []; navigator.clipboard.writeText = async (t) => { all.push(t); }; for (const b of document.querySelectorAll('button')) if (b.textContent === 'copy as CSV') b.click(); return all;");
+  assert.ok(copies.length > 3 && copies.every((copied) => !copied.includes('10^')), copies.join('\n'));
+  assert.ok((await text()).includes('·10^-') && copies.some((copied) => /\de-\d/.test(copied)), copies.join('\n'));
   await js("window.saved = []; HTMLAnchorElement.prototype.click = function () { window.saved.push(this.download); };");
   for (const kind of ['SVG', 'PNG']) await js(`[...document.querySelectorAll('figcaption button')].find((b) => b.textContent === '${kind}').click()`);
   await browser.until('a figure is saved twice', 'window.saved.length === 2');
@@ -299,10 +310,14 @@ const maps = join(folder, 'maps');
 // ---- a phone: nothing is wider than the page
 
 await browser.command('/window/rect', { width: 420, height: 900 });
-for (const [name, file] of Object.entries({ phone: page, phone_directions: join(directions, 'report.html'), phone_maps: join(maps, 'report.html'), phone_slice: join(folder, 'slice', 'report.html'), phone_plane: join(folder, 'plane', 'report.html') })) {
+for (const [name, file] of Object.entries({ phone: page, phone_tunnel: join(tunnel, 'report.html'), phone_directions: join(directions, 'report.html'), phone_maps: join(maps, 'report.html'), phone_slice: join(folder, 'slice', 'report.html'), phone_plane: join(folder, 'plane', 'report.html') })) {
   await open(file);
   await picture(name);
   assert.ok(await js('return document.documentElement.scrollWidth <= window.innerWidth'), `${name}: the page is wider than a phone`);
+  const shrunk = await js("return [...document.querySelectorAll('figure svg[role=img]')].filter((svg) => svg.getBoundingClientRect().width < 0.95 * svg.getAttribute('width')).map((svg) => svg.closest('figure').dataset.name)");
+  assert.deepEqual(shrunk, [], `${name}: figures whose letters shrink`);
+  const cut = await js("return [...document.querySelectorAll('figure svg[role=img] text')].filter((t) => t.getBoundingClientRect().left < t.closest('figure').getBoundingClientRect().left - 1).map((t) => t.textContent)");
+  assert.deepEqual(cut, [], `${name}: labels that are cut off`);
 }
 
 // ---- what is refused, and how

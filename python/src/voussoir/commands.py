@@ -139,7 +139,7 @@ def check(scene: Source, *, set: Mapping[str, Any] | None = None, **options: Opt
 
 def slice(scene: Source, out: str | os.PathLike[str] | None = None, *, set: Mapping[str, Any] | None = None,
           **options: Option) -> Folder:
-    """Cuts the rock into blocks: `voussoir slice`, with its options (view, report, planes, stl, obj, …)."""
+    """Cuts the rock into blocks: `voussoir slice`, with its options (view, report, planes, stl, obj, dxf, section, …)."""
     return _results("slice", scene, out, "_slice", set, options)
 
 

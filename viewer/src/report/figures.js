@@ -4,7 +4,9 @@ import { digits, OKABE } from '../colours.js';
 import { element, save } from './table.js';
 import { capital } from './words.js';
 
-export const LOOK = { width: 640, height: 300, marginLeft: 62, marginBottom: 44, style: { background: 'white', color: '#202020', overflow: 'visible', fontSize: '12px', fontFamily: 'DejaVu Sans, Helvetica, Arial, sans-serif' } };
+// as wide as a phone at most, so that its letters keep their size
+const WIDTH = Math.min(640, document.documentElement.clientWidth - 40);
+export const LOOK = { width: WIDTH, height: 300, marginLeft: 62, marginBottom: 44, style: { background: 'white', color: '#202020', overflow: 'visible', fontSize: '12px', fontFamily: 'DejaVu Sans, Helvetica, Arial, sans-serif' } };
 export const STABLE = OKABE[0], FAILED = OKABE[1];
 
 const svgElement = (name, attributes, ...children) => {
@@ -83,7 +85,7 @@ export function knee(trials, critical, levelName) {
   const moved = trials.filter((trial) => trial.moved > 1e-12);
   if (moved.length < 2) return null;
   return framed(Plot.plot({ ...LOOK, color: outcomes, symbol: { domain: outcomes.domain },
-    x: { type: 'log', label: 'displacement of the body that moved most (m)', tickFormat: '~g' }, y: { label: levelName, grid: true, nice: true },
+    x: { type: 'log', label: 'displacement of the body that moved most (m)', ticks: 4, tickFormat: '~g' }, y: { label: levelName, grid: true, nice: true },
     marks: [Number.isFinite(critical) ? Plot.ruleY([critical], { stroke: '#404040', strokeDasharray: '5 3' }) : null,
       Plot.dot(moved, { x: 'moved', y: 'level', fill: 'outcome', symbol: 'outcome', stroke: 'outcome', r: 4.5, tip: true })] }),
   'displacement', 'Level against displacement at the end of each trial.');
@@ -101,7 +103,8 @@ export function history(time, columns, unit, name) {
 
 // ---- studies
 
-const limit = (threshold) => (Number.isFinite(threshold) ? Plot.ruleX([threshold], { stroke: FAILED, strokeDasharray: '5 3', strokeWidth: 1.5 }) : null);
+// on a light rim, so that it is seen on bars too
+const limit = (threshold) => (Number.isFinite(threshold) ? [Plot.ruleX([threshold], { stroke: 'white', strokeWidth: 4 }), Plot.ruleX([threshold], { stroke: FAILED, strokeDasharray: '5 3', strokeWidth: 1.5 })] : null);
 
 export function histogram(values, bins, threshold, quantity, name) {
   return framed(Plot.plot({ ...LOOK, x: { label: quantity, nice: true }, y: { label: 'rows', grid: true },
@@ -112,7 +115,7 @@ export function histogram(values, bins, threshold, quantity, name) {
 export function cumulative(values, threshold, quantity, name) {
   const ascending = [...values].sort((a, b) => a - b).map((value, i) => ({ value, share: (100 * (i + 1)) / values.length }));
   return framed(Plot.plot({ ...LOOK, x: { label: quantity, nice: true }, y: { label: 'rows up to this (%)', grid: true, domain: [0, 100] },
-    marks: [Plot.line(ascending, { x: 'value', y: 'share', curve: 'step-after', stroke: STABLE }), limit(threshold)] }),
+    marks: [limit(threshold), Plot.line(ascending, { x: 'value', y: 'share', curve: 'step-after', stroke: STABLE })] }),
   name, `Cumulative curve of the results${Number.isFinite(threshold) ? '; it meets the dashed limit at the share below it' : ''}.`);
 }
 
@@ -191,6 +194,6 @@ export function alongLining(nodes, columns, label, caption, name) {
   const points = columns.flatMap(({ key, name: column }) => nodes.map((node) => ({ angle: node.angle, value: node[key], column }))).filter((point) => Number.isFinite(point.value));
   const domain = columns.map((column) => column.name).filter((column) => points.some((point) => point.column === column));
   const [first, last] = [nodes[0].angle, nodes.at(-1).angle], ticks = Array.from({ length: 17 }, (_, k) => 45 * (k - 4)).filter((t) => t >= first - 1 && t <= last + 1);
-  return framed(Plot.plot({ ...LOOK, height: 240, color: { domain, range: OKABE, legend: domain.length > 1 }, x: { label: 'angle about the middle (°), 0 at the right, 90 at the crown', ticks },
+  return framed(Plot.plot({ ...LOOK, height: 240, color: { domain, range: OKABE, legend: domain.length > 1 }, x: { label: 'angle (°), 0 at the right, 90 at the crown', ticks },
     y: { label, grid: true, nice: true }, marks: [Plot.ruleY([0], { stroke: '#b0b0b0' }), Plot.line(points, { x: 'angle', y: 'value', stroke: 'column' })] }), name, caption);
 }

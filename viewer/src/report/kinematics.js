@@ -19,10 +19,8 @@ function worstPairs(csv) {
 export function kinematicSections({ kinematics, files, block }) {
   const names = [...new Set(kinematics.joints.map((joint) => joint.set))];
   const sets = names.map((name, k) => ({ name, colour: listColour(k), poles: kinematics.joints.filter((joint) => joint.set === name).map((joint) => poleWith(joint.normal)) }));
-  // the program counts in radians: degrees come back with the rounding of that
-  const asStated = (degrees) => Number(degrees.toPrecision(12)), { plane_sliding: plane, flexural_toppling: flexural, direct_toppling: direct } = kinematics.limits_deg;
-  const [dip, direction, friction] = [kinematics.face_dip_deg, kinematics.face_direction_deg, kinematics.friction_deg].map(asStated);
-  const request = { face: { dip, direction }, friction, limits: { plane: asStated(plane), flexural: asStated(flexural), direct: asStated(direct) } };
+  const { face_dip_deg: dip, face_direction_deg: direction, friction_deg: friction, limits_deg: limits } = kinematics;
+  const request = { face: { dip, direction }, friction, limits: { plane: limits.plane_sliding, flexural: limits.flexural_toppling, direct: limits.direct_toppling } };
   const pairs = worstPairs(files.pairs), scanline = scanlineChoice();
   return [
     header(kinematics.title || 'Kinematic analysis', block, { class: '', text: `Kinematic analysis of ${kinematics.joints.length} joints: face ${orientation(request.face)} (dip/dip direction), friction ${friction}°.` }),

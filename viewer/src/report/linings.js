@@ -20,6 +20,6 @@ export function liningFigures({ files, results, linings }) {
         + `node ${worst.node} uses most of it, ${digits(100 * worst.use)} %` : '; the input states no strength'}.`, `lining-${k + 1}-interaction`),
     alongLining(nodes, [{ key: 'thrust', name: 'thrust' }], 'thrust (kN/m)', `${where}: thrust along the outline, compression positive.`, `lining-${k + 1}-thrust`),
     alongLining(nodes, [{ key: 'moment', name: 'moment' }, { key: 'smoothed', name: 'without the ripple of straight sides' }], 'moment (kN m/m)',
-      `${where}: moment along the outline, tension on the side of the opening positive.`, `lining-${k + 1}-moment`)];
+      `${where}: moment along the outline, tension on the side of the opening positive${nodes.some((node) => Number.isFinite(node.smoothed)) ? '. The curve without the ripple leaves out the shear of the rock along the lining: under uneven pressure, which that shear helps to support, it may be far larger than the moments' : ''}.`, `lining-${k + 1}-moment`)];
   });
 }

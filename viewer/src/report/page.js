@@ -212,25 +212,23 @@ async function keepPrinted(viewer, fragment) {
   await draw();
 }
 
-const blocksOfPage = () => document.querySelector('#blocks')?.content.firstElementChild.cloneNode(true);
-const setLook = (fragment, look) => { fragment.dataset.look = btoa(new URLSearchParams(look).toString()); };
+// They open as the interactive page does, without its panel.
+function blocksOfPage() {
+  const fragment = document.querySelector('#blocks')?.content.firstElementChild.cloneNode(true);
+  if (fragment) fragment.dataset.look = btoa('panel=0');
+  return fragment;
+}
 
 async function showRun(main, data) {
   const fragment = blocksOfPage();
   const blocks = fragment ? readRun(await inflate(fragment.querySelector('script').textContent)) : null;
   const page = { ...data, blocks, fragment, scene: data.files.scene };
-  if (fragment) {
-    const failed = lastTrial(blocks), look = { colour: blocks.head.joints.length ? 'set' : 'displacement', panel: 0, frame: lastState(blocks) };
-    if (failed >= 0) Object.assign(look, { frame: failed, colour: 'displacement' });
-    setLook(fragment, look);
-  }
   document.title = show(main, sections.map((make) => make(page)));
   if (fragment) await keepPrinted(await window.voussoir.start(fragment), fragment);
 }
 
 async function showJoints(main, data) {
   const fragment = blocksOfPage();
-  if (fragment) setLook(fragment, { colour: 'set', panel: 0, frame: 0 });
   document.title = show(main, jointSections({ ...data, fragment }));
   if (fragment) await keepPrinted(await window.voussoir.start(fragment), fragment);
 }

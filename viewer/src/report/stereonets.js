@@ -8,7 +8,7 @@ import { between, daylightEnvelope, density, fisherMean, fromNet, greatCircle, l
 import { paragraph } from './parts.js';
 import { element, table } from './table.js';
 
-const RADIUS = 200, MARGIN = 34, MOST_DOTS = 4000, MOST_CONTOURED = 1500;
+const MARGIN = 34, RADIUS = Math.min(200, LOOK.width / 2 - MARGIN), MOST_DOTS = 4000, MOST_CONTOURED = 1500;
 const SLIDES = OKABE[1], TOPPLES = OKABE[3], FACE = '#202020';
 const DENSITIES = [2, 4, 6, 8, 10, 12, 15, 20, 30, 50];
 const vertical = [0, 0, -1];

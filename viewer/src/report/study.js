@@ -62,7 +62,7 @@ function sampleSection(study, { summary, csv }, number) {
   const places = new Map(rowsOf(study, summary.name).map((row) => [row.value, row.place]));
   const made = [
     summary.failed ? element('p', { class: 'answer' }, element('span', {}, 'Probability of failure '), element('strong', {}, `${digits(100 * summary.failed.share)} %`)) : null,
-    summary.failed ? paragraph(failureText(summary.failed, unit)) : null,
+    summary.failed ? paragraph(failureText(summary.failed, unit) + (summary.without_result ? ' Rows without a result are not counted: if they collapsed, more fail than that.' : '')) : null,
     paragraph(`${capital(quantity)}: mean ${withUnits(summary.mean, unit)} (standard error ${digits(summary.mean_error)}), deviation ${digits(summary.deviation)}, from ${digits(summary.smallest)} to ${digits(summary.largest)}; ${plural(summary.rows - summary.without_result, 'row')} of ${summary.rows} have a result.`),
     histogram(results, summary.histogram, threshold, quantity, `sample-${number}-histogram`),
     cumulative(results, threshold, quantity, `sample-${number}-cumulative`),
@@ -104,7 +104,7 @@ export function studySections({ study: stated, files, block }) {
   const sweeps = [...new Set(study.rows.map((row) => row.sweep))].filter((name) => name !== 'default' && !named.has(name));
   const failed = study.rows.filter((row) => row.status !== 'ok'), [first] = study.rows.filter((row) => row.sweep === 'default');
   return [
-    header(title, block, failed.length ? { class: 'incomplete', text: `${failed.length} of ${study.rows.length} rows have no result.` } : { class: '', text: `${plural(study.rows.length, 'row')}, all with a result.` }),
+    header(title, block, failed.length ? { class: 'incomplete', text: `${failed.length} of ${study.rows.length} rows ${failed.length === 1 ? 'has' : 'have'} no result.` } : { class: '', text: `${plural(study.rows.length, 'row')}, all with a result.` }),
     section('What was asked', paragraph(`${capital(quantityName(study.rows[0].quantity))} of one input with settings changed: ${[...samples.map(({ summary }) => `a sample of ${plural(summary.rows, 'row')} (${summary.name})`), ...grids.map(({ axes }) => `a grid of ${axes.keys.map((key) => key.values.length).join(' × ')} (${axes.name})`), ...sweeps.map((name) => `a sweep (${name})`)].join(', ')}.`),
       first ? paragraph(`As the input states it: ${valueWithBar({ value: Number(first.result), unit: first.result_unit, error_bar: Number(first.error_bar) })}.`) : null),
     ...samples.map((sample, k) => sampleSection(study, sample, k + 1)),

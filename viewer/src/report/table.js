@@ -1,4 +1,6 @@
 // Elements and tables. Text is only inserted as text.
+import { asTyped } from '../colours.js';
+
 export function element(name, attributes = {}, ...children) {
   const made = document.createElement(name);
   for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
@@ -8,7 +10,7 @@ export function element(name, attributes = {}, ...children) {
 
 const quoted = (cell) => (/[",\n]/.test(cell) ? `"${cell.replaceAll('"', '""')}"` : cell);
 
-export function csvOf(rows) { return rows.map((row) => row.map((cell) => quoted(String(cell))).join(',')).join('\n') + '\n'; }
+export function csvOf(rows) { return rows.map((row) => row.map((cell) => quoted(asTyped(String(cell)))).join(',')).join('\n') + '\n'; }
 
 // Copies through the clipboard, or where a browser refuses it to a page from disk, through a selected text.
 async function copy(text) {
