@@ -15,9 +15,9 @@ mkdir -p "$build"
 rm -f "$build"/*.deb
 cd "$source"
 {
-  cmake --preset packages -B "$build" ${DEBEMAIL:+-DVOUSSOIR_MAINTAINER="${DEBFULLNAME:-The Voussoir authors} <$DEBEMAIL>"}
-  cmake --build "$build" --parallel "$jobs"
-  (cd "$build" && cpack)
+  cmake --preset packages -B "$build" ${DEBEMAIL:+-DVOUSSOIR_MAINTAINER="${DEBFULLNAME:-The Voussoir authors} <$DEBEMAIL>"} &&
+    cmake --build "$build" --parallel "$jobs" &&
+    (cd "$build" && cpack)
 } >"$build/packages.log" 2>&1 || { tail -n 20 "$build/packages.log"; exit 1; }
 lintian --fail-on error --info --tag-display-limit 0 "$build"/*.deb >"$build/lintian.log" 2>&1 ||
   { cat "$build/lintian.log"; exit 1; }

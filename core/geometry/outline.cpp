@@ -88,6 +88,7 @@ Polygon polygon_inside(const Outline<3>& outline, const Polytope<3>& solid) {
   for (const HalfSpace<3>& face : solid.faces) {
     const Vector<2> normal = outline.axes.transpose() * face.normal;
     polygon = clipped(polygon, normal, -signed_distance<3>(face, outline.centre));
+    if (polygon.empty()) break;
   }
   return polygon;
 }
