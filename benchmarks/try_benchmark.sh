@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # try_benchmark.sh CMAKE BUILD: builds all benchmarks, runs the contact benchmark on one shape and tabulates it; then the
-# fall of two hundred blocks.
+# fall of two hundred blocks, and the rest of 327.
 set -euo pipefail
 cmake=$1 build=$2
 "$cmake" --build "$build" --target benchmarks
@@ -10,3 +10,4 @@ mkdir -p "$out"
   --benchmark_report_aggregates_only=true --benchmark_out="$out/run.json" --benchmark_out_format=json >"$out/run.log" 2>&1
 "$build/benchmarks/voussoir_contact_report" "$out/run.json" "$out"
 "$build/benchmarks/fall_benchmark" "$out" 200
+"$build/benchmarks/statics_benchmark" "$out" quick

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # run_benchmarks.sh BUILD: times the kernels; medians on the terminal, Google Benchmark's JSON in the build folder. The
 # contact kernel and its peers alternate at random, so that other load on the machine affects all equally.
-# Then the parts of a step other than its kernel, complete steps of piles by their parts, as a table and step.csv, and twenty
+# Then the parts of a step other than its kernel, complete steps of piles by their parts, as a table and step.csv, sliced rock to
+# equilibrium by Newton's method (statics.csv), and twenty
 # thousand blocks from their fall to equilibrium with their required limits (fall.csv), which takes most of the time.
 # VOUSSOIR_BENCHMARK=quick: only the contact kernel, in less than a minute, for the manual.
 set -euo pipefail
@@ -25,6 +26,7 @@ else
   done
   "$build/benchmarks/step_parts" "$(dirname "$0")/../cases/slicing/settling.toml" | tee "$out/step_parts.txt"
   "$build/benchmarks/pile_benchmark" "$out"
+  "$build/benchmarks/statics_benchmark" "$out" | tee "$out/statics.txt"
   "$build/benchmarks/fall_benchmark" "$out" "${VOUSSOIR_FALL_BLOCKS:-20000}"
 fi
 

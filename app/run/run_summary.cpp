@@ -117,10 +117,20 @@ void print_stages(const Results& results) {
   }
 }
 
+std::string reasons_of_fallbacks(const Counters& counters) {
+  if (counters.unconverged_fallbacks == 0) return ": bonds broke";
+  if (counters.broken_bonds_fallbacks == 0) return ": no equilibrium within its iterations";
+  return fmt::format(": in {} bonds broke, in {} it found no equilibrium within its iterations",
+                     counters.broken_bonds_fallbacks, counters.unconverged_fallbacks);
+}
+
 void print_cost(const Results& results, const std::vector<AccuracyRound>& rounds) {
   const Counters& counters = results.counters;
   fmt::print("  {} steps, {} contact evaluations, {}\n", counters.steps, counters.contact_evaluations,
              duration_text(results.seconds));
+  if (counters.static_fallbacks > 0)
+    fmt::print("  Newton's method left {} of its increments to relaxation{}\n", counters.static_fallbacks,
+               reasons_of_fallbacks(counters));
   for (std::size_t k = 0; k + 1 < rounds.size(); ++k)
     fmt::print("  round {}: {} contact evaluations; {}\n", k + 1, rounds[k].contact_evaluations, rounds[k].told);
   if (results.budget_evaluations > 0)

@@ -72,6 +72,10 @@ struct StaticsSettings {
   // many elastic displacements. Half of one errs by 0.002° in a wedge, one by 0.004°, two by 0.008°; a quarter costs 8
   // to 30 % more for 0.0013°
   double slip = 0.5;
+
+  // newton: a step after which the residual has grown is refused, not shortened by its work. More steps, but blocks that
+  // hold are not carried along with those that slide: for the motion of a failure
+  bool refuses_growth = false;
 };
 
 struct DampingSettings {

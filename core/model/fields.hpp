@@ -236,10 +236,10 @@ void visit_fields(Either<StaticBase> auto& b, auto&& visit) {
 }
 
 void visit_fields(Just<StaticProgress> auto& p, auto&& visit) {
-  auto& [iteration, since_commit, tries, flat, polished, regularisation, overshoot, accepted, residual, change,
-         merits] = p;
-  visit(Saved{}, iteration, since_commit, tries, flat, polished, regularisation, overshoot, accepted, residual, change,
-        merits);
+  auto& [iteration, since_commit, tries, polished, regularisation, overshoot, length, lengths, accepted, residual,
+         change, merits] = p;
+  visit(Saved{}, iteration, since_commit, tries, polished, regularisation, overshoot, length, lengths, accepted,
+        residual, change, merits);
 }
 
 void visit_fields(Either<StaticSystem> auto& s, auto&& visit) {

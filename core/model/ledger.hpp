@@ -39,10 +39,12 @@ struct Counters {
   long long deep_overlaps = 0;     // overlaps beyond the potential particle's radius
   long long snap_backs = 0;        // slips in which friction fell faster than the shear spring could unload
   long long neighbour_builds = 0;
-  long long static_iterations = 0;  // static solver: steps accepted
-  long long static_rejections = 0;  // and rejected
-  long long linear_iterations = 0;  // of its linear systems
-  long long static_fallbacks = 0;   // increments that it left to relaxation
+  long long static_iterations = 0;                                  // static solver: steps accepted
+  long long static_rejections = 0;                                  // and shortened or refused
+  long long linear_systems = 0;                                     // that it solved
+  long long linear_iterations = 0;                                  // of these: products with their matrices
+  long long static_fallbacks = 0;                                   // increments that it left to relaxation
+  long long broken_bonds_fallbacks = 0, unconverged_fallbacks = 0;  // because bonds broke; without equilibrium
 };
 
 // their names in results
@@ -69,8 +71,11 @@ inline constexpr CounterRow counter_table[] = {
     {"neighbour_builds", &Counters::neighbour_builds},
     {"static_iterations", &Counters::static_iterations},
     {"static_rejections", &Counters::static_rejections},
+    {"linear_systems", &Counters::linear_systems},
     {"linear_iterations", &Counters::linear_iterations},
     {"static_fallbacks", &Counters::static_fallbacks},
+    {"broken_bonds_fallbacks", &Counters::broken_bonds_fallbacks},
+    {"unconverged_fallbacks", &Counters::unconverged_fallbacks},
 };
 static_assert(std::size(counter_table) * sizeof(long long) == sizeof(Counters), "every counter has a row");
 

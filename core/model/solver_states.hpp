@@ -59,9 +59,11 @@ struct StaticBase {
 // How far the iterations of an increment have come.
 struct StaticProgress {
   int iteration = 0;  // accepted ones of this increment
-  int since_commit = 0, tries = 0, flat = 0, polished = 0;
-  double regularisation = 1;             // lambda
-  double overshoot = 0;                  // the last step over the largest permitted one
+  int since_commit = 0, tries = 0, polished = 0;
+  double regularisation = 1;  // lambda
+  double overshoot = 0;       // the linear system's solution over the largest permitted step
+  double length = 1;          // of the last step, over the bounded solution; how often it was shortened
+  int lengths = 0;
   std::vector<double> accepted;          // by degree of freedom: motion since the reference state
   std::vector<double> residual, change;  // by degree of freedom: unbalanced forces, last step
   std::vector<double> merits;            // of the accepted ones
@@ -78,7 +80,7 @@ struct StaticSystem {
 template <int Dim>
 struct StaticIncrement {
   // the kind of the next evaluation; `last`: of the accepted motion, before it is left to relaxation
-  enum class Trial { waiting, start, step, forced, last };
+  enum class Trial { waiting, start, step, last };
   bool under_way = false;
   Trial trial = Trial::start;
   int increments_left = 0;    // after this one

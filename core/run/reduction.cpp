@@ -23,10 +23,9 @@ constexpr double bias_power = 2.0 / 3;
 constexpr double nearer_by_lags = 1.5;
 
 // A trial's steps are divided into rounds, as fractions of the step limit: relaxation has 20,000 steps by default,
-// enough for the equilibrium of a column of 1,000 blocks, then true motion 100,000, then relaxation again. Relaxation
-// is slow if a slope slides far before equilibrium, because the damping of vibrations slows the slide; true motion is
-// slow at the end, because local damping does not act on a slide with nearly balanced forces. Each round begins with
-// zero velocity.
+// enough for the equilibrium of a column of 1,000 blocks, then true motion 100,000, then relaxation again, each from
+// zero velocity. Relaxation is slow if a slope slides far before equilibrium, because damped vibrations slow the slide;
+// true motion is slow at the end, because local damping does not act on a slide with nearly balanced forces.
 constexpr long long relaxation_round = 50, motion_round = 10;
 
 // 1.25 times Richardson's estimate bounds the error of the slower rate (Roache's grid convergence index, order known),
@@ -174,6 +173,7 @@ struct Search {
                                .properties = properties};
     Settings own = settings;
     if (progress.true_motion) own.statics.method = Statics::local;
+    own.statics.refuses_growth = attempt.leg == FollowLeg::on;
     report.last = run(model, own, goal, schedule, state, progress.run, hooks,
                       watches() && judges(attempt) ? &progress.watch : nullptr);
     report.unbalanced = report.last.unbalanced;

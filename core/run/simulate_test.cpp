@@ -246,6 +246,7 @@ TEST(Bonds, OfTheFirstStageHoldABlockInTension) {
       if (statics != Statics::newton) continue;
       EXPECT_GT(results.counters.static_iterations, 0);
       EXPECT_EQ(results.counters.static_fallbacks, fraction < 1 ? 0 : 1) << "breaking bonds are left to relaxation";
+      EXPECT_EQ(results.counters.broken_bonds_fallbacks, results.counters.static_fallbacks);
     }
 }
 

@@ -28,17 +28,24 @@ constexpr double first_regularisation = 1, least_regularisation = 1e-9;
 // Accepted iterations of an increment before it is left to relaxation.
 constexpr int iteration_limit = 150;
 
-// Accepted iterations after which an increment counts as slow. It then follows a valley: a mode softer than the joints
-// by many powers of ten, such as the sway of an arch on four hinges. Stiff joints resist the square of a step along it,
-// so the residual grows tenfold even if the step is right, and regularisation that avoids this leaves almost nothing of
-// the step. Columns, walls and sliced rock of thousands of blocks converge in fewer.
-constexpr int lingering_after = 50;
+// A step is shortened if less than this is left of the residual's work along it, 1 before it and 0 at the least energy
+// (negative: the joints drive it back): to where that work, interpolated, is zero, within these bounds. It has at most
+// so many lengths. None is made longer than the solution of the linear system, for slip is not taken back.
+constexpr double may_drive_back = -0.5, most_shortening = 0.1, least_shortening = 0.7;
+constexpr int most_lengths = 6;
 
-// A slow increment judges a step by the residual's work along it: the step is shortened if less of that work remains
-// than this (negative: the joints drive it back); by no more than the second factor in one iteration.
-constexpr double may_drive_back = -0.5, most_shortening = 0.1;
+// Regularisation falls with the residual of a step that was not shortened, within these bounds, or by the third if more
+// than half of the work is left, since it is then regularisation that bounds the step; it falls by the fourth if the
+// step was bounded by the blocks' size, and rises by the last if the step was shortened below that fraction.
+constexpr double most_fall = 0.02, least_fall = 0.5, slow_fall = 0.1, bounded_fall = 0.5, far_shortened = 0.3, rise = 2;
 
-// Consecutive refused steps before one is accepted unconditionally; accepted ones before the increment so far is kept.
+// With which an increment begins if the loads are balanced up to this fraction of the contact forces and of so many
+// joints that touch at most one carries nothing.
+constexpr double first_if_carried = 0.01, nearly_balanced = 0.1;
+constexpr std::ptrdiff_t one_closed_of = 10;
+
+// Refused steps, which break bonds, before an increment is left to relaxation; accepted ones before the increment so
+// far is kept.
 constexpr int most_tries = 12, most_since_commit = 25;
 
 // Closed joints without force count as stiff for this many iterations; otherwise a load would reach only one more row
@@ -50,22 +57,16 @@ constexpr double still_reaching = 1.1;
 // Forces in contacts that the base does not have, over all forces: they have no shear, so the increment so far is kept.
 constexpr double most_in_new_contacts = 0.1;
 
-// A residual counts as not larger within this factor of the largest of the last three; one in the same direction may
-// double.
+// A residual has not grown within this factor of the largest of the last three; one in the same direction may double.
 constexpr double may_rise = 1.05, may_double = 2;
 
-// After a refused step regularisation is reduced slowly: lambda falls by at most this factor.
-constexpr double after_refusal = 0.5;
-
-// Of the residual, for the linear systems; their iterations. The remaining error in the softest directions moves joints
-// with almost no force: at 1e-3 they open and close alternately, and a wall of 1,000 bricks takes three times the
-// evaluations.
-constexpr double linear_tolerance = 1e-6;
-constexpr int linear_limit = 200;
+// Of the residual, for the linear systems; their iterations. Whose rest is searched along them needs no more.
+constexpr double linear_tolerance = 1e-3;
+constexpr int linear_limit = 150;
 
 // Of the residual: a system of which more remains after the iterations is too far from definite. Joints that only just
 // touch cause it; more regularisation repairs it.
-constexpr double most_unsolved = 1e-3;
+constexpr double most_unsolved = 1e-2;
 
 // Unbalanced forces drive the softest mode, whose momentum relaxation weighs with the stiffest frequency: convergence
 // is to this fraction of the criterion that relaxation must confirm, or, if that cannot be reached, after this many
@@ -160,6 +161,7 @@ struct Newton {
     for (int tries = 0; tries < most_tries; ++tries) {
       const LinearAnswer answer = solve_blocks(tangent(progress.regularisation), unknowns.upwards, residual,
                                                linear_tolerance, linear_limit, settings.threads);
+      ++state.counters.linear_systems;
       state.counters.linear_iterations += answer.iterations;
       if (answer.residual <= most_unsolved && residual.dot(answer.x) > 0) return answer.x;
       progress.regularisation = std::max(8 * progress.regularisation, 1e-6);
@@ -175,35 +177,36 @@ struct Newton {
     return residual.dot(change) / numbers(progress.residual).dot(change);
   }
 
-  bool lingers() const { return progress.iteration >= lingering_after; }
-
-  bool is_acceptable(const Eigen::VectorXd& residual, double now) {
-    if (lingers()) return is_acceptable_lingering(residual, now);
+  bool refuses_growth() const { return settings.statics.refuses_growth && progress.tries < most_tries; }
+  bool grows(const Eigen::VectorXd& residual, double merit_now) const {
     const double largest = *std::max_element(
         progress.merits.end() - std::min<std::ptrdiff_t>(3, std::ssize(progress.merits)), progress.merits.end());
+    return !(merit_now <= (work_left(residual) > 0 ? may_double : may_rise) * largest);
+  }
+
+  // whether a shorter length of the last step is evaluated
+  bool shortens(const Eigen::VectorXd& residual) {
     const double left = work_left(residual);
-    if (!std::isfinite(now) || !(now <= may_rise * largest || (left > 0 && now <= may_double * largest))) return false;
-    // the faster the residual falls, the less is needed
-    const double last = progress.merits.back();
-    progress.flat = progress.overshoot <= 1 && left <= 0.5 && now > 0.7 * last ? progress.flat + 1 : 0;
-    const double fall = progress.overshoot > 1 ? 0.5 : left > 0.5 ? 0.1 : std::clamp(now / last, 0.02, 0.5);
-    progress.regularisation *= progress.tries > 0 ? std::max(fall, after_refusal) : fall;
-    if (progress.regularisation < least_regularisation) progress.regularisation = 0;
-    // contacts that open and close alternately: a short step breaks the cycle
-    if (progress.flat > 0) {
-      progress.regularisation = std::max(0.1, 4 * progress.regularisation);
-      progress.flat = 0;
-    }
+    if (left >= may_drive_back || progress.lengths + 1 >= most_lengths) return false;
+    ++progress.lengths;
+    ++state.counters.static_rejections;
+    const double factor =
+        std::isfinite(left) ? std::clamp(1 / (1 - left), most_shortening, least_shortening) : most_shortening;
+    progress.length *= factor;
+    keep(factor * numbers(progress.change), progress.change);
+    set_trial_at(numbers(progress.accepted) + numbers(progress.change), Trial::step);
     return true;
   }
 
-  bool is_acceptable_lingering(const Eigen::VectorXd& residual, double now) {
-    if (!std::isfinite(now) || !(work_left(residual) >= may_drive_back)) return false;
-    if (progress.tries == 0) progress.regularisation *= progress.overshoot > 1 ? 0.5 : 0.1;
-    if (progress.tries > 1)
-      progress.regularisation = std::max(8 * progress.regularisation, 1e-6);  // a kink: a shorter step is better
+  void regularise(const Eigen::VectorXd& residual, double merit_now) {
+    if (progress.overshoot > 1 || progress.tries > 0)
+      progress.regularisation *= bounded_fall;
+    else if (progress.length < far_shortened)
+      progress.regularisation *= rise;
+    else if (progress.length >= 1)
+      progress.regularisation *=
+          work_left(residual) > 0.5 ? slow_fall : std::clamp(merit_now / progress.merits.back(), most_fall, least_fall);
     if (progress.regularisation < least_regularisation) progress.regularisation = 0;
-    return true;
   }
 
   double fraction_in_new_contacts() const {
@@ -215,6 +218,13 @@ struct Newton {
       if (base.histories.contacts[i].history.normal.isZero(0)) of_new += force;
     }
     return all > 0 ? of_new / all : 0;
+  }
+
+  // whether the loads are nearly balanced already, and nearly all joints that are closed carry
+  bool is_carried() const {
+    const auto touching = std::ranges::count_if(state.contacts.list, &Contact<Dim>::touching);
+    return unbalanced_ratio(model, settings.threads, state) < nearly_balanced &&
+           std::ssize(system.closed) * one_closed_of < touching;
   }
 
   // ---- work ---------------------------------------------------------------------------------------------------------
@@ -262,11 +272,12 @@ struct Newton {
   }
 
   void start_increment() {
-    progress.iteration = progress.tries = progress.flat = progress.polished = 0;
-    progress.regularisation = first_regularisation;
+    progress.iteration = progress.tries = progress.polished = 0;
     progress.merits.clear();
     system.closed.clear();
     find_closed_joints(model, settings, state.bodies, state.contacts, base.histories, state.counters, system.closed);
+    progress.regularisation =
+        !settings.statics.refuses_growth && is_carried() ? first_if_carried : first_regularisation;
     // origins of the ledger's balances, if they are new
     const EnergyFlows before = base.ledger.energy.flows;
     state.ledger.energy.kinetic = 0;
@@ -288,8 +299,9 @@ struct Newton {
   // relaxation continues from the base
   void leave() { begin_relaxation(state); }
 
-  void give_up() {
+  void give_up(long long Counters::*reason) {
     ++state.counters.static_fallbacks;
+    ++(state.counters.*reason);
     commit();
     leave();
   }
@@ -300,34 +312,24 @@ struct Newton {
     return expected > 0 && bonds_of(state.contacts).held() < expected;
   }
 
-  // Back on the step to the point where its work, interpolated between both ends, is zero.
-  void shorten_lingering(const Eigen::VectorXd& residual) {
-    const double left = work_left(residual), factor = std::isfinite(left) ? 1 / (1 - left) : 0;
-    keep(std::clamp(factor, most_shortening, 0.5) * numbers(progress.change), progress.change);
-    set_trial_at(numbers(progress.accepted) + numbers(progress.change),
-                 progress.tries >= most_tries ? Trial::forced : Trial::step);
-  }
-
-  void reject(const Eigen::VectorXd& residual, bool breaks) {
+  void refuse(bool breaks) {
     ++state.counters.static_rejections;
-    ++progress.tries;
-    if (lingers() && !breaks) return shorten_lingering(residual);
+    if (++progress.tries >= most_tries && breaks) return set_trial_at(numbers(progress.accepted), Trial::last);
     progress.regularisation = std::max(8 * progress.regularisation, 1e-6);
-    const bool forced = progress.tries >= most_tries;
-    if (forced && breaks) return set_trial_at(numbers(progress.accepted), Trial::last);
-    if (forced) progress.regularisation = first_regularisation;
-    step_from_accepted(forced ? Trial::forced : Trial::step);
+    step_from_accepted();
   }
 
-  void step_from_accepted(Trial trial) {
+  void step_from_accepted() {
     Eigen::VectorXd dq = next_step(numbers(progress.residual));
     progress.overshoot = shorten(model, unknowns, state, dq);
     progress.overshoot = std::max(progress.overshoot, shorten_in_trial(unknowns, increment, dq));
+    progress.length = 1;
+    progress.lengths = 0;
     keep(dq, progress.change);
-    set_trial_at(numbers(progress.accepted) + dq, trial);
+    set_trial_at(numbers(progress.accepted) + dq, Trial::step);
   }
 
-  void accept(const Eigen::VectorXd& residual, double now, bool forced) {
+  void accept(const Eigen::VectorXd& residual, double now) {
     if (increment.trial != Trial::start) {
       keep(numbers(progress.accepted) + numbers(progress.change), progress.accepted);
       ++progress.iteration;
@@ -337,8 +339,8 @@ struct Newton {
     progress.merits.push_back(now);
     progress.tries = 0;
     if (rests()) return end_increment();
-    if (progress.iteration >= iteration_limit) return give_up();
-    if (forced || ++progress.since_commit >= most_since_commit ||
+    if (progress.iteration >= iteration_limit) return give_up(&Counters::unconverged_fallbacks);
+    if (++progress.since_commit >= most_since_commit ||
         has_slipped_far(model, settings.statics.slip, unknowns, increment) ||
         fraction_in_new_contacts() > most_in_new_contacts)
       commit();
@@ -346,7 +348,7 @@ struct Newton {
     find_stiffness();
     const bool reached_all = static_cast<double>(system.stiffness.size()) < still_reaching * reached;
     if (progress.iteration >= closed_iterations && reached_all) system.closed.clear();
-    step_from_accepted(Trial::step);
+    step_from_accepted();
   }
 
   void iterate() {
@@ -362,11 +364,19 @@ struct Newton {
     const Trial trial = increment.trial;
     if (trial == Trial::start) start_increment();
     const bool breaks = breaks_bonds();
-    if (trial == Trial::last || (trial == Trial::start && breaks)) return give_up();
+    if (trial == Trial::last || (trial == Trial::start && breaks))
+      return give_up(breaks || (base.held_bonds > 0 && progress.tries >= most_tries)
+                         ? &Counters::broken_bonds_fallbacks
+                         : &Counters::unconverged_fallbacks);
     const Eigen::VectorXd residual = residual_now();
     const double now = merit(residual);
-    if (breaks || (trial == Trial::step && !is_acceptable(residual, now))) return reject(residual, breaks);
-    accept(residual, now, trial == Trial::forced);
+    if (breaks || (trial == Trial::step && refuses_growth() && grows(residual, now))) return refuse(breaks);
+    if (trial == Trial::step) {
+      if (!refuses_growth() && shortens(residual)) return;
+      if (!std::isfinite(now)) return set_trial_at(numbers(progress.accepted), Trial::last);
+      regularise(residual, now);
+    }
+    accept(residual, now);
   }
 };
 
