@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 
 #include <optional>
+#include <utility>
+#include <variant>
 
 #include "app/base/arguments.hpp"
 #include "app/base/message.hpp"
 #include "app/check/assess.hpp"
 #include "app/run/carry_out.hpp"
 #include "app/run/error_budget.hpp"
+#include "app/run/memory_needed.hpp"
 #include "app/run_folder/begin_run.hpp"
 #include "app/run_folder/origin.hpp"
 #include "core/base/bad_input.hpp"
@@ -81,13 +84,20 @@ void begin_in(const fs::path& folder, const std::string& scene_hash, const AnyPr
   std::visit([&](const auto& progress) { save_checkpoint(folder, progress, scene_hash); }, begun);
 }
 
+bool uses_newton(const LoadedScene& scene) {
+  return std::visit([](const auto& prepared) { return asks_for_newton(prepared.settings.statics, prepared.stages); },
+                    scene.prepared);
+}
+
 ExitCode run_command(const RunArguments& arguments) {
   // nothing is written before the complete scene is known to be valid
   RunOptions options = options_of(arguments);
   LoadedScene scene = scene_of(arguments);
   require_sane_size(scene.text, arguments.scene.scene.string() + " with all that it names");  // it is read again
   options.scene_hash = scene.hash;
-  options.warnings = assess(scene).warnings;
+  Assessment assessment = assess(scene);
+  options.warnings = std::move(assessment.warnings);
+  require_memory(arguments.scene.scene.string(), assessment.forecast.memory, available_memory(), uses_newton(scene));
   if (!arguments.quiet) tell_warnings(options.warnings);
 
   std::vector<fs::path> inputs = scene.files;
