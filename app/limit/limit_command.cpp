@@ -138,15 +138,17 @@ void print_mechanism_in_space(const LimitAnalysisInSpace& analysis) {
 void print_analysis(const LimitAnalysisInSpace& analysis, const fs::path& folder) {
   const Evidence& evidence = analysis.evidence;
   print_head(analysis);
-  if (!analysis.values.empty()) line("bound", analysis.bound);
+  if (!analysis.values.empty()) {
+    line("bound", analysis.bound);
+    line("enclosed", fmt::format("for joints that dilate: forces and mechanism differ by {:.2g}, forces out of balance "
+                                 "{:.2g} of a block's weight, joints closed at {:.2g} of the speed",
+                                 evidence.gap, evidence.out_of_balance, evidence.inadmissible));
+  }
   std::size_t corners = 0;
   for (const CornerFace& face : analysis.assembly.faces)
     corners += face.corners.size();
-  line("enclosed", fmt::format("for joints that dilate: forces and mechanism differ by {:.2g}, forces out of balance "
-                               "{:.2g} of a block's weight, joints closed at {:.2g} of the speed",
-                               evidence.gap, evidence.out_of_balance, evidence.inadmissible));
-  line("", fmt::format("{} cone program{} over {} interfaces, {} corners", evidence.programs,
-                       evidence.programs == 1 ? "" : "s", analysis.assembly.faces.size(), corners));
+  line("solved", fmt::format("{} cone program{} over {} interfaces, {} corners", evidence.programs,
+                             evidence.programs == 1 ? "" : "s", analysis.assembly.faces.size(), corners));
   print_mechanism_in_space(analysis);
   print_end(analysis, folder);
 }

@@ -147,6 +147,7 @@ std::string limit_json(const LimitAnalysis& analysis) {
 std::string limit_json(const LimitAnalysisInSpace& analysis) {
   Json json = answer_json(analysis, "cone_programs");
   json["bound"] = analysis.bound;
+  if (analysis.values.empty()) json["evidence"] = {{"cone_programs", analysis.evidence.programs}};
   json["mechanism"] = mechanism_json(analysis);
   json["interfaces"] = interfaces_json(analysis);
   return text_of(json);

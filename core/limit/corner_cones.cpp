@@ -230,7 +230,7 @@ std::vector<MotionInSpace> mechanism_of(const CornerAssembly& assembly, const Ei
   return motions;
 }
 
-std::vector<Sensitivity> sensitivity_of(const CornerAssembly& assembly, const ConeAnswer& answer) {
+std::vector<Sensitivity> sensitivity_of(const CornerAssembly& assembly, const ConeProgramAnswer& answer) {
   const std::vector<int> rows = rows_of(assembly);
   std::vector<Sensitivity> all(assembly.faces.size());
   Eigen::Index at = 0;

@@ -68,6 +68,6 @@ std::vector<MotionInSpace> mechanism_of(const CornerAssembly& assembly, const Ei
 struct Sensitivity {
   double friction = 0, cohesion = 0;
 };
-std::vector<Sensitivity> sensitivity_of(const CornerAssembly& assembly, const ConeAnswer& answer);
+std::vector<Sensitivity> sensitivity_of(const CornerAssembly& assembly, const ConeProgramAnswer& answer);
 
 }  // namespace voussoir

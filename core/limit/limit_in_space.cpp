@@ -23,7 +23,7 @@ constexpr double nothing_left =
     100;  // tolerances: strength that is as good as none, as forces grow without bound towards it
 
 struct Shortfall {
-  ConeAnswer answer;
+  ConeProgramAnswer answer;
   bool failed() const { return answer.status != ConeStatus::optimal; }
   bool stands() const { return !(answer.bound > least_missing + noise * answer.error()); }
 };
@@ -150,7 +150,7 @@ LoadFactorInSpace find_load_factor(const CornerAssembly& assembly, const std::ve
   // Without dead load and cohesion forces and load grow together: all multiples are supported, or none.
   const bool grows = program.right_side.isZero(0) &&
                      std::ranges::none_of(assembly.faces, [](const CornerFace& face) { return face.cohesion > 0; });
-  const ConeAnswer answer = grows ? shortfall(assembly, live).answer : solve(program);
+  const ConeProgramAnswer answer = grows ? shortfall(assembly, live).answer : solve(program);
   ++result.evidence.programs;
   if (answer.status == ConeStatus::stalled || answer.status == ConeStatus::infeasible)
     return result.status = LimitStatus::solver_failed, result;
@@ -164,6 +164,7 @@ LoadFactorInSpace find_load_factor(const CornerAssembly& assembly, const std::ve
   if (!nothing) result.state.forces = corner_forces(assembly, answer.x);
   if (nothing || result.status == LimitStatus::found) result.state.velocities = mechanism_of(assembly, answer.y);
   result.state.velocities.resize(assembly.bodies.size());
+  if (result.status != LimitStatus::found) return result;
   result.evidence.gap = answer.gap;
   result.evidence.out_of_balance = answer.out_of_balance;
   result.evidence.inadmissible = answer.inadmissible;

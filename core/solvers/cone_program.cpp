@@ -30,7 +30,7 @@ template <int Freedoms, int Width>
 class Embedding {
  public:
   explicit Embedding(const ConeProgram<Freedoms, Width>& of_program);
-  ConeAnswer solve();
+  ConeProgramAnswer solve();
 
  private:
   using Numbers = Vector<Width>;
@@ -60,7 +60,7 @@ class Embedding {
   Multipliers solve_system(const Eigen::VectorXd& balance, const Eigen::VectorXd& heads, double load) const;
   Point direction(const Point& at, const Residuals& of, const Eigen::VectorXd& q, double of_tau, double weight) const;
   double step(const Point& at, const Point& direction) const;
-  void judge(const Point& at, const Residuals& of, ConeAnswer& answer) const;
+  void judge(const Point& at, const Residuals& of, ConeProgramAnswer& answer) const;
 
   const ConeProgram<Freedoms, Width>& program;
   int count, bodies;
@@ -327,7 +327,7 @@ double Embedding<Freedoms, Width>::step(const Point& at, const Point& direction)
 
 // keeps the point if it is better than the best so far
 template <int Freedoms, int Width>
-void Embedding<Freedoms, Width>::judge(const Point& at, const Residuals& of, ConeAnswer& answer) const {
+void Embedding<Freedoms, Width>::judge(const Point& at, const Residuals& of, ConeProgramAnswer& answer) const {
   const auto largest = [](const Eigen::VectorXd& numbers) {
     return numbers.size() ? numbers.cwiseAbs().maxCoeff() : 0;
   };
@@ -348,14 +348,14 @@ void Embedding<Freedoms, Width>::judge(const Point& at, const Residuals& of, Con
 }
 
 template <int Freedoms, int Width>
-ConeAnswer Embedding<Freedoms, Width>::solve() {
+ConeProgramAnswer Embedding<Freedoms, Width>::solve() {
   Point at;
   at.x = Eigen::VectorXd::Zero(Width * count);
   for (int i = 0; i < count; ++i)
     at.x[Width * i] = 1;
   at.s = at.x;
   at.dual = {Eigen::VectorXd::Zero(program.right_side.size()), Eigen::VectorXd::Zero(count), 0};
-  ConeAnswer answer;
+  ConeProgramAnswer answer;
   int of_best = 0;
   for (; answer.iterations < most_steps; ++answer.iterations) {
     const Residuals of = residuals(at);
@@ -410,11 +410,11 @@ ConeAnswer Embedding<Freedoms, Width>::solve() {
 }  // namespace
 
 template <int Freedoms, int Width>
-ConeAnswer solve(const ConeProgram<Freedoms, Width>& program) {
+ConeProgramAnswer solve(const ConeProgram<Freedoms, Width>& program) {
   return Embedding<Freedoms, Width>(program).solve();
 }
 
-template ConeAnswer solve(const ConeProgram<3, 2>&);
-template ConeAnswer solve(const ConeProgram<6, 3>&);
+template ConeProgramAnswer solve(const ConeProgram<3, 2>&);
+template ConeProgramAnswer solve(const ConeProgram<6, 3>&);
 
 }  // namespace voussoir

@@ -35,7 +35,7 @@ enum class ConeStatus {
   stalled      // digits were lost before either was certain
 };
 
-struct ConeAnswer {
+struct ConeProgramAnswer {
   ConeStatus status = ConeStatus::stalled;
   double factor = 0;            // λ
   double value = 0, bound = 0;  // of the minimum: of these forces, and of the multipliers
@@ -50,6 +50,6 @@ struct ConeAnswer {
 
 // The same bits for any machine and number of threads.
 template <int Freedoms, int Width>
-ConeAnswer solve(const ConeProgram<Freedoms, Width>& program);
+ConeProgramAnswer solve(const ConeProgram<Freedoms, Width>& program);
 
 }  // namespace voussoir

@@ -27,12 +27,12 @@ Plane block(double friction, double height) {
 
 TEST(ConeProgram, FindsWhereABlockSlidesOrTopples) {
   for (const double friction : {1e-3, 0.1, 0.5, 1.5}) {
-    const ConeAnswer low = solve(block(friction, 0));
+    const ConeProgramAnswer low = solve(block(friction, 0));
     ASSERT_EQ(low.status, ConeStatus::optimal);
     EXPECT_NEAR(low.factor, std::tan(friction), 1e-9 * (1 + std::tan(friction)));
     EXPECT_NEAR(low.value, -low.factor, 1e-12 * (1 + low.factor));
     EXPECT_NEAR(low.bound, low.value, 1e-9 * (1 + low.factor));
-    const ConeAnswer high = solve(block(friction, 2));
+    const ConeProgramAnswer high = solve(block(friction, 2));
     ASSERT_EQ(high.status, ConeStatus::optimal);
     EXPECT_NEAR(high.factor, std::min(std::tan(friction), 0.25), 1e-9);
     // the multipliers are a mechanism in which the live load has the power 1
@@ -50,7 +50,7 @@ TEST(ConeProgram, KeepsGivenHeads) {
     shear.head = strength;
     program.cones.push_back(shear);
   }
-  const ConeAnswer answer = solve(program);
+  const ConeProgramAnswer answer = solve(program);
   ASSERT_EQ(answer.status, ConeStatus::optimal);
   EXPECT_NEAR(answer.factor, 1, 1e-9);
   EXPECT_NEAR(answer.x[4], 0.3, 1e-9);
@@ -64,13 +64,13 @@ TEST(ConeProgram, KnowsThatThereIsNoOptimum) {
   EXPECT_EQ(solve(pressed).status, ConeStatus::unbounded);
   Plane lifted = block(0.5, 0);
   lifted.right_side = Eigen::Vector3d(0, -1, 0);  // off the floor, and pushing does not help
-  const ConeAnswer falls = solve(lifted);
+  const ConeProgramAnswer falls = solve(lifted);
   ASSERT_EQ(falls.status, ConeStatus::infeasible);
   EXPECT_GT(lifted.right_side.dot(falls.y), 0) << "the load drives a mechanism";
 }
 
 TEST(ConeProgram, GivesTheSameBitsAgain) {
-  const ConeAnswer once = solve(block(0.4, 1)), again = solve(block(0.4, 1));
+  const ConeProgramAnswer once = solve(block(0.4, 1)), again = solve(block(0.4, 1));
   EXPECT_EQ(once.factor, again.factor);
   EXPECT_EQ(once.x, again.x);
 }
