@@ -32,8 +32,8 @@ const std::vector<std::vector<std::string_view>> floors{
     {"exchange/", "joint_laws/", "joint_sets/", "load/", "potential/", "solvers/"},
     {"contact/", "slicing/", "support/"},
     {"model/"},
-    {"key_blocks/", "limit/", "stage/"},
-    {"output/", "scene/", "step/"},
+    {"key_blocks/", "stage/"},
+    {"limit/", "output/", "scene/", "step/"},
     {"step"},  // step.hpp and step.cpp: one screen
     {"run/"},
 };

@@ -104,7 +104,7 @@ TEST_F(CommandPages, BashCompletesAllThatHelpLists) {
 TEST_F(CommandPages, BashCompletesValuesFilesAndFolders) {
   write("slope.toml", "");
   fs::create_directories(folder_ / "slopes");
-  EXPECT_EQ(completed("voussoir limit --load \"\""), "gravity left right applied\n");
+  EXPECT_EQ(completed("voussoir limit --load \"\""), "gravity applied left right east west north south up down\n");
   EXPECT_EQ(completed("voussoir limit --load = g"), "gravity\n") << "bash parts words at =";
   EXPECT_EQ(completed("voussoir run sl"), "slope.toml slopes\n");
   EXPECT_EQ(completed("voussoir run slope.toml --out sl"), "slopes\n");

@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include "app/base/arguments.hpp"
+#include "app/limit/limit_loads.hpp"
 #include "core/base/bad_input.hpp"
 #ifdef VOUSSOIR_HAS_GLPK
 #include <algorithm>
 
 #include "app/base/message.hpp"
 #include "app/limit/limit_files.hpp"
+#include "app/limit/limit_space.hpp"
 #include "app/run_folder/claimed_folder.hpp"
 #endif
 
@@ -18,7 +20,7 @@ namespace {
 struct LimitArguments {
   SceneArguments scene;
   std::filesystem::path out;            // empty: results/<name of the scene's file>_limit
-  std::string load;                     // gravity, left, right, applied; empty: the critical friction is sought
+  std::string load;                     // of `limit_loads`; empty: the critical friction is sought
   std::vector<std::string> properties;  // whose friction is sought; none: all
   bool factor = false;                  // the factor of safety is sought
   std::vector<std::string> joints;      // of whose joint_properties; none: of all
@@ -42,10 +44,8 @@ LimitRequest request_of(const LimitArguments& arguments) {
   request.properties = arguments.factor ? arguments.joints : arguments.properties;
   request.factor = arguments.factor;
   request.cohesion = arguments.cohesion;
-  if (arguments.load == "gravity") request.load = LimitLoad::gravity;
-  if (arguments.load == "left") request.load = LimitLoad::left;
-  if (arguments.load == "right") request.load = LimitLoad::right;
-  if (arguments.load == "applied") request.load = LimitLoad::applied;
+  const auto load = std::ranges::find(limit_loads, arguments.load);
+  if (load != limit_loads.end()) request.load = static_cast<LimitLoad>(load - limit_loads.begin());
   return request;
 }
 
@@ -59,7 +59,7 @@ void line(const char* label, const std::string& text) {
   fmt::print("  {:<12}{}\n", label, text);
 }
 
-void print_values(const LimitAnalysis& analysis) {
+void print_values(const LimitAnswer& analysis) {
   if (!analysis.message.empty()) line("result", analysis.message);
   for (const auto& [name, value] : analysis.values) {
     line(analysis.message.empty() && name == analysis.values.front().first ? "result" : "",
@@ -93,38 +93,91 @@ void print_mechanism(const LimitAnalysis& analysis) {
        "speed of the centroid, turning: speed of the farthest corner about it; their sum is 1 for the fastest block");
 }
 
-void print_analysis(const LimitAnalysis& analysis, const fs::path& folder) {
-  const Evidence& evidence = analysis.evidence;
+void print_head(const LimitAnswer& analysis) {
   fmt::print("{}limit analysis\n", analysis.title.empty() ? "" : analysis.title + " - ");
   line("sought", analysis.sought);
   print_values(analysis);
+}
+
+void print_end(const LimitAnswer& analysis, const fs::path& folder) {
+  for (const std::string& caveat : analysis.caveats)
+    line(&caveat == &analysis.caveats.front() ? "caveat" : "", caveat);
+  fmt::print("results: {}\n", folder.string());
+}
+
+void print_analysis(const LimitAnalysis& analysis, const fs::path& folder) {
+  const Evidence& evidence = analysis.evidence;
+  print_head(analysis);
   line("proof",
        fmt::format("gap between the bounds {:.2g}, forces out of balance {:.2g} of a block's weight, joints closed at "
                    "{:.2g} of the speed",
                    evidence.gap, evidence.out_of_balance, evidence.inadmissible));
   line("", fmt::format("{} linear programs over {} interfaces", evidence.programs, analysis.interfaces.size()));
   print_mechanism(analysis);
-  for (const std::string& caveat : analysis.caveats)
-    line(&caveat == &analysis.caveats.front() ? "caveat" : "", caveat);
-  fmt::print("results: {}\n", folder.string());
+  print_end(analysis, folder);
 }
 
-ExitCode exit_code(const LimitAnalysis& analysis) {
+void print_mechanism_in_space(const LimitAnalysisInSpace& analysis) {
+  constexpr std::size_t most_lines = 20;
+  if (analysis.moving.empty()) return line("mechanism", "none");
+  const auto free =
+      std::ranges::count_if(analysis.model.bodies, [](const Body<3>& body) { return body.present && !body.fixed; });
+  line("mechanism",
+       fmt::format("{} of {} free blocks move, {} of them rotate", analysis.moving.size(), free, analysis.turning));
+  line("", fmt::format("{:>6} {:>10} {:>10} {:>10}  {:>9} {:>9}", "block", "x m", "y m", "z m", "speed", "turning"));
+  for (std::size_t k = 0; k < std::min(analysis.moving.size(), most_lines); ++k) {
+    const BlockMotionInSpace& motion = analysis.moving[k];
+    const Body<3>& body = analysis.model.bodies[motion.body];
+    const Vector<3> place = analysis.model.origin + body.reference;
+    line("", fmt::format("{:>6} {:>10.4g} {:>10.4g} {:>10.4g}  {:>9.4f} {:>9.4f}  {}", motion.body, place[0], place[1],
+                         place[2], motion.speed, motion.turning, body.name));
+  }
+  if (analysis.moving.size() > most_lines) line("", "… all of them in results.json");
+}
+
+void print_analysis(const LimitAnalysisInSpace& analysis, const fs::path& folder) {
+  const Evidence& evidence = analysis.evidence;
+  print_head(analysis);
+  if (!analysis.values.empty()) {
+    line("bound", analysis.bound);
+    line("enclosed", fmt::format("for joints that dilate: forces and mechanism differ by {:.2g}, forces out of balance "
+                                 "{:.2g} of a block's weight, joints closed at {:.2g} of the speed",
+                                 evidence.gap, evidence.out_of_balance, evidence.inadmissible));
+  }
+  std::size_t corners = 0;
+  for (const CornerFace& face : analysis.assembly.faces)
+    corners += face.corners.size();
+  line("solved", fmt::format("{} cone program{} over {} interfaces, {} corners", evidence.programs,
+                             evidence.programs == 1 ? "" : "s", analysis.assembly.faces.size(), corners));
+  print_mechanism_in_space(analysis);
+  print_end(analysis, folder);
+}
+
+ExitCode exit_code(const LimitAnswer& analysis) {
   if (analysis.status == LimitStatus::solver_failed) return ExitCode::numerical;
   return analysis.answered ? ExitCode::done : ExitCode::incomplete;
 }
 
-ExitCode limit_command(const LimitArguments& arguments) {
+template <class Analysis>
+ExitCode answer(const LimitArguments& arguments, const LoadedScene& scene, const Analysis& analysis,
+                const std::vector<std::string>& files) {
   const fs::path folder = results_folder(arguments);
-  const LoadedScene scene = load_scene(arguments.scene.scene, arguments.scene.overrides);
-  const LimitAnalysis analysis = analyse_limit(scene, request_of(arguments));
-  const Outputs outputs{"limit", {"results.json", "limit.svg", "blocks.vtp", "mechanism.vtp", "forces.vtp"}};
-  const ClaimedFolder claim(folder, outputs, scene.files, arguments.overwrite);
+  const ClaimedFolder claim(folder, {"limit", files}, scene.files, arguments.overwrite);
   tell_remarks(*scene.stated);
   if (!arguments.quiet) tell_warnings(analysis.warnings);
   write_limit_files(analysis, folder);
   if (!arguments.quiet) print_analysis(analysis, folder);
   return exit_code(analysis);
+}
+
+ExitCode limit_command(const LimitArguments& arguments) {
+  const LoadedScene scene = load_scene(arguments.scene.scene, arguments.scene.overrides);
+  const LimitRequest request = request_of(arguments);
+  if (scene.dimension == 2)
+    return answer(arguments, scene, analyse_limit(scene, request),
+                  {"results.json", "limit.svg", "blocks.vtp", "mechanism.vtp", "forces.vtp"});
+  return answer(arguments, scene, analyse_limit_in_space(scene, request),
+                {"results.json", "blocks.vtp", "mechanism.vtp", "forces.vtp"});
 }
 
 #endif
@@ -134,19 +187,20 @@ ExitCode limit_command(const LimitArguments& arguments) {
 void add_limit(CLI::App& program, Action& action) {
   const auto [command, arguments] =
       add_command(program, action, "limit",
-                  "critical friction angle, factor of safety or collapse load of blocks in "
-                  "the plane by rigid-block limit analysis",
+                  "critical friction angle, factor of safety or collapse load of blocks by "
+                  "rigid-block limit analysis",
                   limit_command);
   add_scene(command, arguments.scene);
   add_out(command, arguments.out, "folder of the results (default: results/<scene>_limit)");
-  CLI::Option* load = command
-                          ->add_option("--load", arguments.load,
-                                       "seek the factor of this load at the scene's friction: gravity; or, in addition "
-                                       "to gravity, an acceleration "
-                                       "to the left or right, or the applied forces of the first stage that states "
-                                       "any, with factors of time taken "
-                                       "as 1 (default: seek the critical friction under gravity)")
-                          ->check(CLI::IsMember({"gravity", "left", "right", "applied"}));
+  CLI::Option* load =
+      command
+          ->add_option("--load", arguments.load,
+                       "seek the factor of this load at the scene's friction: gravity; or, in addition to "
+                       "gravity, an acceleration (in the plane to the left or right, in space east, "
+                       "west, north, south, up or down), or the applied forces of the first stage that "
+                       "states any, with factors of time taken as 1 (default: seek the critical "
+                       "friction under gravity)")
+          ->check(CLI::IsMember(limit_loads));
   add_repeated(command, "--friction", arguments.properties,
                "name of joint_properties whose critical friction is sought; the others keep theirs; may be repeated "
                "(default: all)")

@@ -152,24 +152,62 @@ State<2> moved_along(const LimitAnalysis& analysis, double distance) {
   return state;
 }
 
+State<3> moved_along(const LimitAnalysisInSpace& analysis, double distance) {
+  State<3> state = initial_state<3>(analysis.model);
+  for (std::size_t b = 0; b < analysis.state.velocities.size(); ++b) {
+    const MotionInSpace& v = analysis.state.velocities[b];
+    state.bodies.motions[b].displacement = distance * v.velocity;
+    state.bodies.motions[b].rotation = turned(Rotation<3>(), Spin<3>(distance * v.spin));
+    state.bodies.motions[b].velocity = v.velocity;
+    state.bodies.motions[b].angular_momentum = angular_momentum<3>(analysis.model.bodies[b], {}, v.spin);
+  }
+  return state;
+}
+
+// points of forces on body_b
+class ForcePoints {
+ public:
+  ForcePoints() { data_.kind = PolyData::Cells::vertices; }
+  void add(int body_a, int body_b, const Vector<3>& place, const Vector<3>& normal, const Vector<3>& on_b) {
+    data_.cells.push_back({static_cast<int>(data_.points.size())});
+    data_.points.push_back({place[0], place[1], place[2]});
+    body_a_.values.push_back(body_a);
+    body_b_.values.push_back(body_b);
+    normal_.values.insert(normal_.values.end(), normal.begin(), normal.end());
+    force_.values.insert(force_.values.end(), on_b.begin(), on_b.end());
+  }
+  PolyData data() {
+    data_.point_data = {body_a_, body_b_, normal_, force_};
+    return data_;
+  }
+
+ private:
+  PolyData data_;
+  DataArray body_a_{"body_a", 1, true, {}}, body_b_{"body_b", 1, true, {}}, normal_{"normal", 3, false, {}},
+      force_{"force", 3, false, {}};
+};
+
 PolyData force_points(const LimitAnalysis& analysis) {
-  PolyData data;
-  data.kind = PolyData::Cells::vertices;
-  DataArray body_a{"body_a", 1, true, {}}, body_b{"body_b", 1, true, {}}, normal{"normal", 3, false, {}},
-      force{"force", 3, false, {}};
+  ForcePoints points;
+  const auto in_space = [](const Vector<2>& p) { return Vector<3>(p[0], p[1], 0); };
   for (std::size_t i = 0; i < analysis.state.forces.size(); ++i)
     for (std::size_t k = 0; k < 2; ++k) {
       const Interface& face = analysis.interfaces[i];
-      const Vector<2> place = analysis.model.origin + face.ends[k], on_b = force_at(analysis, i, k);
-      data.cells.push_back({static_cast<int>(data.points.size())});
-      data.points.push_back({place[0], place[1], 0});
-      body_a.values.push_back(face.body_a);
-      body_b.values.push_back(face.body_b);
-      normal.values.insert(normal.values.end(), {face.normal[0], face.normal[1], 0});
-      force.values.insert(force.values.end(), {on_b[0], on_b[1], 0});
+      points.add(face.body_a, face.body_b, in_space(analysis.model.origin + face.ends[k]), in_space(face.normal),
+                 in_space(force_at(analysis, i, k)));
     }
-  data.point_data = {body_a, body_b, normal, force};
-  return data;
+  return points.data();
+}
+
+PolyData force_points(const LimitAnalysisInSpace& analysis) {
+  ForcePoints points;
+  for (std::size_t i = 0; i < analysis.state.forces.size(); ++i) {
+    const CornerFace& face = analysis.assembly.faces[i];
+    for (std::size_t k = 0; k < face.corners.size(); ++k)
+      points.add(face.body_a, face.body_b, analysis.model.origin + face.corners[k], face.normal,
+                 analysis.state.forces[i][k]);
+  }
+  return points.data();
 }
 
 }  // namespace
@@ -199,6 +237,20 @@ void write_limit_files(const LimitAnalysis& analysis, const std::filesystem::pat
   write_file(folder / "mechanism.vtp", vtp(block_faces<2>(analysis.model, moved_along(analysis, far), 0)));
   write_file(folder / "forces.vtp", vtp(force_points(analysis)));
   write_results(folder, limit_json(analysis));  // last: if it exists, all else is complete
+}
+
+void write_limit_files(const LimitAnalysisInSpace& analysis, const std::filesystem::path& folder) {
+  Vector<3> low = Vector<3>::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (const CornerFace& face : analysis.assembly.faces)
+    for (const Vector<3>& corner : face.corners) {
+      low = low.cwiseMin(corner);
+      high = high.cwiseMax(corner);
+    }
+  const double far = analysis.assembly.faces.empty() ? 0 : drawn_motion * (high - low).maxCoeff();
+  write_file(folder / "blocks.vtp", vtp(block_faces<3>(analysis.model, moved_along(analysis, 0), 0)));
+  write_file(folder / "mechanism.vtp", vtp(block_faces<3>(analysis.model, moved_along(analysis, far), 0)));
+  write_file(folder / "forces.vtp", vtp(force_points(analysis)));
+  write_results(folder, limit_json(analysis));
 }
 
 }  // namespace voussoir

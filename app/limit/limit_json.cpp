@@ -11,11 +11,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json point(const Vector<2>& p) {
-  return {p[0], p[1]};
+template <class Place>
+Json point(const Eigen::MatrixBase<Place>& place) {
+  Json numbers = Json::array();
+  for (Eigen::Index k = 0; k < place.size(); ++k)
+    numbers.push_back(place[k]);
+  return numbers;
 }
 
-Json values_json(const LimitAnalysis& analysis) {
+Json values_json(const LimitAnswer& analysis) {
   Json values = Json::object();
   for (const auto& [name, value] : analysis.values) {
     values[name] = {{"value", value.value}, {"unit", value.unit}};
@@ -65,9 +69,45 @@ Json interfaces_json(const LimitAnalysis& analysis) {
   return list;
 }
 
-}  // namespace
+Json mechanism_json(const LimitAnalysisInSpace& analysis) {
+  Json blocks = Json::array();
+  for (const BlockMotionInSpace& motion : analysis.moving) {
+    const Body<3>& body = analysis.model.bodies[motion.body];
+    const MotionInSpace& v = analysis.state.velocities[motion.body];
+    blocks.push_back({{"body", motion.body},
+                      {"name", body.name},
+                      {"centroid_m", point(analysis.model.origin + body.reference)},
+                      {"velocity", point(v.velocity)},
+                      {"spin_per_m", point(v.spin)}});
+  }
+  return {{"turning", analysis.turning}, {"moving", blocks}};
+}
 
-std::string limit_json(const LimitAnalysis& analysis) {
+Json interfaces_json(const LimitAnalysisInSpace& analysis) {
+  Json list = Json::array();
+  for (std::size_t i = 0; i < analysis.assembly.faces.size(); ++i) {
+    const CornerFace& face = analysis.assembly.faces[i];
+    Json entry = {{"bodies", {face.body_a, face.body_b}},
+                  {"properties", analysis.model.properties[face.properties].name},
+                  {"normal", point(face.normal)},
+                  {"corners", Json::array()}};
+    for (std::size_t k = 0; k < face.corners.size(); ++k) {
+      Json corner = {{"point_m", point(analysis.model.origin + face.corners[k])}};
+      if (!analysis.state.forces.empty()) {
+        const Vector<3>& force = analysis.state.forces[i][k];
+        const double normal = force.dot(face.normal);
+        corner["normal_N"] = normal;
+        corner["shear_N"] = point(force - normal * face.normal);
+      }
+      entry["corners"].push_back(corner);
+    }
+    list.push_back(entry);
+  }
+  return list;
+}
+
+// what plane and space share; `programs`: the name of their number
+Json answer_json(const LimitAnswer& analysis, const char* programs) {
   const Evidence& evidence = analysis.evidence;
   Json json;
   json["schema"] = "voussoir.limit";
@@ -87,10 +127,30 @@ std::string limit_json(const LimitAnalysis& analysis) {
   json["evidence"] = {{"gap", evidence.gap},
                       {"out_of_balance", evidence.out_of_balance},
                       {"inadmissible", evidence.inadmissible},
-                      {"linear_programs", evidence.programs}};
+                      {programs, evidence.programs}};
+  return json;
+}
+
+std::string text_of(Json json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+std::string limit_json(const LimitAnalysis& analysis) {
+  Json json = answer_json(analysis, "linear_programs");
   json["mechanism"] = mechanism_json(analysis);
   json["interfaces"] = interfaces_json(analysis);
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return text_of(json);
+}
+
+std::string limit_json(const LimitAnalysisInSpace& analysis) {
+  Json json = answer_json(analysis, "cone_programs");
+  json["bound"] = analysis.bound;
+  if (analysis.values.empty()) json["evidence"] = {{"cone_programs", analysis.evidence.programs}};
+  json["mechanism"] = mechanism_json(analysis);
+  json["interfaces"] = interfaces_json(analysis);
+  return text_of(json);
 }
 
 }  // namespace voussoir

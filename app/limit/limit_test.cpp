@@ -49,7 +49,8 @@ TEST_F(Program, LimitFindsProvesAndDraws) {
   EXPECT_EQ(results("none")["status"], "incomplete");
   EXPECT_FALSE(results("none")["values"].contains("critical_friction"));
   EXPECT_NEAR(results("none")["values"]["friction_not_enough"]["value"].get<double>(), 89, 1e-9);
-  expect_one_line(run("limit " + cubes_ + "--out bad"), 2, "dimension = 3");
+  expect_one_line(run("limit " + cubes_ + "--load left --out bad"), 2, "dimension = 3");
+  expect_one_line(run("limit " + slump + "--load east --out bad"), 2, "dimension = 2");
   expect_one_line(run("limit " + slump + "--friction roc --out bad"), 2, "there are: rock");
   EXPECT_FALSE(fs::exists(folder_ / "bad"));
 }

@@ -91,7 +91,10 @@ constexpr StudyKey study_keys[] = {
     {"fails", "below", "number", "results below it count as failed, e.g. 1 for a factor of safety"},
     {"fails", "above", "number", "results above it count as failed; state this or below"},
     {"extrapolate", "power", "number, required", "the power, above 0, at most 10; 0.6666667 for a rate of reduction"},
-    {"limit", "load", "one of `\"gravity\"` `\"left\"` `\"right\"` `\"applied\"`", "as after `voussoir limit --load`"},
+    {"limit", "load",
+     "one of `\"gravity\"` `\"applied\"` `\"left\"` `\"right\"` `\"east\"` `\"west\"` `\"north\"` `\"south\"` `\"up\"` "
+     "`\"down\"`",
+     "as after `voussoir limit --load`"},
     {"limit", "friction", "list of texts", "names as after `--friction`"},
     {"limit", "factor", "true or false", "`--factor`"},
     {"limit", "joint", "list of texts", "names as after `--joint`"},

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 
+#include "app/limit/limit_loads.hpp"
 #include "app/study/keys.hpp"
 #include "app/study/products.hpp"
 #include "core/scene/scene_text.hpp"
@@ -67,9 +68,9 @@ std::optional<OtherCommand> read_limit(const Subject& table) {
   refuse_unknown_keys(limit, "limit");
   std::vector<std::string> options;
   if (node->find("load")) {
-    const std::string rule = "must be one of \"gravity\", \"left\", \"right\", \"applied\"";
+    const std::string rule = fmt::format("must be one of \"{}\"", fmt::join(limit_loads, "\", \""));
     const std::string& load = text_of(limit, "load", rule);
-    if (load != "gravity" && load != "left" && load != "right" && load != "applied") refuse(limit, "load", rule);
+    if (std::ranges::find(limit_loads, load) == limit_loads.end()) refuse(limit, "load", rule);
     options = {"--load", load};
   }
   const bool factor = flag_of(limit, "factor");

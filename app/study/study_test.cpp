@@ -403,7 +403,7 @@ stage = [{ name = "settle", kind = "settle" }]
 
   const std::string begin = "scene = \"plane.toml\"\nquantity = \"critical_friction\"\n";
   for (const char* wrong :
-       {"limit = 3", "limit = { load = \"up\" }", "limit = { load = \"left\", factor = true }",
+       {"limit = 3", "limit = { load = \"sideways\" }", "limit = { load = \"left\", factor = true }",
         "limit = { joint = [\"rock\"] }", "limit = { cohesion = 1 }", "limit = { friction = \"rock\" }",
         "limit = { lod = \"left\" }", "limit = {}\nhistory = { column = \"x\", take = \"last\", unit = \"m\" }"}) {
     write("study.toml", begin + wrong + "\n" + sweep);

@@ -40,16 +40,16 @@ enum class LimitStatus {
   carries_any,      // stable at every factor up to 1e6 times the blocks' weight; or without any friction
   carries_nothing,  // the dead load only is not supported; or no friction up to 89 degrees is enough
   not_attained,     // supported at any strength above zero by unbounded normal forces, but not at zero
-  solver_failed     // GLPK gave up
+  solver_failed     // the solver of the programs gave up
 };
 
-// Proof of the result, from independent sums over the program's numbers; GLPK's status is not needed.
+// Proof of the result, from independent sums over the program's numbers; the solver's status is not needed.
 struct Evidence {
   double gap = 0;  // difference of the bounds from both sides
   double out_of_balance =
       0;                    // largest unbalanced force on a body, over its weight (a moment: of that times its radius)
   double inadmissible = 0;  // largest velocity that closes a joint or works against its cone, of the fastest body's
-  int programs = 0;         // linear programs solved
+  int programs = 0;         // solved
 };
 
 struct LoadFactor {
@@ -72,15 +72,18 @@ LoadFactor find_load_factor(const Model<2>& model, const std::vector<Interface>&
                             const Loads& live);
 
 // The strength at which loads are just supported, between a stable and a collapsing one.
-struct CriticalStrength {
+struct StrengthBracket {
   LimitStatus status = LimitStatus::found;
-  double collapses = 0, stands = 0;  // the bracket: friction angle in rad, or factor of safety
+  double collapses = 0, stands = 0;  // friction angle in rad, or factor of safety
   double missing = 0;  // at `collapses`: the least sum of added forces, over their bodies' weights, for equilibrium
+  Evidence evidence;   // gap: of the missing force at `collapses`; out_of_balance at `stands`
+};
+
+struct CriticalStrength : StrengthBracket {
   // It may depend on normal forces between walls that the loads do not require: at 1.01 times the strength joints that
   // move in the mechanism can have self-stress, and without them the loads are not supported.
   bool self_stress = false;
-  LimitState state;   // forces at `stands`, velocities at `collapses`
-  Evidence evidence;  // gap: of the missing force at `collapses`; out_of_balance at `stands`
+  LimitState state;  // forces at `stands`, velocities at `collapses`
 };
 
 // The friction angle at which the model's gravity is just supported, by bisection over linear programs for the least

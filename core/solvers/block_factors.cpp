@@ -1,9 +1,10 @@
 #include "core/solvers/block_factors.hpp"
 
 #include <Eigen/LU>
-#include <Eigen/OrderingMethods>
 #include <algorithm>
 #include <cmath>
+
+#include "core/solvers/elimination.hpp"
 
 namespace voussoir {
 namespace {
@@ -15,71 +16,11 @@ constexpr double a_root_of_rows = 2.5;
 // An iteration multiplies every block by a vector four times: twice those of the matrix, twice those of the factors.
 constexpr double products_an_iteration = 4;
 
-using Rows = std::vector<std::vector<int>>;
-
-// for each row the others with which it shares a block, on either side of the diagonal; ascending
-template <int Size>
-Rows neighbours_in(const BlockMatrix<Size>& matrix) {
-  Rows rows(matrix.rows());
-  for (int i = 0; i < matrix.rows(); ++i)
-    for (int p = matrix.first[i]; p < matrix.first[i + 1]; ++p)
-      if (const int j = matrix.column[p]; j != i) {
-        rows[i].push_back(j);
-        rows[j].push_back(i);
-      }
-  for (std::vector<int>& row : rows) {
-    std::sort(row.begin(), row.end());
-    row.erase(std::unique(row.begin(), row.end()), row.end());
-  }
-  return rows;
-}
-
-// an order of the rows with little fill-in
-std::vector<int> minimum_degree(const Rows& rows) {
-  const int count = static_cast<int>(rows.size());
-  std::vector<Eigen::Triplet<double>> entries;
-  for (int i = 0; i < count; ++i) {
-    entries.emplace_back(i, i, 1);  // a row without its own column would go to the end
-    for (const int j : rows[i])
-      entries.emplace_back(i, j, 1);
-  }
-  Eigen::SparseMatrix<double> graph(count, count);
-  graph.setFromTriplets(entries.begin(), entries.end());
-  Eigen::AMDOrdering<int>::PermutationType permutation;
-  Eigen::AMDOrdering<int>()(graph, permutation);
-  return {permutation.indices().data(), permutation.indices().data() + count};
-}
-
-// The columns left of the diagonal that each row of the factors has in this order: those from which the elimination
-// tree leads to it. Empty if eliminating them takes more than `most` products of blocks.
-Rows lower_pattern(const Rows& rows, const std::vector<int>& order, double most) {
-  const int count = static_cast<int>(rows.size());
-  std::vector<int> place(count), parent(count, -1), met(count, -1);
-  for (int i = 0; i < count; ++i)
-    place[order[i]] = i;
-  Rows lower(count);
-  std::vector<double> below(count, 0);  // by column: blocks so far
-  double products = 0;                  // the sum of their squares
-  for (int i = 0; i < count; ++i) {
-    met[i] = i;
-    for (const int neighbour : rows[order[i]])
-      for (int k = place[neighbour]; k < i && met[k] != i; k = parent[k]) {
-        met[k] = i;
-        lower[i].push_back(k);
-        products += 2 * below[k]++ + 1;
-        if (parent[k] < 0) parent[k] = i;
-      }
-    if (products > most) return {};
-    std::sort(lower[i].begin(), lower[i].end());
-  }
-  return lower;
-}
-
 // The matrix in this order, with places for all blocks that the elimination fills in.
 template <int Size>
-BlockMatrix<Size> filled(const BlockMatrix<Size>& matrix, const std::vector<int>& order, const Rows& lower) {
+BlockMatrix<Size> filled(const BlockMatrix<Size>& matrix, const std::vector<int>& order, const Neighbours& lower) {
   const int count = matrix.rows();
-  Rows upper(count);
+  Neighbours upper(count);
   for (int i = 0; i < count; ++i)
     for (const int k : lower[i])
       upper[k].push_back(i);
@@ -110,9 +51,9 @@ BlockMatrix<Size> filled(const BlockMatrix<Size>& matrix, const std::vector<int>
 template <int Size>
 BlockFactors<Size>::BlockFactors(const BlockMatrix<Size>& matrix) {
   const double iterations = a_root_of_rows * std::sqrt(matrix.rows());
-  const Rows rows = neighbours_in(matrix);
+  const Neighbours rows = neighbours_in(matrix);
   order = minimum_degree(rows);
-  const Rows lower =
+  const Neighbours lower =
       lower_pattern(rows, order, iterations * products_an_iteration / Size * static_cast<double>(matrix.blocks.size()));
   if (lower.empty()) {
     order.clear();

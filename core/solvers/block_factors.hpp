@@ -1,6 +1,5 @@
 // Complete factors of a sparse matrix of blocks, without pivots beyond the diagonal blocks, if elimination fills in
-// little, as for chains and for blocks in a plane: an approximate minimum degree order (Amestoy, Davis and Duff 1996,
-// by Eigen), the rows of the factors by the elimination tree (Liu 1990).
+// little, as for chains and for blocks in a plane: block by block in an order of minimum degree (elimination.hpp).
 #pragma once
 
 #include "core/solvers/block_matrix.hpp"

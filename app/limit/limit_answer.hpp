@@ -1,0 +1,34 @@
+// A question of `voussoir limit` and the part of its answer that plane and space share.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/limit/limit_loads.hpp"
+#include "core/limit/limit.hpp"
+#include "core/output/results.hpp"
+
+namespace voussoir {
+
+struct LimitRequest {
+  std::optional<LimitLoad> load;        // whose factor is sought; none: the critical friction under gravity
+  std::vector<std::string> properties;  // whose friction is sought, or whose strength is divided; none: all
+  bool factor = false;                  // the factor of safety is sought instead
+  bool cohesion = false;                // also joints that only a stage bonds have their cohesion
+};
+
+struct LimitAnswer {
+  std::string title, input_hash;
+  std::string sought;  // "critical friction angle of all joints", "factor of safety of all joints", …
+  LimitStatus status = LimitStatus::found;
+  bool answered = false;  // a value was found, that no friction is needed included
+  std::string message;    // the reason and the repair if no value was found, or the meaning of the value; else empty
+  std::vector<std::string> caveats;  // limitations of any result, and of this one
+  std::vector<std::pair<std::string, Value>> values;
+  Evidence evidence;
+  std::vector<std::string> warnings;
+};
+
+}  // namespace voussoir

@@ -1,0 +1,105 @@
+// `voussoir limit` in space: numbers by closed forms, words that say what they bound, files, exit codes, bad input.
+#include <cmath>
+#include <numbers>
+
+#include "app/testing/program.hpp"
+
+namespace voussoir::limit_space_test {
+namespace {
+
+using namespace program;
+
+class LimitSpace : public Program {
+ protected:
+  // a column of 0.5 x 1 x 2 m on a floor; `more` in the tables of the scene
+  void write_column(const std::string& more = "") const {
+    write("column.toml",
+          "title = \"Column\"\ndimension = 3\ngravity = [0, 0, -10]\ndensity = 2000\n"
+          "blocks = [{ name = \"floor\", box = { min = [-2, -2, -1], max = [2, 2, 0] }, fixed = true },\n"
+          "          { name = \"column\", box = { min = [0, 0, 0], max = [0.5, 1, 2] } }]\n"
+          "joint_properties = [{ name = \"r\", normal_stiffness = 1e9, shear_stiffness = 1e8, friction_deg = 35 }]\n" +
+              more + "[[stage]]\nname = \"push\"\nkind = \"settle\"\n");
+  }
+  Ended limit(const std::string& options) const { return run("limit column.toml --overwrite --out out " + options); }
+  double value(const std::string& name) const { return results("out")["values"][name]["value"].get<double>(); }
+};
+
+TEST_F(LimitSpace, PushesAColumnInAnyDirection) {
+  if (!is_built_in("glpk")) GTEST_SKIP();
+  write_column();
+  for (const auto& [direction, factor] : {std::pair("east", 0.25), {"west", 0.25}, {"north", 0.5}, {"south", 0.5}}) {
+    const Ended ended = limit(std::string("--load ") + direction);
+    EXPECT_EQ(ended.code, 0) << ended.out << ended.err;
+    EXPECT_NEAR(value("collapse_factor"), factor, 1e-8) << direction;
+    for (const char* part : {"Column - limit analysis", "joints that do not dilate", "4 corners", "1 of 1 free blocks",
+                             "for joints that dilate", direction})
+      EXPECT_NE(ended.out.find(part), std::string::npos) << part << "\n" << ended.out;
+    EXPECT_EQ(ended.out.find("proof"), std::string::npos) << ended.out;
+  }
+  const nlohmann::json json = results("out");
+  EXPECT_EQ(json["status"], "done");
+  EXPECT_NE(json["bound"].get<std::string>().find("upper bound"), std::string::npos);
+  EXPECT_EQ(json["mechanism"]["moving"].size(), 1u);
+  ASSERT_EQ(json["interfaces"].size(), 1u);
+  double weight = 0;
+  for (const nlohmann::json& corner : json["interfaces"][0]["corners"])
+    weight += corner["normal_N"].get<double>();
+  EXPECT_NEAR(weight, 20000, 1e-3);
+  EXPECT_LT(json["evidence"]["gap"].get<double>(), 1e-8);
+  for (const char* name : {"blocks.vtp", "mechanism.vtp", "forces.vtp"})
+    EXPECT_TRUE(fs::exists(folder_ / "out" / name)) << name;
+  EXPECT_FALSE(fs::exists(folder_ / "out/limit.svg"));
+
+  EXPECT_EQ(limit("--load up").code, 0);
+  EXPECT_NEAR(value("collapse_factor"), 1, 1e-8);
+}
+
+TEST_F(LimitSpace, SaysWhyThereIsNoNumber) {
+  if (!is_built_in("glpk")) GTEST_SKIP();
+  write_column();
+  for (const char* load : {"down", "gravity"}) {
+    const Ended any = limit(std::string("--load ") + load);
+    EXPECT_EQ(any.code, 1) << any.out << any.err;
+    EXPECT_NE(any.out.find("causes no collapse"), std::string::npos) << any.out;
+    EXPECT_TRUE(results("out")["values"].empty());
+    EXPECT_EQ(results("out")["status"], "incomplete");
+  }
+  const Ended level = limit("");
+  EXPECT_EQ(level.code, 0);
+  EXPECT_EQ(value("critical_friction"), 0);
+  expect_one_line(limit("--load applied"), 2, "no stage applies a force");
+  expect_one_line(limit("--load right"), 2, "east, west");
+  expect_one_line(limit("--friction q"), 2, "there are: r");
+  expect_one_line(limit("--set gravity=[0,0,0]"), 2, "[0, 0, -9.81]");
+  expect_one_line(limit("--set blocks.column.fixed=true"), 2, "no block is free");
+}
+
+// the wedge's line plunges under its friction angle without dilation, 33.357°: with it, less friction is enough
+TEST_F(LimitSpace, FindsFrictionAndFactorOfAWedge) {
+  if (!is_built_in("glpk")) GTEST_SKIP();
+  const std::string wedge = "'" + (fs::path(VOUSSOIR_SOURCE_DIR) / "cases/wedge/scene.toml").string() + "' ";
+  const Ended friction = run("limit " + wedge + "--overwrite --out out");
+  EXPECT_EQ(friction.code, 0) << friction.err;
+  EXPECT_NEAR(value("critical_friction"), 31.074313616, 3e-6);
+  EXPECT_NE(friction.out.find("need as much friction or more"), std::string::npos) << friction.out;
+  EXPECT_EQ(run("limit " + wedge + "--factor --overwrite --out out").code, 0);
+  EXPECT_NEAR(value("factor_of_safety"),
+              std::tan(85 * std::numbers::pi / 180) / std::tan(31.074313616 * std::numbers::pi / 180), 1e-4);
+}
+
+TEST_F(LimitSpace, CountsAppliedForcesAndCohesion) {
+  if (!is_built_in("glpk")) GTEST_SKIP();
+  write_column("");
+  std::string text = read(folder_ / "column.toml");
+  write("column.toml", text +
+                           "[[stage.force]]\nname = \"rope\"\nbodies = [\"column\"]\nforce = [1000, 0, 0]\n"
+                           "point = [0.25, 0.5, 0.2]\n");
+  EXPECT_EQ(limit("--load applied").code, 0);
+  EXPECT_NEAR(value("collapse_factor"), 20 * std::tan(35 * std::numbers::pi / 180), 1e-6);
+  const std::string cohesive = "--set joint_properties.r.cohesion=1e4 --set joint_properties.r.tension=0 ";
+  EXPECT_EQ(limit("--load applied --cohesion " + cohesive).code, 0);
+  EXPECT_NEAR(value("collapse_factor"), 20 * std::tan(35 * std::numbers::pi / 180) + 5, 1e-6);
+}
+
+}  // namespace
+}  // namespace voussoir::limit_space_test

@@ -1,0 +1,344 @@
+// Limit analysis in space against closed forms and other programs: wedges, inclines, twist, walls, an arch,
+// self-stress.
+#include "core/limit/limit_in_space.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "text/angle.hpp"
+
+namespace voussoir::limit_in_space_test {
+namespace {
+
+using Point = Vector<3>;
+
+// Blocks and faces stated by hand; the body 0 is fixed.
+struct Scene {
+  CornerAssembly assembly{{CornerBody{Point::Zero(), 1, 1, {}}}, {}};
+  std::vector<Load<3>> dead{1}, live{1};
+
+  int add(const Point& centroid, double weight, double radius, bool turns = true) {
+    assembly.bodies.push_back({centroid, weight, radius, {true, true, true, turns, turns, turns}});
+    dead.push_back({Point(0, 0, -weight), Point::Zero()});
+    live.emplace_back();
+    return static_cast<int>(assembly.bodies.size()) - 1;
+  }
+  void touch(int a, int b, const std::vector<Point>& corners, const Point& normal, double degrees,
+             double cohesion = 0) {
+    assembly.faces.push_back({a, b, normal.normalized(), corners, 0, degrees * degree, cohesion});
+  }
+  void push(int body, const Point& force, const Point& place) {
+    live[body] = {force, (place - assembly.bodies[body].centroid).cross(force)};
+  }
+  LoadFactorInSpace factor() const { return find_load_factor(assembly, dead, live); }
+  CriticalStrengthInSpace friction() const {
+    return find_critical_friction(assembly, dead, std::vector<bool>(assembly.faces.size(), true));
+  }
+};
+
+void expect_factor(const Scene& scene, double expected) {
+  const LoadFactorInSpace found = scene.factor();
+  ASSERT_EQ(found.status, LimitStatus::found);
+  EXPECT_NEAR(found.factor, expected, 2e-9);
+  EXPECT_LT(found.evidence.gap, 1e-8);
+  EXPECT_LT(found.evidence.out_of_balance, 1e-8);
+  EXPECT_LT(found.evidence.inadmissible, 1e-8);
+}
+
+// ---- wedges --------------------------------------------------------------------------------------------------------
+
+struct Plane {
+  double dip, direction;  // degrees
+  Point normal() const {
+    const double t = dip * degree, d = direction * degree;
+    return {std::sin(t) * std::sin(d), std::sin(t) * std::cos(d), std::cos(t)};
+  }
+};
+
+Point meet(const Point& a, double at_a, const Point& b, double at_b, const Point& c, double at_c) {
+  return (at_a * b.cross(c) + at_b * c.cross(a) + at_c * a.cross(b)) / a.dot(b.cross(c));
+}
+
+// The tetrahedron between two joints, a level top and a slope face; the line of the joints daylights 1 m below the
+// crest.
+Scene wedge(const Point& a, const Point& b, const Point& face, double degrees, bool turns) {
+  const Point low(0, 0, -1), up(0, 0, 1),
+      far = meet(a, a.dot(low), b, b.dot(low), up, 0), on_a = meet(a, a.dot(low), face, face.dot(low), up, 0),
+      on_b = meet(b, b.dot(low), face, face.dot(low), up, 0), centroid = (low + far + on_a + on_b) / 4;
+  double radius = 0;
+  for (const Point& corner : {low, far, on_a, on_b})
+    radius = std::max(radius, (corner - centroid).norm());
+  Scene scene;
+  const int block = scene.add(centroid, 1, radius, turns);
+  scene.touch(0, block, {low, far, on_a}, a, degrees);
+  scene.touch(0, block, {low, far, on_b}, b, degrees);
+  Point line = a.cross(b);
+  if (line[2] > 0) line = -line;
+  scene.push(block, Point(line[0], line[1], 0).normalized(), centroid);
+  return scene;
+}
+
+// planes at half an angle to the vertical plane of their line, which plunges to the north
+std::array<Point, 2> symmetric(double plunge, double half) {
+  const Point above(0, std::sin(plunge * degree), std::cos(plunge * degree)), aside(std::cos(half * degree), 0, 0);
+  return {aside + std::sin(half * degree) * above, -aside + std::sin(half * degree) * above};
+}
+
+void expect_friction(const Scene& scene, double expected) {
+  const CriticalStrengthInSpace found = scene.friction();
+  ASSERT_EQ(found.status, LimitStatus::found);
+  EXPECT_NEAR(to_degrees(found.stands), expected, 3e-6);
+  EXPECT_NEAR(to_degrees(found.collapses), expected, 3e-6);
+  EXPECT_GT(found.missing, 0);
+  EXPECT_LT(found.evidence.programs, 25);
+}
+
+// with dilation sin φ = sin a sin ψ, whether the wedge may turn or not
+TEST(LimitInSpace, FindsTheFrictionOfSymmetricWedges) {
+  struct Shape {
+    double plunge, half, face;
+  };
+  for (const Shape& shape : {Shape{38, 45, 70}, {25, 30, 60}, {50, 60, 75}, {30, 75, 65}, {60, 20, 85}})
+    for (const bool turns : {false, true}) {
+      const auto planes = symmetric(shape.plunge, shape.half);
+      SCOPED_TRACE(shape.plunge);
+      expect_friction(wedge(planes[0], planes[1], Plane{shape.face, 0}.normal(), 30, turns),
+                      to_degrees(std::asin(std::sin(shape.half * degree) * std::sin(shape.plunge * degree))));
+    }
+}
+
+// the distance of the origin from the segment between the horizontal parts of the normals
+TEST(LimitInSpace, FindsTheFrictionOfOtherWedges) {
+  struct Shape {
+    Plane a, b, face;
+    double friction;
+  };
+  for (const Shape& shape : {Shape{{40, 130}, {60, 220}, {70, 182}, 31.074313616},
+                             {{55, 110}, {45, 215}, {75, 170}, 27.472881554},
+                             {{65, 95}, {50, 200}, {75, 150}, 30.292027225},
+                             {{35, 150}, {70, 260}, {70, 185}, 23.756167607}})
+    for (const bool turns : {false, true}) {
+      SCOPED_TRACE(shape.friction);
+      expect_friction(wedge(shape.a.normal(), shape.b.normal(), shape.face.normal(), 30, turns), shape.friction);
+    }
+}
+
+TEST(LimitInSpace, FindsWhatPushesAWedgeOut) {
+  const auto shallow = symmetric(25, 30), steep = symmetric(38, 45);
+  expect_factor(wedge(steep[0], steep[1], Plane{70, 0}.normal(), 35, true), 0.290704400);
+  expect_factor(wedge(shallow[0], shallow[1], Plane{60, 0}.normal(), 27, true), 0.845898008);
+  expect_factor(wedge(Plane{40, 130}.normal(), Plane{60, 220}.normal(), Plane{70, 182}.normal(), 35, true),
+                0.091071616);
+  expect_factor(wedge(Plane{65, 95}.normal(), Plane{50, 200}.normal(), Plane{75, 150}.normal(), 35, true), 0.138395104);
+  // from half the planes' angle on they clamp it
+  EXPECT_EQ(wedge(shallow[0], shallow[1], Plane{60, 0}.normal(), 35, true).factor().status, LimitStatus::carries_any);
+  // what gravity alone brings down
+  EXPECT_EQ(wedge(steep[0], steep[1], Plane{70, 0}.normal(), 20, true).factor().status, LimitStatus::carries_nothing);
+}
+
+// ---- single blocks -------------------------------------------------------------------------------------------------
+
+std::vector<Point> rectangle(double x, double y) {
+  return {{-x / 2, -y / 2, 0}, {x / 2, -y / 2, 0}, {x / 2, y / 2, 0}, {-x / 2, y / 2, 0}};
+}
+
+TEST(LimitInSpace, PushesABlockOnAnInclineInAnyDirection) {
+  struct Push {
+    double along, across, height, dip, friction, direction, factor;
+  };
+  for (const Push& p : {Push{1, 1, 0.5, 20, 35, 0, 0.267949192},
+                        {1, 1, 0.5, 20, 35, 60, 0.376544317},
+                        {1, 1, 0.5, 20, 35, 180, 1.428148007},
+                        {1, 1, 2, 10, 40, 0, 0.297448887},
+                        {1, 0.6, 2, 10, 40, 90, 0.295442326},
+                        {1, 1, 2, 10, 40, 180, 0.741719567},
+                        {1, 0.8, 1.2, 15, 45, 135, 1.100585212}}) {
+    SCOPED_TRACE(p.factor);
+    Scene scene;  // in axes of the plane: down the dip, along the strike, out of it
+    const Point centroid(0, 0, p.height / 2);
+    const int block = scene.add(centroid, 1, 0.5 * Point(p.along, p.across, p.height).norm());
+    const double dip = p.dip * degree, direction = p.direction * degree;
+    scene.dead[block].force = {std::sin(dip), 0, -std::cos(dip)};
+    scene.push(block, {std::cos(dip) * std::cos(direction), std::sin(direction), std::sin(dip) * std::cos(direction)},
+               centroid);
+    scene.touch(0, block, rectangle(p.along, p.across), {0, 0, 1}, p.friction);
+    expect_factor(scene, p.factor);
+  }
+}
+
+TEST(LimitInSpace, TwistsASquareBlock) {
+  Scene scene;
+  const int block = scene.add({0, 0, 0.5}, 1, 0.87);
+  scene.touch(0, block, rectangle(1, 1), {0, 0, 1}, 30);
+  scene.live[block].moment = {0, 0, 1};
+  expect_factor(scene, std::tan(30 * degree) / std::numbers::sqrt2);
+  scene.push(block, {1, 0, 0}, {0.5, 0.5, 0});
+  expect_factor(scene, 0.438342168);
+  scene.push(block, Point(1, -1, 0).normalized(), {0.5, 0.5, 0});
+  expect_factor(scene, std::tan(30 * degree) / std::numbers::sqrt2);
+  scene.push(block, Point(1, 1, 0).normalized(), {0.5, 0.5, 0});
+  expect_factor(scene, std::tan(30 * degree));
+}
+
+// Cohesion resists sliding by c A, a trapezoid too: its shares keep the resultant at the centroid.
+TEST(LimitInSpace, CountsCohesion) {
+  Scene scene;
+  const std::vector<Point> trapezoid{{0, 0, 0}, {2, 0, 0}, {1.5, 1, 0}, {0, 1, 0}};
+  const double area = 1.75;
+  const Point middle((1.5 * 1 * 0.75 + 0.25 * (1.5 + 0.5 / 3)) / area, (1.5 * 0.5 + 0.25 / 3) / area, 0);
+  const int block = scene.add(middle + Point(0, 0, 0.4), 1, 1.3);
+  scene.touch(0, block, trapezoid, {0, 0, 1}, 0, 0.4);
+  EXPECT_NEAR(scene.assembly.faces[0].area(), area, 1e-12);
+  scene.push(block, {1, 0, 0}, middle);
+  expect_factor(scene, 0.4 * area);
+  scene.assembly.faces[0].friction = 20 * degree;
+  expect_factor(scene, 0.4 * area + std::tan(20 * degree));
+  // the factor of safety of both on a slope
+  scene.dead[block].force = {1.2, 0, -1};
+  scene.dead[block].moment = (middle - scene.assembly.bodies[block].centroid).cross(Point(1.2, 0, 0));
+  const CriticalStrengthInSpace found = find_factor_of_safety(scene.assembly, scene.dead, {true});
+  ASSERT_EQ(found.status, LimitStatus::found);
+  EXPECT_NEAR(found.stands, (0.4 * area + std::tan(20 * degree)) / 1.2, 1e-6);
+}
+
+// ---- many blocks ---------------------------------------------------------------------------------------------------
+
+// running bond on a rigid floor, pushed in its plane or across
+Scene wall(int courses, int bricks, double length, double height, double thickness, double degrees, const Point& push) {
+  struct Brick {
+    double begin, end;
+    int body;
+  };
+  Scene scene;
+  std::vector<Brick> below{{0, bricks * length, 0}};
+  const auto upright = [&](double x, double z) {
+    return std::vector<Point>{{x, 0, z}, {x, thickness, z}, {x, thickness, z + height}, {x, 0, z + height}};
+  };
+  for (int course = 0; course < courses; ++course) {
+    std::vector<double> ends{0};
+    for (int k = 0; k < bricks; ++k)
+      ends.push_back(course % 2 == 0 ? (k + 1) * length : (k + 0.5) * length);
+    if (course % 2 == 1) ends.push_back(bricks * length);
+    const double z = course * height;
+    std::vector<Brick> row;
+    for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
+      const double begin = ends[k], end = ends[k + 1], weight = (end - begin) * height * thickness;
+      const Point centroid((begin + end) / 2, thickness / 2, z + height / 2);
+      const int body = scene.add(centroid, weight, 0.5 * Point(end - begin, thickness, height).norm());
+      scene.push(body, weight * push, centroid);
+      if (!row.empty()) scene.touch(row.back().body, body, upright(begin, z), {1, 0, 0}, degrees);
+      for (const Brick& under : below) {
+        const double from = std::max(begin, under.begin), to = std::min(end, under.end);
+        if (to - from > 1e-9)
+          scene.touch(under.body, body, {{from, 0, z}, {to, 0, z}, {to, thickness, z}, {from, thickness, z}}, {0, 0, 1},
+                      degrees);
+      }
+      row.push_back({begin, end, body});
+    }
+    below = row;
+  }
+  return scene;
+}
+
+// in its plane as the plane's linear program finds it; across it the wall turns about its toe
+TEST(LimitInSpace, BringsWallsDown) {
+  expect_factor(wall(4, 3, 1, 0.5, 0.4, 35, {1, 0, 0}), 0.663710961);
+  expect_factor(wall(6, 4, 0.5, 0.25, 0.3, 35, {1, 0, 0}), 0.615635676);
+  expect_factor(wall(6, 4, 0.5, 0.25, 0.3, 25, {1, 0, 0}), std::tan(25 * degree));
+  expect_factor(wall(8, 3, 0.6, 0.3, 0.3, 30, {1, 0, 0}), 0.536216876);
+  expect_factor(wall(4, 3, 1, 0.5, 0.4, 35, {0, 1, 0}), 0.2);
+  const LoadFactorInSpace found = wall(4, 3, 1, 0.5, 0.4, 35, {0, 1, 0}).factor();
+  double fastest = 0;
+  for (std::size_t b = 0; b < found.state.velocities.size(); ++b)
+    fastest = std::max(fastest, found.state.velocities[b].velocity.norm());
+  EXPECT_GT(fastest, 0.1);
+  EXPECT_EQ(found.state.velocities[0].velocity, Point::Zero()) << "the floor is fixed";
+}
+
+// a semicircular arch of 15 voussoirs with straight faces, 0.15 of its radius thick, shaken: hinges alone
+TEST(LimitInSpace, BringsAnArchDown) {
+  constexpr int count = 15;
+  constexpr double thick = 0.15, deep = 0.7;
+  for (const double degrees : {40.0, 60.0}) {
+    Scene scene;
+    const auto at = [&](int joint, double radius, double y) {
+      const double angle = std::numbers::pi * joint / count;
+      return Point(-radius * std::cos(angle), y, radius * std::sin(angle));
+    };
+    int before = 0;
+    for (int k = 0; k <= count; ++k) {
+      const double inner = 1 - thick / 2, outer = 1 + thick / 2, angle = std::numbers::pi * k / count;
+      int body = 0;
+      if (k < count) {
+        // of the trapezoid: the difference of two triangles from the centre
+        const Point p = at(k, 1, deep / 2), q = at(k + 1, 1, deep / 2);
+        const double half = 0.5 * std::sin(std::numbers::pi / count), of_outer = half * outer * outer,
+                     of_inner = half * inner * inner, weight = (of_outer - of_inner) * deep;
+        const Point flat = (p + q) / 3, centroid_xz = (of_outer * outer - of_inner * inner) / (of_outer - of_inner) *
+                                                      Point(flat[0], 0, flat[2]);
+        const Point centroid = centroid_xz + Point(0, deep / 2, 0);
+        body = scene.add(centroid, weight, 0.4);
+        scene.push(body, {weight, 0, 0}, centroid);
+      }
+      scene.touch(before, body, {at(k, inner, 0), at(k, outer, 0), at(k, outer, deep), at(k, inner, deep)},
+                  {std::sin(angle), 0, std::cos(angle)}, degrees);
+      before = body;
+    }
+    expect_factor(scene, 0.150465309);
+  }
+}
+
+// ---- self-stress ---------------------------------------------------------------------------------------------------
+
+// a block between two parallel walls: any friction above zero holds it, by forces that grow without bound
+TEST(LimitInSpace, KnowsADrawer) {
+  Scene scene;
+  const int block = scene.add(Point::Zero(), 1, 0.87);
+  const auto side = [](double x) {
+    return std::vector<Point>{{x, -0.5, -0.5}, {x, 0.5, -0.5}, {x, 0.5, 0.5}, {x, -0.5, 0.5}};
+  };
+  scene.touch(0, block, side(-0.5), {1, 0, 0}, 35);
+  scene.touch(block, 0, side(0.5), {1, 0, 0}, 35);
+  scene.push(block, {0, 0, -1}, Point::Zero());
+  EXPECT_EQ(scene.factor().status, LimitStatus::carries_any);
+  EXPECT_EQ(scene.friction().status, LimitStatus::not_attained);
+}
+
+// A wedge that can fall straight out of a roof: from sin φ = 1/|V⁻¹ (1, 1, 1)'| on its joints clamp it.
+TEST(LimitInSpace, HoldsARoofWedgeBySelfStress) {
+  for (const double degrees : {29.9, 30.1}) {
+    Scene scene;
+    std::array<Point, 3> normals;  // into the wedge
+    for (int k = 0; k < 3; ++k)
+      normals[k] = -Plane{60, 30.0 + 120 * k}.normal();
+    const Point apex(0, 0, 1);
+    std::array<Point, 3> corners;
+    for (int k = 0; k < 3; ++k) {
+      const Point &p = normals[k], &q = normals[(k + 1) % 3];
+      corners[k] = meet(p, p.dot(apex), q, q.dot(apex), {0, 0, 1}, 0);
+    }
+    const int block = scene.add({0, 0, 0.25}, 1, 1.5);
+    for (int k = 0; k < 3; ++k)
+      scene.touch(0, block, {apex, corners[k], corners[(k + 2) % 3]}, normals[k], degrees);
+    scene.push(block, {0, 0, -1}, {0, 0, 0.25});
+    EXPECT_EQ(scene.factor().status, degrees < 30 ? LimitStatus::carries_nothing : LimitStatus::carries_any);
+  }
+}
+
+TEST(LimitInSpace, HasNothingToFind) {
+  Scene scene;
+  EXPECT_EQ(scene.factor().status, LimitStatus::nothing_free);
+  EXPECT_EQ(scene.friction().status, LimitStatus::nothing_free);
+  const int block = scene.add({0, 0, 0.5}, 1, 0.87);
+  EXPECT_EQ(scene.factor().status, LimitStatus::no_load);
+  EXPECT_EQ(scene.friction().status, LimitStatus::carries_nothing) << "no face holds it";
+  scene.touch(0, block, rectangle(1, 1), {0, 0, 1}, 30);
+  EXPECT_EQ(scene.friction().status, LimitStatus::carries_any) << "on a level floor";
+  scene.dead[block].force.setZero();
+  EXPECT_EQ(scene.friction().status, LimitStatus::no_load);
+}
+
+}  // namespace
+}  // namespace voussoir::limit_in_space_test

@@ -1,0 +1,420 @@
+#include "core/solvers/cone_program.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/solvers/complete_factors.hpp"
+#include "core/solvers/cone_scaling.hpp"
+
+namespace voussoir {
+namespace {
+
+constexpr int most_steps = 80;
+constexpr double wanted_error = 1e-11;     // residuals and gap; relative
+constexpr double enough_digits = 1e-7;     // if more digits are lost than gained
+constexpr int steps_without_gain = 6;      // iterations without a better point
+constexpr double no_optimum = 1e-8;        // τ over κ: the program has no optimum
+constexpr double to_the_boundary = 0.985;  // part of the step to it
+constexpr double own_ridge = 1e-15;        // of each row's own diagonal: light bodies keep their digits
+constexpr double refined_error = 1e-15;    // of a direction
+constexpr int most_refinements = 4;
+
+// numbers by cone, by its given head, by body, and of the load
+struct Multipliers {
+  Eigen::VectorXd y, heads;
+  double load = 0;
+};
+
+template <int Freedoms, int Width>
+class Embedding {
+ public:
+  explicit Embedding(const ConeProgram<Freedoms, Width>& of_program);
+  ConeProgramAnswer solve();
+
+ private:
+  using Numbers = Vector<Width>;
+  struct Point {
+    Eigen::VectorXd x, s;
+    Multipliers dual;  // its load: λ's own value
+    double tau = 1, kappa = 1;
+  };
+  struct Residuals {
+    Eigen::VectorXd balance, dual, heads;
+    double load, gap;
+  };
+
+  auto part(Eigen::VectorXd& x, int i) const { return x.template segment<Width>(Width * i); }
+  auto part(const Eigen::VectorXd& x, int i) const { return x.template segment<Width>(Width * i); }
+  bool given(int i) const { return program.cones[i].head > 0; }
+
+  Eigen::VectorXd forces(const Eigen::VectorXd& x) const;      // A x
+  Eigen::VectorXd velocities(const Eigen::VectorXd& y) const;  // A' y
+  Eigen::VectorXd velocities(const Multipliers& dual) const;   // A' y, and the heads'
+  Eigen::VectorXd scaled(const Eigen::VectorXd& x) const;      // W² x
+  double cost_of(const Eigen::VectorXd& x) const;              // c' x
+  double right_of(const Multipliers& dual) const;              // b' y
+  Residuals residuals(const Point& at) const;
+  bool factorise(const Point& at);
+  Multipliers solve_normal(Eigen::VectorXd balance, const Eigen::VectorXd& heads) const;
+  Multipliers solve_system(const Eigen::VectorXd& balance, const Eigen::VectorXd& heads, double load) const;
+  Point direction(const Point& at, const Residuals& of, const Eigen::VectorXd& q, double of_tau, double weight) const;
+  double step(const Point& at, const Point& direction) const;
+  void judge(const Point& at, const Residuals& of, ConeProgramAnswer& answer) const;
+
+  const ConeProgram<Freedoms, Width>& program;
+  int count, bodies;
+  bool has_load;
+  BlockMatrix<Freedoms> normal;
+  std::vector<std::array<int, 3>> places;  // by cone: blocks of body a, of b, between both
+  EliminationPlan plan;
+  CompleteFactors<Freedoms> factors;
+  Eigen::VectorXd cost, heads;  // by cone: its whole cost, its given head
+  double size_of_right = 1, size_of_cost = 1;
+
+  // of an iteration
+  std::vector<ConeScaling<Width>> scaling;
+  Multipliers of_live, of_tau;  // M⁻¹ of the load, and the system's answer to τ
+  double live_power = 0, tau_pivot = 0;
+};
+
+template <int Freedoms, int Width>
+BlockMatrix<Freedoms> normal_pattern(const ConeProgram<Freedoms, Width>& program) {
+  std::vector<std::vector<int>> columns(program.right_side.size() / Freedoms);
+  for (const ForceCone<Freedoms, Width>& cone : program.cones)
+    if (cone.body_a >= 0 && cone.body_b >= 0)
+      columns[std::max(cone.body_a, cone.body_b)].push_back(std::min(cone.body_a, cone.body_b));
+  BlockMatrix<Freedoms> matrix;
+  matrix.lay_out(columns);
+  return matrix;
+}
+
+template <int Freedoms, int Width>
+Embedding<Freedoms, Width>::Embedding(const ConeProgram<Freedoms, Width>& of_program)
+    : program(of_program),
+      count(static_cast<int>(program.cones.size())),
+      bodies(static_cast<int>(program.right_side.size()) / Freedoms),
+      has_load((program.live.array() != 0).any()),
+      normal(normal_pattern(program)),
+      plan(neighbours_in(normal)),
+      factors(plan, true),
+      cost(Eigen::VectorXd::Zero(Width * count)),
+      heads(Eigen::VectorXd::Zero(count)),
+      scaling(count) {
+  for (int i = 0; i < count; ++i) {
+    const ForceCone<Freedoms, Width>& cone = program.cones[i];
+    const int a = cone.body_a, b = cone.body_b;
+    const auto place = [&](int row, int column) {
+      return static_cast<int>(&normal.at(row, column) - normal.blocks.data());
+    };
+    places.push_back({a < 0 ? -1 : place(a, a), b < 0 ? -1 : place(b, b),
+                      a < 0 || b < 0 ? -1 : place(std::max(a, b), std::min(a, b))});
+    cost[Width * i] = cone.cost;
+    heads[i] = cone.head;
+  }
+  size_of_right +=
+      std::max(program.right_side.size() ? program.right_side.cwiseAbs().maxCoeff() : 0, count ? heads.maxCoeff() : 0);
+  size_of_cost += count ? cost.cwiseAbs().maxCoeff() : 0;
+}
+
+template <int Freedoms, int Width>
+Eigen::VectorXd Embedding<Freedoms, Width>::forces(const Eigen::VectorXd& x) const {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(program.right_side.size());
+  for (int i = 0; i < count; ++i) {
+    const ForceCone<Freedoms, Width>& cone = program.cones[i];
+    if (cone.body_a >= 0) sum.template segment<Freedoms>(Freedoms * cone.body_a).noalias() += cone.on_a * part(x, i);
+    if (cone.body_b >= 0) sum.template segment<Freedoms>(Freedoms * cone.body_b).noalias() += cone.on_b * part(x, i);
+  }
+  return sum;
+}
+
+template <int Freedoms, int Width>
+Eigen::VectorXd Embedding<Freedoms, Width>::velocities(const Eigen::VectorXd& y) const {
+  Eigen::VectorXd all(Width * count);
+  for (int i = 0; i < count; ++i) {
+    const ForceCone<Freedoms, Width>& cone = program.cones[i];
+    Numbers sum = Numbers::Zero();
+    if (cone.body_a >= 0) sum.noalias() += cone.on_a.transpose() * y.template segment<Freedoms>(Freedoms * cone.body_a);
+    if (cone.body_b >= 0) sum.noalias() += cone.on_b.transpose() * y.template segment<Freedoms>(Freedoms * cone.body_b);
+    part(all, i) = sum;
+  }
+  return all;
+}
+
+template <int Freedoms, int Width>
+Eigen::VectorXd Embedding<Freedoms, Width>::velocities(const Multipliers& dual) const {
+  Eigen::VectorXd all = velocities(dual.y);
+  for (int i = 0; i < count; ++i)
+    if (given(i)) all[Width * i] += dual.heads[i];
+  return all;
+}
+
+template <int Freedoms, int Width>
+Eigen::VectorXd Embedding<Freedoms, Width>::scaled(const Eigen::VectorXd& x) const {
+  Eigen::VectorXd all(x.size());
+  for (int i = 0; i < count; ++i)
+    part(all, i).noalias() = scaling[i].square * part(x, i);
+  return all;
+}
+
+template <int Freedoms, int Width>
+double Embedding<Freedoms, Width>::cost_of(const Eigen::VectorXd& x) const {
+  return cost.dot(x);
+}
+
+template <int Freedoms, int Width>
+double Embedding<Freedoms, Width>::right_of(const Multipliers& dual) const {
+  return program.right_side.dot(dual.y) + heads.dot(dual.heads);
+}
+
+template <int Freedoms, int Width>
+typename Embedding<Freedoms, Width>::Residuals Embedding<Freedoms, Width>::residuals(const Point& at) const {
+  Residuals of;
+  of.balance = program.right_side * at.tau - forces(at.x) - program.live * at.dual.load;
+  of.dual = cost * at.tau - velocities(at.dual) - at.s;
+  of.heads = Eigen::VectorXd::Zero(count);
+  for (int i = 0; i < count; ++i)
+    if (given(i)) of.heads[i] = heads[i] * at.tau - at.x[Width * i];
+  of.load = has_load ? -at.tau - program.live.dot(at.dual.y) : 0;
+  of.gap = at.kappa + cost_of(at.x) - (has_load ? at.dual.load : 0) - right_of(at.dual);
+  return of;
+}
+
+// the scaling of every cone, and M = A W² A' without what is given away by the heads
+template <int Freedoms, int Width>
+bool Embedding<Freedoms, Width>::factorise(const Point& at) {
+  using Block = typename BlockMatrix<Freedoms>::Block;
+  for (Block& block : normal.blocks)
+    block.setZero();
+  for (int i = 0; i < count; ++i) {
+    scaling[i] = ConeScaling<Width>(part(at.x, i), part(at.s, i));
+    Matrix<Width> square = scaling[i].square;
+    if (given(i)) square -= (square.col(0) * square.row(0) / square(0, 0)).eval();
+    const ForceCone<Freedoms, Width>& cone = program.cones[i];
+    const FixedMatrix<Freedoms, Width> of_a = cone.on_a * square, of_b = cone.on_b * square;
+    if (cone.body_a >= 0) normal.blocks[places[i][0]].noalias() += of_a * cone.on_a.transpose();
+    if (cone.body_b >= 0) normal.blocks[places[i][1]].noalias() += of_b * cone.on_b.transpose();
+    if (places[i][2] < 0) continue;
+    if (cone.body_a > cone.body_b)
+      normal.blocks[places[i][2]].noalias() += of_a * cone.on_b.transpose();
+    else
+      normal.blocks[places[i][2]].noalias() += of_b * cone.on_a.transpose();
+  }
+  for (const int place : normal.diagonal)
+    for (int k = 0; k < Freedoms; ++k) {
+      double& own = normal.blocks[place](k, k);
+      own = own > 0 ? own * (1 + own_ridge) : 1;
+    }
+  if (!factors.factorise(normal)) return false;
+
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(count), scaled_cost = scaled(cost);
+  if (has_load) {
+    of_live = solve_normal(program.live, none);
+    live_power = program.live.dot(of_live.y);
+  }
+  Eigen::VectorXd more_heads = none, fewer_heads = none;
+  for (int i = 0; i < count; ++i)
+    if (given(i)) {
+      more_heads[i] = heads[i] + scaled_cost[Width * i];
+      fewer_heads[i] = heads[i] - scaled_cost[Width * i];
+    }
+  const Eigen::VectorXd of_cost = forces(scaled_cost);
+  of_tau = solve_system(program.right_side + of_cost, more_heads, has_load ? -1 : 0);
+  tau_pivot = (program.right_side - of_cost).dot(of_tau.y) + fewer_heads.dot(of_tau.heads) +
+              (has_load ? of_tau.load : 0) + cost.dot(scaled_cost) + at.kappa / at.tau;
+  return true;
+}
+
+// M⁻¹, with the heads eliminated; once refined_error
+template <int Freedoms, int Width>
+Multipliers Embedding<Freedoms, Width>::solve_normal(Eigen::VectorXd balance, const Eigen::VectorXd& of_heads) const {
+  Multipliers sum{Eigen::VectorXd::Zero(balance.size()), Eigen::VectorXd::Zero(count), 0};
+  Eigen::VectorXd left_heads = of_heads;
+  for (int round = 0; round < 2; ++round) {
+    Eigen::VectorXd right = balance, given_away = Eigen::VectorXd::Zero(Width * count);
+    for (int i = 0; i < count; ++i)
+      if (given(i)) part(given_away, i) = scaling[i].square.col(0) * (left_heads[i] / scaling[i].square(0, 0));
+    if (heads.any()) right -= forces(given_away);
+    Multipliers more{factors.solve(right), Eigen::VectorXd::Zero(count), 0};
+    const Eigen::VectorXd speeds = velocities(more.y);
+    for (int i = 0; i < count; ++i)
+      if (given(i)) {
+        const Matrix<Width>& square = scaling[i].square;
+        more.heads[i] = (left_heads[i] - square.col(0).dot(part(speeds, i))) / square(0, 0);
+      }
+    sum.y += more.y;
+    sum.heads += more.heads;
+    if (round > 0) break;
+    const Eigen::VectorXd carried = scaled(velocities(more));
+    balance -= forces(carried);
+    for (int i = 0; i < count; ++i)
+      if (given(i)) left_heads[i] -= carried[Width * i];
+  }
+  return sum;
+}
+
+// of [M live; live' 0]
+template <int Freedoms, int Width>
+Multipliers Embedding<Freedoms, Width>::solve_system(const Eigen::VectorXd& balance, const Eigen::VectorXd& of_heads,
+                                                     double load) const {
+  Multipliers answer = solve_normal(balance, of_heads);
+  if (!has_load || !(live_power > 0)) return answer;
+  answer.load = (program.live.dot(answer.y) - load) / live_power;
+  answer.y -= answer.load * of_live.y;
+  answer.heads -= answer.load * of_live.heads;
+  return answer;
+}
+
+// q: the wanted_error complementarity of each cone in scaled numbers, of_tau_kappa: of τ and κ; weight: the part of the
+// residuals that the full step takes away
+template <int Freedoms, int Width>
+typename Embedding<Freedoms, Width>::Point Embedding<Freedoms, Width>::direction(const Point& at, const Residuals& of,
+                                                                                 const Eigen::VectorXd& q,
+                                                                                 double of_tau_kappa,
+                                                                                 double weight) const {
+  Eigen::VectorXd wanted_x(Width * count);
+  for (int i = 0; i < count; ++i)
+    part(wanted_x, i).noalias() = scaling[i].scale * part(q, i);
+  const Eigen::VectorXd aim = wanted_x - weight * scaled(of.dual), scaled_cost = scaled(cost);
+  Eigen::VectorXd of_heads = Eigen::VectorXd::Zero(count), fewer_heads = of_heads;
+  for (int i = 0; i < count; ++i)
+    if (given(i)) {
+      of_heads[i] = weight * of.heads[i] - aim[Width * i];
+      fewer_heads[i] = heads[i] - scaled_cost[Width * i];
+    }
+  const Multipliers first = solve_system(weight * of.balance - forces(aim), of_heads, weight * of.load);
+  Point step;
+  step.tau = (weight * of.gap + cost_of(aim) + of_tau_kappa / at.tau -
+              (program.right_side - forces(scaled_cost)).dot(first.y) - fewer_heads.dot(first.heads) -
+              (has_load ? first.load : 0)) /
+             tau_pivot;
+  step.dual = {first.y + step.tau * of_tau.y, first.heads + step.tau * of_tau.heads,
+               first.load + step.tau * of_tau.load};
+  step.s = weight * of.dual + step.tau * cost - velocities(step.dual);
+  step.x = wanted_x - scaled(step.s);
+  for (int round = 0; round < most_refinements; ++round) {
+    const Eigen::VectorXd balance =
+        weight * of.balance - forces(step.x) - program.live * step.dual.load + program.right_side * step.tau;
+    Eigen::VectorXd left_heads = Eigen::VectorXd::Zero(count);
+    for (int i = 0; i < count; ++i)
+      if (given(i)) left_heads[i] = weight * of.heads[i] - step.x[Width * i] + heads[i] * step.tau;
+    const double load = has_load ? weight * of.load - program.live.dot(step.dual.y) - step.tau : 0;
+    const double largest = std::max({balance.size() ? balance.cwiseAbs().maxCoeff() : 0,
+                                     count ? left_heads.cwiseAbs().maxCoeff() : 0, std::abs(load)});
+    if (largest <= refined_error * (1 + at.tau)) break;
+    const Multipliers more = solve_system(balance, left_heads, load);
+    const Eigen::VectorXd slower = velocities(more);
+    step.dual.y += more.y;
+    step.dual.heads += more.heads;
+    step.dual.load += more.load;
+    step.s -= slower;
+    step.x += scaled(slower);
+  }
+  step.kappa = (of_tau_kappa - at.kappa * step.tau) / at.tau;
+  return step;
+}
+
+template <int Freedoms, int Width>
+double Embedding<Freedoms, Width>::step(const Point& at, const Point& direction) const {
+  double most = std::numeric_limits<double>::max();
+  for (int i = 0; i < count; ++i)
+    most = std::min({most, step_to_boundary<Width>(part(at.x, i), part(direction.x, i)),
+                     step_to_boundary<Width>(part(at.s, i), part(direction.s, i))});
+  if (direction.tau < 0) most = std::min(most, at.tau / -direction.tau);
+  if (direction.kappa < 0) most = std::min(most, at.kappa / -direction.kappa);
+  return most;
+}
+
+// keeps the point if it is better than the best so far
+template <int Freedoms, int Width>
+void Embedding<Freedoms, Width>::judge(const Point& at, const Residuals& of, ConeProgramAnswer& answer) const {
+  const auto largest = [](const Eigen::VectorXd& numbers) {
+    return numbers.size() ? numbers.cwiseAbs().maxCoeff() : 0;
+  };
+  const double value = (cost_of(at.x) - (has_load ? at.dual.load : 0)) / at.tau, bound = right_of(at.dual) / at.tau,
+               gap = std::abs(value - bound) / (1 + std::abs(value)),
+               balance = std::max(largest(of.balance), largest(of.heads)) / at.tau / size_of_right,
+               inadmissible = std::max(largest(of.dual) / size_of_cost, std::abs(of.load)) / at.tau;
+  if (answer.iterations > 0 && std::max({gap, balance, inadmissible}) >= answer.error()) return;
+  answer.value = value;
+  answer.bound = bound;
+  answer.factor = has_load ? at.dual.load / at.tau : 0;
+  answer.x = at.x / at.tau;
+  answer.y = at.dual.y / at.tau;
+  answer.heads = at.dual.heads / at.tau;
+  answer.gap = gap;
+  answer.out_of_balance = balance;
+  answer.inadmissible = inadmissible;
+}
+
+template <int Freedoms, int Width>
+ConeProgramAnswer Embedding<Freedoms, Width>::solve() {
+  Point at;
+  at.x = Eigen::VectorXd::Zero(Width * count);
+  for (int i = 0; i < count; ++i)
+    at.x[Width * i] = 1;
+  at.s = at.x;
+  at.dual = {Eigen::VectorXd::Zero(program.right_side.size()), Eigen::VectorXd::Zero(count), 0};
+  ConeProgramAnswer answer;
+  int of_best = 0;
+  for (; answer.iterations < most_steps; ++answer.iterations) {
+    const Residuals of = residuals(at);
+    const double before = answer.error();
+    judge(at, of, answer);
+    if (answer.error() < before || answer.iterations == 0) of_best = answer.iterations;
+    if (answer.error() <= wanted_error) break;
+    if (answer.error() <= enough_digits && answer.iterations - of_best > steps_without_gain) break;
+    if (at.tau < no_optimum * std::max(1.0, at.kappa)) {
+      const double gained = (has_load ? at.dual.load : 0) - cost_of(at.x), driven = right_of(at.dual);
+      answer.status = gained > driven ? ConeStatus::unbounded : ConeStatus::infeasible;
+      answer.x = at.x / std::max(gained, driven);
+      answer.y = at.dual.y / std::max(gained, driven);
+      return answer;
+    }
+    if (!factorise(at)) break;
+
+    const double mean = (at.x.dot(at.s) + at.tau * at.kappa) / (count + 1);
+    Eigen::VectorXd v(Width * count);
+    for (int i = 0; i < count; ++i)
+      part(v, i).noalias() = scaling[i].scale * part(at.s, i);
+    const Point affine = direction(at, of, -v, -at.tau * at.kappa, 1);
+    const double length = std::min(1.0, step(at, affine)),
+                 left = ((at.x + length * affine.x).dot(at.s + length * affine.s) +
+                         (at.tau + length * affine.tau) * (at.kappa + length * affine.kappa)) /
+                        (count + 1),
+                 ratio = std::clamp(left / mean, 0.0, 1.0), centring = std::max(ratio * ratio * ratio, 1e-8);
+    Eigen::VectorXd q(Width * count);
+    for (int i = 0; i < count; ++i) {
+      const Numbers own = part(v, i), of_x = scaling[i].inverse * part(affine.x, i),
+                    of_s = scaling[i].scale * part(affine.s, i);
+      Numbers aim = -cone_product<Width>(own, own) - cone_product<Width>(of_x, of_s);
+      aim[0] += centring * mean;
+      part(q, i) = cone_quotient<Width>(aim, own);
+    }
+    const Point corrected =
+        direction(at, of, q, -at.tau * at.kappa - affine.tau * affine.kappa + centring * mean, 1 - centring);
+    const double taken = std::min(1.0, to_the_boundary * step(at, corrected));
+    at.x += taken * corrected.x;
+    at.s += taken * corrected.s;
+    at.dual.y += taken * corrected.dual.y;
+    at.dual.heads += taken * corrected.dual.heads;
+    at.dual.load += taken * corrected.dual.load;
+    at.tau += taken * corrected.tau;
+    at.kappa += taken * corrected.kappa;
+    if (!(taken > 1e-9)) break;
+  }
+  answer.status = answer.error() <= enough_digits ? ConeStatus::optimal : ConeStatus::stalled;
+  return answer;
+}
+
+}  // namespace
+
+template <int Freedoms, int Width>
+ConeProgramAnswer solve(const ConeProgram<Freedoms, Width>& program) {
+  return Embedding<Freedoms, Width>(program).solve();
+}
+
+template ConeProgramAnswer solve(const ConeProgram<3, 2>&);
+template ConeProgramAnswer solve(const ConeProgram<6, 3>&);
+
+}  // namespace voussoir
