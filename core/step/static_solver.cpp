@@ -39,6 +39,10 @@ constexpr int most_lengths = 6;
 // step was bounded by the blocks' size, and rises by the last if the step was shortened below that fraction.
 constexpr double most_fall = 0.02, least_fall = 0.5, slow_fall = 0.1, bounded_fall = 0.5, far_shortened = 0.3, rise = 2;
 
+// A residual of which more than this is left after a step that went nearly as far as it could: contacts open and close
+// alternately, and a short step (at least this regularisation) breaks the cycle.
+constexpr double hardly_fallen = 0.7, short_step = 0.1;
+
 // With which an increment begins if the loads are balanced up to this fraction of the contact forces and of so many
 // joints that touch at most one carries nothing.
 constexpr double first_if_carried = 0.01, nearly_balanced = 0.1;
@@ -206,6 +210,8 @@ struct Newton {
     else if (progress.length >= 1)
       progress.regularisation *=
           work_left(residual) > 0.5 ? slow_fall : std::clamp(merit_now / progress.merits.back(), most_fall, least_fall);
+    if (progress.overshoot <= 1 && work_left(residual) <= 0.5 && merit_now > hardly_fallen * progress.merits.back())
+      progress.regularisation = std::max(short_step, 4 * progress.regularisation);
     if (progress.regularisation < least_regularisation) progress.regularisation = 0;
   }
 
