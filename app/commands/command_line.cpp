@@ -23,6 +23,7 @@
 #include "app/joint_test/joint_test_command.hpp"
 #include "app/limit/limit_command.hpp"
 #include "app/report/report_command.hpp"
+#include "app/run/memory_needed.hpp"
 #include "app/run/resume_command.hpp"
 #include "app/run/run_command.hpp"
 #include "app/run_folder/claimed_folder.hpp"
@@ -100,6 +101,9 @@ int guarded(const Action& action) {
   } catch (const BadInput& error) {
     tell("voussoir: {}\n", error.what());
     return static_cast<int>(ExitCode::bad_input);
+  } catch (const NotEnoughMemory& error) {
+    tell("voussoir: {}\n", error.what());
+    return static_cast<int>(ExitCode::no_memory);
   } catch (const TooManyNeighbours& error) {
     tell("voussoir: {}\n", error.what());
     return static_cast<int>(ExitCode::bad_input);

@@ -8,8 +8,6 @@
 #include <fstream>
 #include <limits>
 
-#include "core/base/bad_input.hpp"
-
 namespace voussoir {
 namespace {
 
@@ -43,7 +41,7 @@ double available_memory() {
 
 void require_memory(const std::string& scene, double needed, double available, bool newton) {
   if (needed <= available) return;
-  throw BadInput(fmt::format(
+  throw NotEnoughMemory(fmt::format(
       "{}: the run takes up to {:.2g} GB of memory, {:.2g} GB are available: cut fewer blocks (domain, joint_sets "
       "intensity){}, or run it where there is more",
       scene, 1e-9 * needed, 1e-9 * std::max(available, 0.0),

@@ -8,15 +8,13 @@
 #include <fstream>
 #include <string>
 
-#include "core/base/bad_input.hpp"
-
 namespace voussoir::memory_needed_test {
 namespace {
 
 std::string refusal(double needed, double available, bool newton) {
   try {
     require_memory("scene.toml", needed, available, newton);
-  } catch (const BadInput& refused) {
+  } catch (const NotEnoughMemory& refused) {
     return refused.what();
   }
   return {};
