@@ -73,8 +73,8 @@ struct StaticsSettings {
   // to 30 % more for 0.0013°
   double slip = 0.5;
 
-  // newton: a step after which the residual has grown is refused, not shortened by its work. More steps, but blocks that
-  // hold are not carried along with those that slide: for the motion of a failure
+  // newton: a step after which the residual has grown is refused, not shortened by its work. More steps, but slip keeps
+  // to its path, and blocks that hold are not carried along with those that slide: for searches
   bool refuses_growth = false;
 };
 

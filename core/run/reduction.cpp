@@ -173,7 +173,7 @@ struct Search {
                                .properties = properties};
     Settings own = settings;
     if (progress.true_motion) own.statics.method = Statics::local;
-    own.statics.refuses_growth = attempt.leg == FollowLeg::on;
+    own.statics.refuses_growth = true;
     report.last = run(model, own, goal, schedule, state, progress.run, hooks,
                       watches() && judges(attempt) ? &progress.watch : nullptr);
     report.unbalanced = report.last.unbalanced;

@@ -43,6 +43,11 @@ constexpr double most_fall = 0.02, least_fall = 0.5, slow_fall = 0.1, bounded_fa
 // alternately, and a short step (at least this regularisation) breaks the cycle.
 constexpr double hardly_fallen = 0.7, short_step = 0.1;
 
+// Accepted iterations after which an increment follows a valley: a mode softer than the joints by many powers of ten,
+// such as the sway of an arch on four hinges. Stiff joints resist the square of a step along it, so the residual grows
+// even if the step is right. Columns, walls and sliced rock of thousands of blocks converge in fewer.
+constexpr int valley_after = 50;
+
 // With which an increment begins if the loads are balanced up to this fraction of the contact forces and of so many
 // joints that touch at most one carries nothing.
 constexpr double first_if_carried = 0.01, nearly_balanced = 0.1;
@@ -181,7 +186,8 @@ struct Newton {
     return residual.dot(change) / numbers(progress.residual).dot(change);
   }
 
-  bool refuses_growth() const { return settings.statics.refuses_growth && progress.tries < most_tries; }
+  bool in_valley() const { return progress.iteration >= valley_after; }
+  bool refuses_growth() const { return settings.statics.refuses_growth && !in_valley() && progress.tries < most_tries; }
   bool grows(const Eigen::VectorXd& residual, double merit_now) const {
     const double largest = *std::max_element(
         progress.merits.end() - std::min<std::ptrdiff_t>(3, std::ssize(progress.merits)), progress.merits.end());
@@ -210,7 +216,8 @@ struct Newton {
     else if (progress.length >= 1)
       progress.regularisation *=
           work_left(residual) > 0.5 ? slow_fall : std::clamp(merit_now / progress.merits.back(), most_fall, least_fall);
-    if (progress.overshoot <= 1 && work_left(residual) <= 0.5 && merit_now > hardly_fallen * progress.merits.back())
+    if (!in_valley() && progress.overshoot <= 1 && work_left(residual) <= 0.5 &&
+        merit_now > hardly_fallen * progress.merits.back())
       progress.regularisation = std::max(short_step, 4 * progress.regularisation);
     if (progress.regularisation < least_regularisation) progress.regularisation = 0;
   }
