@@ -72,6 +72,12 @@ void warn_of_strengths(const LimitAnalysis& analysis, std::vector<std::string>& 
       warnings.push_back(fmt::format(
           "joint_properties '{}' state tension {:.4g} Pa, which limit analysis leaves out: its joints open freely",
           p.name, p.tension));
+    if (p.dilates())
+      warnings.push_back(
+          fmt::format("joint_properties '{}' dilate by {:.4g} degrees; limit analysis does not count that: its flow is "
+                      "the one that it "
+                      "states",
+                      p.name, to_degrees(p.dilation)));
     if (p.laws.friction == FrictionLaw::softening)
       warnings.push_back(
           fmt::format("joint_properties '{}' soften; limit analysis takes their friction before any slip", p.name));
