@@ -212,6 +212,8 @@ const Harmless harmless[] = {
     {"water_table", "dip_direction", "times 1e-3", "an ordinary direction"},
     {"water_change", "rate", "times 1e3", "an ordinary rate: for a pressure it is in Pa/s"},
     {"joint_properties", "hardening_exponent", "0", is_default},
+    {"joint_properties", "irrecoverable_fraction", "0", is_default},
+    {"joint_properties", "dilation_deg", "0", "no rise"},
     {"joint_properties", "tension", "0", is_default},
     {"joint_properties", "cohesion", "0", is_default},
     {"joint_properties", "residual_cohesion", "0", "none is left, as without the key"},

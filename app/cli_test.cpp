@@ -298,6 +298,18 @@ TEST_F(Program, VersionListsTheBuiltInFeatures) {
 
 // ---- arguments ------------------------------------------------------------------------------------------------------
 
+TEST_F(Program, AJointThatDilatesIsTestedWithoutAnotherDilation) {
+  const std::string dilating =
+      " --set joint_properties.rock.dilation_law=constant --set "
+      "joint_properties.rock.dilation_deg=8 --set joint_properties.rock.dilation_until_m=0.01";
+  EXPECT_EQ(run("joint-test " + cubes_ + dilating + " --path stiffness --slip 5e-3 --out laboratory").code, 0);
+  EXPECT_NE(read(folder_ / "laboratory/joint_test.csv").find("rise_m,plastic_offset_m,mobilised_friction_deg"),
+            std::string::npos);
+  const auto refused = run("joint-test " + cubes_ + dilating + " --dilation 0.05 --out again");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("have a dilation of their own"), std::string::npos) << refused.err;
+}
+
 TEST_F(Program, WrongArgumentsAreBadInput) {
   EXPECT_EQ(run("").code, 2);
   EXPECT_EQ(run("fly").code, 2);

@@ -90,7 +90,7 @@ Pile side_by_side(const Pile& one, int copies) {
 void timed_step(const Pile& pile, State<3>& state, Times& times) {
   const std::array<std::function<void()>, 5> stages{
       [&] { find_neighbours(pile.model, pile.settings, state.bodies, state.contacts, state.counters); },
-      [&] { find_contacts(pile.model, pile.settings, state.bodies, state.contacts, state.counters); },
+      [&] { find_contacts(pile.model, pile.settings, 0, state.bodies, state.contacts, state.counters); },
       [&] {
         apply_joint_laws(pile.model, pile.settings, state.schedule,
                          joint_step(pile.settings, state.time_step, state.relaxation), state.bodies, state.contacts,

@@ -49,7 +49,7 @@ Assessment assess_prepared(const Prepared<Dim>& prepared, std::vector<std::strin
     install_linings(model, prepared.stages.front().change.install, state);
   }
   find_neighbours(model, prepared.settings, state.bodies, state.contacts, state.counters);
-  find_contacts(model, prepared.settings, state.bodies, state.contacts, state.counters);
+  find_contacts(model, prepared.settings, 0, state.bodies, state.contacts, state.counters);
   sum_loads(model, prepared.settings, state.schedule, state.bodies, state.contacts, state.supports,
             state.loads);  // water and forces determine the step, too
   Assessment result{forecast(prepared, model, state), std::move(warnings)};

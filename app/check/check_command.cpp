@@ -163,6 +163,16 @@ std::vector<std::string> laws_text(const JointProperties& p) {
       p.hardening_exponent);
   add(p.laws.friction == FrictionLaw::softening,
       fmt::runtime("friction coefficient softens by {:g} within {:g} m of slip"), p.softening_drop, p.softening_slip);
+  add(p.laws.normal == StiffnessLaw::hyperbolic,
+      fmt::runtime("normal stiffness hyperbolic up to a closure of {:g} m, of which {:g} is not recovered"),
+      p.maximum_closure, p.irrecoverable_fraction);
+  add(p.laws.dilation == DilationLaw::constant,
+      fmt::runtime("dilates at {:g} deg up to {:g} m of slip; no strength is added to friction at a normal stress"),
+      to_degrees(p.dilation), p.dilation_until);
+  add(p.laws.dilation == DilationLaw::falling,
+      fmt::runtime(
+          "dilates at {:g} deg, falling within {:g} m of slip; no strength is added to friction at a normal stress"),
+      to_degrees(p.dilation), p.dilation_decay);
   const char* const where = p.bonds == BondsMade::as_sliced ? "from the first stage on" : "if bonded";
   add(p.tension > 0, fmt::runtime("tension {} {}"), quantity_text(p.tension, "Pa"), where);
   add(p.cohesion > 0, fmt::runtime("cohesion {} {}, {}"), quantity_text(p.cohesion, "Pa"), where, law_of_cohesion(p));
@@ -190,6 +200,7 @@ void print_properties(const Model<Dim>& model, const ContactSettings& contact) {
       print_line(
           "", fmt::format("  not integrated: {}", p.constant_stiffness ? "constant_stiffness is independent of the area"
                                                   : p.laws.bond        ? "it can be bonded"
+                                                  : p.dilates()        ? "its rise varies over the face"
                                                                 : "its laws depend on the history at each point"));
     print_line("", p.sub_contacts == 1 ? "  one contact point per face"
                                        : fmt::format("  {} contact points per face",

@@ -66,6 +66,13 @@ TEST_F(Check, PrintsLawsStrengthsAndSubContacts) {
                            "softens by 0.06 within 0.35 m", "tension 70 kPa if bonded", "cohesion 800 kPa if bonded"})
     says(scene, part);
   says(ground() + box("stone", 0, 0) + rock_properties + settle_stage, "one contact point per face");
+  const std::string rough =
+      ground() + box("stone", 0, 0) + rock_properties +
+      "normal_law = \"hyperbolic\"\nmaximum_closure_m = 2e-4\nirrecoverable_fraction = 0.4\ndilation_law = "
+      "\"constant\"\ndilation_deg = 8\ndilation_until_m = 0.004\n" +
+      settle_stage;
+  says(rough, "hyperbolic up to a closure of 0.0002 m, of which 0.4 is not recovered");
+  says(rough, "dilates at 8 deg up to 0.004 m of slip; no strength is added");
 }
 
 TEST_F(Check, PrintsTheContactModelOfEachJoint) {

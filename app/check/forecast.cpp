@@ -205,7 +205,8 @@ void find_crowd(const Prepared<Dim>& prepared, const Model<Dim>& model, const St
   constexpr double memory_of_a_block = 10e3;  // bytes, measured in complete runs
   result.memory = memory_of_a_block * static_cast<double>(model.bodies.size()) +
                   2.0 * static_cast<double>(state.contacts.list.size() * sizeof(Contact<Dim>) +
-                                            state.contacts.subs.size() * sizeof(SubContact<Dim>));
+                                            state.contacts.subs.size() * sizeof(SubContact<Dim>) +
+                                            state.contacts.rises.size() * sizeof(JointRise<Dim>));
   if (asks_for_newton(prepared.settings.statics, prepared.stages)) result.memory += memory_of_newton(state);
   result.candidates_allowed = static_cast<double>(most_candidates(model.parts.size()));
   std::size_t most = 0;

@@ -364,6 +364,10 @@ TEST_F(Export, UnsupportedFeaturesAreRefusedInOneLine) {
               "--set joint_properties.rock.friction_law=softening --set joint_properties.rock.softening_drop=0.1 --set "
               "joint_properties.rock.softening_slip_m=0.01",
               "joint_properties.rock.friction_law"},
+             {"",
+              "--set joint_properties.rock.dilation_law=constant --set joint_properties.rock.dilation_deg=8 --set "
+              "joint_properties.rock.dilation_until_m=0.01",
+              "joint_properties.rock.dilation_law"},
          }) {
       write("scene.toml", rock + c.more);
       expect_one_line(run(fmt::format("export scene.toml --as {} --out x.txt --set joints.C.properties=rock --set "

@@ -35,12 +35,13 @@ void refuse_laws(const Scene& scene, const ExportedScene& found, std::string_vie
     const char* const key = laws.normal != StiffnessLaw::constant    ? "normal_law"
                             : laws.shear != StiffnessLaw::constant   ? "shear_law"
                             : laws.friction != FrictionLaw::constant ? "friction_law"
+                            : laws.dilation != DilationLaw::none     ? "dilation_law"
                             : spec.properties.constant_stiffness     ? "constant_stiffness"
                                                                      : nullptr;
     if (key)
       refuse(spec.subject, key,
              fmt::format("cannot be expressed in the text for {}, which has constant stiffness per area and constant "
-                         "friction; give the joint these",
+                         "friction without dilation; give the joint these",
                          program));
   }
 }

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
+#include <optional>
 
 #include "app/base/arguments.hpp"
 #include "app/base/message.hpp"
@@ -13,6 +15,7 @@
 #include "core/joint_laws/joint_path.hpp"
 #include "core/output/atomic_file.hpp"
 #include "core/scene/scene.hpp"
+#include "text/angle.hpp"
 #include "text/csv_table.hpp"
 
 namespace voussoir {
@@ -28,13 +31,14 @@ struct JointTestArguments {
   std::vector<double> stresses;         // Pa; none: 0.1, 0.5, 1, 2, 5 MPa
   double slip = 1e-3;                   // m
   double surroundings = 1e9;            // Pa/m, of the path `stiffness`
-  double dilation = 0.05;               // of the path `stiffness`
+  std::optional<double> dilation;       // of the path `stiffness`, of joints that have none; unstated: 0.05
   int cycles = 2;                       // of the path `cyclic`
   int steps = 200;
   bool bonded = false;
   bool overwrite = false;
 };
 
+constexpr double usual_dilation = 0.05;
 constexpr double usual_stresses[] = {0.1e6, 0.5e6, 1e6, 2e6, 5e6};
 
 // one curve of the table and of the figure
@@ -44,7 +48,7 @@ struct JointTest {
   std::vector<JointPathPoint> points;
 };
 
-JointPath path_of(const JointTestArguments& arguments, double stress) {
+JointPath path_of(const JointTestArguments& arguments, const JointProperties& p, double stress) {
   JointPath path;
   path.normal_stress = stress;
   path.steps = arguments.steps;
@@ -57,9 +61,17 @@ JointPath path_of(const JointTestArguments& arguments, double stress) {
   if (arguments.path == "cyclic") path.cycles = arguments.cycles;
   if (arguments.path == "stiffness") {
     path.surroundings = arguments.surroundings;
-    path.dilation = arguments.dilation;
+    if (!p.dilates()) path.dilation = arguments.dilation.value_or(usual_dilation);
   }
   return path;
+}
+
+void refuse_two_dilations(const JointProperties& p, const std::optional<double>& dilation) {
+  if (p.dilates() && dilation)
+    throw BadInput(fmt::format(
+        "--dilation: joint_properties.{} have a dilation of their own; leave the option out, or test others "
+        "with --joint",
+        p.name));
 }
 
 std::vector<JointProperties> chosen(const Scene& scene, const std::vector<std::string>& names) {
@@ -90,13 +102,15 @@ std::string table(const std::vector<JointTest>& tests) {
   std::string text =
       "joint,test_stress_Pa,overlap_m,slip_m,normal_stress_Pa,shear_stress_Pa,normal_stiffness_Pa_per_m,"
       "shear_stiffness_Pa_per_m,plastic_slip_m,friction_coefficient,elastic_J_per_m2,dissipated_J_per_m2,"
-      "stiffening_J_per_m2,bonded,snap_back\n";
+      "stiffening_J_per_m2,bonded,snap_back,rise_m,plastic_offset_m,mobilised_friction_deg,dilation_J_per_m2,"
+      "irrecoverable_closure_J_per_m2\n";
   for (const JointTest& test : tests)
     for (const JointPathPoint& p : test.points)
-      text +=
-          fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_cell(test.name), test.stress, p.overlap,
-                      p.slip, p.normal_stress, p.shear_stress, p.normal_stiffness, p.shear_stiffness, p.plastic_slip,
-                      p.friction, p.elastic, p.dissipated, p.stiffening, static_cast<int>(p.bond), p.snap_back ? 1 : 0);
+      text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_cell(test.name),
+                          test.stress, p.overlap, p.slip, p.normal_stress, p.shear_stress, p.normal_stiffness,
+                          p.shear_stiffness, p.plastic_slip, p.friction, p.elastic, p.dissipated, p.stiffening,
+                          static_cast<int>(p.bond), p.snap_back ? 1 : 0, p.rise, p.offset,
+                          to_degrees(std::atan2(std::abs(p.shear_stress), p.normal_stress)), p.dilation, p.crushing);
   return text;
 }
 
@@ -150,9 +164,12 @@ ExitCode joint_test_command(const JointTestArguments& arguments) {
   std::vector<double> stresses = arguments.stresses;
   if (stresses.empty()) stresses.assign(std::begin(usual_stresses), std::end(usual_stresses));
   std::vector<JointTest> tests;
-  for (const JointProperties& p : chosen(scene, arguments.properties))
+  const std::vector<JointProperties> tested = chosen(scene, arguments.properties);
+  for (const JointProperties& p : tested)
+    refuse_two_dilations(p, arguments.dilation);
+  for (const JointProperties& p : tested)
     for (const double stress : stresses)
-      tests.push_back({p.name, stress, follow(p, path_of(arguments, stress))});
+      tests.push_back({p.name, stress, follow(p, path_of(arguments, p, stress))});
 
   const fs::path folder = !arguments.out.empty()
                               ? arguments.out
@@ -211,7 +228,10 @@ void add_joint_test(CLI::App& program, Action& action) {
       ->add_option("--surroundings", arguments.surroundings,
                    "normal stiffness of the surroundings, for path stiffness, in Pa/m (default: 1e9)")
       ->check(finite(least_positive, largest_argument));
-  command->add_option("--dilation", arguments.dilation, "dilation over slip, for path stiffness (default: 0.05)")
+  command
+      ->add_option(
+          "--dilation", arguments.dilation,
+          "dilation over slip, for path stiffness, of joints that do not dilate by a law of their own (default: 0.05)")
       ->check(finite(0, 1));
   command->add_option("--cycles", arguments.cycles, "number of cycles, for path cyclic (default: 2)")
       ->check(CLI::Range(1, 1000));

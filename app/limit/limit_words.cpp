@@ -87,6 +87,11 @@ void warn_of_strengths(const std::vector<JointProperties>& properties, const std
       warnings.push_back(fmt::format(
           "joint_properties '{}' state tension {:.4g} Pa, which limit analysis leaves out: its joints open freely",
           p.name, p.tension));
+    if (p.dilates())
+      warnings.push_back(
+          fmt::format("joint_properties '{}' dilate by {:.4g} degrees; limit analysis does not count that: its joints "
+                      "dilate by their friction angle",
+                      p.name, to_degrees(p.dilation)));
     if (p.laws.friction == FrictionLaw::softening)
       warnings.push_back(
           fmt::format("joint_properties '{}' soften; limit analysis takes their friction before any slip", p.name));

@@ -34,6 +34,8 @@ enum class Source {
   lost_area,
   dashpots,
   stiffening,
+  dilation,
+  irrecoverable_closure,
   bolt_yield,
   lining_slip,
   gravity_ramp,
@@ -68,15 +70,17 @@ inline constexpr std::array<SourceRow, source_count> source_table{{
     {Source::prescribed_motion, "prescribed_motion", "", 1, 0, 0, 0, 1},
     {Source::local_damping, "local_damping", "", -1, 0, 0, 1, 0},
     {Source::relaxation, "relaxation", "", -1, 0, 0, 1, 0},
-    {Source::friction, "friction", "", 0, 1, 0, 0, 0},        // lost to slip
-    {Source::lost_area, "lost_area", "", 0, 1, 0, 0, 0},      // lost when a joint under shear loses or gains area
-    {Source::dashpots, "dashpots", "", 0, 1, 0, 1, 0},        // lost to viscous damping
-    {Source::stiffening, "stiffening", "", 0, 1, 0, 0, 0},    // lost by shear springs that stiffened with stress under
-                                                              // their force; negative: gained
-    {Source::bolt_yield, "bolt_yield", "", 0, 1, 0, 0, 0},    // lost by bolts that yield, slip or break
-    {Source::lining_slip, "lining_slip", "", 0, 1, 0, 0, 0},  // lost when a lining slips on rock, or its bond breaks
-    {Source::gravity_ramp, "gravity_ramp", "", 0, 0, 1, 0, 1},    // put in by gravity that grows
-    {Source::water_change, "water_change", "", 0, 0, 1, 0, 1},    // put in by a table on all faces that rises
+    {Source::friction, "friction", "", 0, 1, 0, 0, 0},      // lost to slip
+    {Source::lost_area, "lost_area", "", 0, 1, 0, 0, 0},    // lost when a joint under shear loses or gains area
+    {Source::dashpots, "dashpots", "", 0, 1, 0, 1, 0},      // lost to viscous damping
+    {Source::stiffening, "stiffening", "", 0, 1, 0, 0, 0},  // lost by shear springs that stiffened with stress under
+                                                            // their force; negative: gained
+    {Source::dilation, "dilation", "", 0, 1, 0, 0, 0},      // lost by normal springs as joints rise; negative: gained
+    {Source::irrecoverable_closure, "irrecoverable_closure", "", 0, 1, 0, 0, 0},  // lost by joints that stay closed
+    {Source::bolt_yield, "bolt_yield", "", 0, 1, 0, 0, 0},      // lost by bolts that yield, slip or break
+    {Source::lining_slip, "lining_slip", "", 0, 1, 0, 0, 0},    // lost when a lining slips on rock, or its bond breaks
+    {Source::gravity_ramp, "gravity_ramp", "", 0, 0, 1, 0, 1},  // put in by gravity that grows
+    {Source::water_change, "water_change", "", 0, 0, 1, 0, 1},  // put in by a table on all faces that rises
     {Source::stage_changes, "stage_changes", "", 0, 0, 0, 0, 1},  // put in by changes of the model between stages, and
                                                                   // when a motion is stopped to relax
 }};

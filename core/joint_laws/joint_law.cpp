@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/joint_laws/dilation.hpp"
+
 namespace voussoir {
 namespace {
 
@@ -27,9 +29,47 @@ bool falls_at_once(const JointProperties& p) {
   return p.softens_cohesion() && !(p.cohesion_slip > 0);
 }
 
+// of the maximum closure: beyond it a hyperbola continues along its tangent
+constexpr double end_of_hyperbola = 0.999;
+
+// A hyperbola σ = k Vm/(1 - ρ) (u - rest)/(Vm - u) from its rest, m, to the closure u: ρ of loading is none.
+NormalAnswer on_hyperbola(double stiffness, double maximum, double fraction, double rest, double u) {
+  const double scale = stiffness * maximum / (1 - fraction), left = maximum - u, from = maximum - rest, way = u - rest;
+  // from ln(from/left) - way = ∫ way/(from - way): by its series if the difference would cancel
+  const double part = way / from;
+  double sum = 0;
+  if (part > 0.03) {
+    sum = -std::log1p(-part) - part;
+  } else {
+    for (int n = 11; n >= 2; --n)
+      sum = (sum + 1.0 / n) * part;
+    sum *= part;
+  }
+  return {scale * way / left, scale * from / (left * left), scale * from * sum};
+}
+
+NormalAnswer hyperbolic_answer(const JointProperties& p, double u, double largest) {
+  const double last = end_of_hyperbola * p.maximum_closure, within = std::min(u, last);
+  const double fraction = p.irrecoverable_fraction;
+  largest = std::min(std::max(largest, within), last);
+  const double rest = fraction * largest;
+  if (fraction > 0 && u <= rest) return {0, p.normal_stiffness, 0};
+  NormalAnswer answer = on_hyperbola(p.normal_stiffness, p.maximum_closure, 0, 0, within);
+  if (fraction > 0) {
+    const NormalAnswer unloading = on_hyperbola(p.normal_stiffness, p.maximum_closure, fraction, rest, within);
+    answer.energy = unloading.energy;
+    if (within < largest) answer = unloading;
+  }
+  if (const double beyond = u - within; beyond > 0) {
+    answer.energy += (answer.stress + 0.5 * answer.stiffness * beyond) * beyond;
+    answer.stress += answer.stiffness * beyond;
+  }
+  return answer;
+}
+
 }  // namespace
 
-NormalAnswer normal_answer(const JointProperties& p, double overlap, bool bonded) {
+NormalAnswer normal_answer(const JointProperties& p, double overlap, bool bonded, double largest_closure) {
   const double u = overlap - offset(p), k = p.normal_stiffness;
   if (u <= 0 && !bonded) return {0, p.laws.normal == StiffnessLaw::power ? 0 : k, 0};
   if (u <= 0) return {k * u, k, 0.5 * k * u * u};  // a bond in tension is linear
@@ -41,13 +81,34 @@ NormalAnswer normal_answer(const JointProperties& p, double overlap, bool bonded
     const double rest = 1 - p.normal_exponent, stress = std::pow(rest * k * u, 1 / rest);
     return {stress, k * std::pow(stress, p.normal_exponent), stress * u * rest / (1 + rest)};
   }
+  if (p.laws.normal == StiffnessLaw::hyperbolic) return hyperbolic_answer(p, u, largest_closure);
   return {k * u, k, 0.5 * k * u * u};
+}
+
+double crushing_between(const JointProperties& p, double closure, double largest) {
+  if (!(p.irrecoverable_fraction > 0)) return 0;
+  const double last = end_of_hyperbola * p.maximum_closure;
+  const auto lost = [&](double u) {
+    if (!(u > 0)) return 0.0;
+    const double fraction = p.irrecoverable_fraction;
+    return on_hyperbola(p.normal_stiffness, p.maximum_closure, 0, 0, u).energy -
+           on_hyperbola(p.normal_stiffness, p.maximum_closure, fraction, fraction * u, u).energy;
+  };
+  return lost(std::min(largest, last)) - lost(std::min(closure, last));
+}
+
+double stiffest_normal(const JointProperties& p, double overlap) {
+  if (!(p.irrecoverable_fraction > 0)) return normal_answer(p, overlap, true).stiffness;
+  const double u = std::clamp(overlap, 0.0, end_of_hyperbola * p.maximum_closure);
+  return on_hyperbola(p.normal_stiffness, p.maximum_closure, p.irrecoverable_fraction, p.irrecoverable_fraction * u, u)
+      .stiffness;
 }
 
 double overlap_at(const JointProperties& p, double stress) {
   const double k = p.normal_stiffness;
   if (p.laws.normal == StiffnessLaw::linear)
     return offset(p) + std::log1p(p.normal_growth * stress / k) / p.normal_growth;
+  if (p.laws.normal == StiffnessLaw::hyperbolic) return stress * p.maximum_closure / (k * p.maximum_closure + stress);
   if (p.laws.normal == StiffnessLaw::power)
     return std::pow(stress, 1 - p.normal_exponent) / ((1 - p.normal_exponent) * k);
   return offset(p) + stress / k;
@@ -123,19 +184,80 @@ SlipReturn return_to_cone(const JointProperties& p, double friction, double plas
   return result;
 }
 
+namespace {
+
+// The place of a joint over a step: its rise and its normal stress as functions of the slip.
+template <int Dim>
+class Rising {
+ public:
+  Rising(const JointProperties& p, double overlap, double friction, double strength_factor,
+         const PlaceOfJoint<Dim>& place)
+      : p_(p), overlap_(overlap), place_(place) {
+    if (!changes()) return;
+    tangent_ = dilation_in_force(p, friction, strength_factor);
+    path_.across = length_of<Dim>(place_.rise->offset);
+  }
+
+  bool changes() const { return place_.rise && p_.dilates(); }
+
+  void turn_to(const Vector<Dim>& direction) {
+    const Vector<Dim>& offset = place_.rise->offset;
+    path_.along = offset.dot(direction);
+    path_.across = Dim == 2 ? 0 : length_of<Dim>(offset - path_.along * direction);
+  }
+
+  double rise_after(double slip) const { return rise_at(p_, tangent_, path_.length(slip)); }
+
+  double grown_after(double slip) const { return changes() ? rise_after(slip) - place_.rise->rise : 0; }
+
+  NormalAnswer normal_after(double slip, bool bonded) const {
+    return normal_answer(p_, overlap_ + grown_after(slip), bonded, place_.rise ? place_.rise->largest_closure : 0);
+  }
+
+  // what the rise adds to it, m/s
+  double closing_speed_after(double slip) const { return place_.seconds > 0 ? grown_after(slip) / place_.seconds : 0; }
+
+  const OffsetPath& path() const { return path_; }
+
+  // the place after the step, and what it cost; the offset has been moved
+  void settle(double slip, double stress, double area, JointForce<Dim>& result) const {
+    JointRise<Dim>& rise = *place_.rise;
+    const double grown = grown_after(slip), closure = overlap_ + grown;
+    result.grown = grown;
+    result.dilation = -0.5 * (rise.stress + stress) * area * grown;
+    if (p_.irrecoverable_fraction > 0 && closure > rise.largest_closure) {
+      result.crushing = area * crushing_between(p_, rise.largest_closure, closure);
+      rise.largest_closure = closure;
+    }
+    rise.rise += grown;
+    rise.stress = stress;
+  }
+
+ private:
+  const JointProperties& p_;
+  double overlap_, tangent_ = 0;
+  PlaceOfJoint<Dim> place_;
+  OffsetPath path_;  // before it is turned to a direction: of an offset across it
+};
+
+}  // namespace
+
 template <int Dim>
 JointForce<Dim> joint_law(const JointProperties& p, double friction, double dashpot,
-                          const JointKinematics<Dim>& kinematics, JointState<Dim>& history, double strength_factor) {
+                          const JointKinematics<Dim>& kinematics, JointState<Dim>& history, double strength_factor,
+                          PlaceOfJoint<Dim> place) {
   Vector<Dim>& shear = history.shear_force;
   const double area = kinematics.area;
   JointForce<Dim> result;
+  Rising<Dim> rising(p, kinematics.overlap, friction, strength_factor, place);
+  double slipped = 0;  // m, in this step
 
   // the normal force; a bond breaks when it is pulled beyond its strength, of which a slipped one has none
-  NormalAnswer normal = normal_answer(p, kinematics.overlap, history.bond == Bond::whole);
-  const double damping = dashpot * kinematics.closing_speed;
+  NormalAnswer normal = rising.normal_after(0, history.bond == Bond::whole);
+  double damping = dashpot * (kinematics.closing_speed + rising.closing_speed_after(0));
   if (history.bond == Bond::whole && normal.stress * area + damping < -p.tension * area) {
     history.bond = Bond::lost;
-    normal = normal_answer(p, kinematics.overlap, false);
+    normal = rising.normal_after(0, false);
   }
   const auto normal_force = [&] {
     const double force = normal.stress * area + damping;
@@ -167,14 +289,35 @@ JointForce<Dim> joint_law(const JointProperties& p, double friction, double dash
       const bool keeps = p.cohesion_law != CohesionLaw::brittle && p.cohesion > 0;
       history.bond = keeps ? Bond::slipped : Bond::lost;
       history.bond_slip = 0;
-      normal = normal_answer(p, kinematics.overlap, false);
+      normal = rising.normal_after(0, false);
       result.snap_back = keeps && falls_at_once(p);
       lose_if_open();
     }
     double limit = strength();  // after the bond's loss; hardening may leave no slip
     if (stiffness > 0 && trial > limit) {
-      const SlipReturn back = return_to_cone(p, friction, history.plastic_slip, trial, stiffness, normal_force(),
-                                             normal.stress, strength_factor, {area, history.bond, history.bond_slip});
+      SlipReturn back;
+      if (rising.changes()) {
+        rising.turn_to(shear / trial);
+        const auto strength_after = [&](double slip) {
+          const NormalAnswer then = rising.normal_after(slip, false);
+          const double pressed = std::max(
+              then.stress * area + dashpot * (kinematics.closing_speed + rising.closing_speed_after(slip)), 0.0);
+          return area * cohesion_answer(p, history.bond, history.bond_slip + slip, strength_factor).stress +
+                 friction_answer(p, friction, history.plastic_slip + slip, then.stress, strength_factor).coefficient *
+                     pressed;
+        };
+        back.slip = first_slip(p, rising.path(), trial / stiffness,
+                               [&](double slip) { return trial - stiffness * slip - strength_after(slip); });
+        back.snap_back = rising.path().along < 0 &&
+                         strength_after(0) - strength_after(0.5 * back.slip) > 0.5 * stiffness * back.slip;
+        slipped = back.slip;
+        place.rise->offset += slipped * (shear / trial);
+        normal = rising.normal_after(slipped, false);
+        damping = dashpot * (kinematics.closing_speed + rising.closing_speed_after(slipped));
+      } else {
+        back = return_to_cone(p, friction, history.plastic_slip, trial, stiffness, normal_force(), normal.stress,
+                              strength_factor, {area, history.bond, history.bond_slip});
+      }
       result.plastic_slip = back.slip;
       result.snap_back = result.snap_back || back.snap_back;
       history.plastic_slip += back.slip;
@@ -189,12 +332,15 @@ JointForce<Dim> joint_law(const JointProperties& p, double friction, double dash
   result.dashpot = normal_force() - normal.stress * area;
   result.elastic = normal.energy * area + 0.5 * normal.stiffness * area * kinematics.overlap_variance;
   if (stiffness > 0) result.elastic += 0.5 * shear.squaredNorm() / stiffness;
+  if (place.rise) rising.settle(slipped, normal.stress, area, result);
   return result;
 }
 
-template JointForce<2> joint_law<2>(const JointProperties&, double, double, const JointKinematics<2>&, JointState<2>&,
-                                    double);
-template JointForce<3> joint_law<3>(const JointProperties&, double, double, const JointKinematics<3>&, JointState<3>&,
-                                    double);
+#define VOUSSOIR_INSTANTIATE(Dim)                                                                              \
+  template JointForce<Dim> joint_law<Dim>(const JointProperties&, double, double, const JointKinematics<Dim>&, \
+                                          JointState<Dim>&, double, PlaceOfJoint<Dim>);
+VOUSSOIR_INSTANTIATE(2)
+VOUSSOIR_INSTANTIATE(3)
+#undef VOUSSOIR_INSTANTIATE
 
 }  // namespace voussoir

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "core/joint_laws/elastic_coulomb.hpp"
+#include "core/joint_laws/joint_rise.hpp"
 #include "core/joint_laws/joint_state.hpp"
 
 namespace voussoir {
@@ -20,7 +21,17 @@ struct NormalAnswer {
 //   constant  σ = kn u
 //   linear    σ = (k0/c)(e^(c u) - 1)                 integral of dσ/du = k0 + c σ        (Eqs 4.10, 4.12, 4.14)
 //   power     σ = ((1-m) k1 u)^(1/(1-m))              integral of dσ/du = k1 (σ/1 Pa)^m   (Eq. 4.13)
-NormalAnswer normal_answer(const JointProperties& properties, double overlap, bool bonded);
+//   hyperbolic  σ = ki u/(1 - u/Vm)                   Bandis, Lumsden & Barton (1983)
+// Below the largest closure so far, m, of which a fraction ρ is irrecoverable, a hyperbolic law unloads and reloads
+// along σ = ki Vm/(1 - ρ) (u - ρ u_max)/(Vm - u), the hyperbola with the same limit through (ρ u_max, 0) and the point
+// of unloading. Beyond 0.999 Vm both continue along the tangent of loading, so that every overlap has a stress.
+NormalAnswer normal_answer(const JointProperties& properties, double overlap, bool bonded, double largest_closure = 0);
+
+// J/m²: lost for ever by a closure whose largest so far grows from one value to another, m
+double crushing_between(const JointProperties& properties, double closure, double largest);
+
+// the largest stiffness of a joint closed by `overlap`, loading or unloading, Pa/m
+double stiffest_normal(const JointProperties& properties, double overlap);
 
 // the overlap, m, at a compressive stress, Pa
 double overlap_at(const JointProperties& properties, double stress);
@@ -64,10 +75,20 @@ SlipReturn return_to_cone(const JointProperties& properties, double friction, do
                           double stiffness, double normal_force, double stress, double strength_factor = 1,
                           const Adhesion& adhesion = {});
 
+// The place of a joint that remembers one, with the length of the step, s, over which its rise adds to the closing
+// speed; 0: it has no speed.
+template <int Dim>
+struct PlaceOfJoint {
+  JointRise<Dim>* rise = nullptr;
+  double seconds = 0;
+};
+
 // As elastic_coulomb, for a joint with any laws; stiffness per area only. It updates the history's shear force, plastic
-// slip, shear stiffness and bond.
+// slip, shear stiffness and bond. A joint that remembers its place has it in `place`, whose offset has been rotated to
+// the new plane; its overlap is the closure of its spring, that of the bodies and the rise before the step.
 template <int Dim>
 JointForce<Dim> joint_law(const JointProperties& properties, double friction, double dashpot,
-                          const JointKinematics<Dim>& kinematics, JointState<Dim>& history, double strength_factor = 1);
+                          const JointKinematics<Dim>& kinematics, JointState<Dim>& history, double strength_factor = 1,
+                          PlaceOfJoint<Dim> place = {});
 
 }  // namespace voussoir

@@ -1,6 +1,7 @@
 // The properties of a joint: the parameters of its laws (joint_law.hpp, elastic_coulomb.hpp).
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <string>
@@ -10,8 +11,9 @@ namespace voussoir {
 // how a stiffness depends on the normal stress σ
 enum class StiffnessLaw : unsigned char {
   constant,
-  linear,  // kn = normal_stiffness + normal_growth σ, ks = shear_stiffness + shear_growth σ
-  power    // kn = normal_stiffness (σ / 1 Pa)^normal_exponent, ks = shear_stiffness (σ / 1 Pa)^shear_exponent
+  linear,      // kn = normal_stiffness + normal_growth σ, ks = shear_stiffness + shear_growth σ
+  hyperbolic,  // normal only: kn = normal_stiffness (1 + σ/(normal_stiffness maximum_closure))²
+  power        // kn = normal_stiffness (σ / 1 Pa)^normal_exponent, ks = shear_stiffness (σ / 1 Pa)^shear_exponent
 };
 
 // how the friction coefficient depends on the plastic slip β
@@ -19,6 +21,13 @@ enum class FrictionLaw : unsigned char {
   constant,
   hardening,  // tan φ (1 - e^(-β/u)), u = hardening_slip (σ / 1 Pa)^hardening_exponent
   softening   // tan φ - softening_drop (1 - e^(-β/softening_slip))
+};
+
+// how the rise of a joint depends on the distance r by which it has slipped from where it was mated
+enum class DilationLaw : unsigned char {
+  none,
+  constant,  // tan ψ min(r, dilation_until)
+  falling    // tan ψ dilation_decay (1 - e^(-r/dilation_decay))
 };
 
 // how cohesion depends on the plastic slip β since the bond was made, while the joint stays closed
@@ -39,12 +48,14 @@ struct JointLaws {
   StiffnessLaw normal = StiffnessLaw::constant, shear = StiffnessLaw::constant;
   FrictionLaw friction = FrictionLaw::constant;
   bool bond = false;  // strength in tension, cohesion or both, of bonds
+  DilationLaw dilation = DilationLaw::none;
+  std::array<unsigned char, 3> unused{};  // none of its bytes is undefined
 
   bool depends_on_stress() const { return normal != StiffnessLaw::constant || shear != StiffnessLaw::constant; }
 
-  // Linear springs, constant friction, no bond: elastic_coulomb applies. Checked for every contact in every step, so
-  // the four are compared together.
-  bool is_plain() const { return std::bit_cast<std::uint32_t>(*this) == 0; }
+  // Linear springs, constant friction, no bond, no dilation: elastic_coulomb applies. Checked for every contact in
+  // every step, so all are compared together.
+  bool is_plain() const { return std::bit_cast<std::uint64_t>(*this) == 0; }
 };
 
 struct JointProperties {
@@ -63,12 +74,21 @@ struct JointProperties {
   double normal_exponent = 0, shear_exponent = 0;     // 0 < . < 1
   double hardening_slip = 0, hardening_exponent = 0;  // m at 1 Pa; 1
   double softening_drop = 0, softening_slip = 0;      // 1; m
+  double maximum_closure = 0;                         // m: at which a hyperbolic law's stress is without limit
+  double irrecoverable_fraction = 0;                  // of its largest closure, 0 <= . < 1
+  double dilation = 0;                                // rad, ψ
+  double dilation_until = 0, dilation_decay = 0;      // m
   double tension = 0, cohesion = 0;                   // Pa
   CohesionLaw cohesion_law = CohesionLaw::brittle;
   double residual_cohesion = 0, cohesion_slip = 0;  // Pa, 0 to cohesion; m, 0: at once
   BondsMade bonds = BondsMade::by_stage;
 
   bool bonds_as_sliced() const { return laws.bond && bonds == BondsMade::as_sliced; }
+
+  bool dilates() const { return laws.dilation != DilationLaw::none; }
+
+  // whether it has a JointRise beside its JointState
+  bool remembers_place() const { return dilates() || irrecoverable_fraction > 0; }
 
   bool softens_cohesion() const {
     return cohesion_law == CohesionLaw::softening && laws.bond && residual_cohesion < cohesion;

@@ -101,8 +101,12 @@ std::vector<std::string> notes_on(const Prepared<Dim>& prepared, const Model<Dim
     for (const bool free : body.free_translation)
       restrained |= !free;
   }
-  for (const JointProperties& joint : model.properties)
+  bool dilates = false;
+  for (const JointProperties& joint : model.properties) {
     softens |= joint.laws.friction == FrictionLaw::softening;
+    dilates |= joint.dilates();
+  }
+  if (dilates) notes.push_back("dilation of joints is not counted: blocks are judged before any slip");
   if (restrained) notes.push_back("restrained translations are not counted: such a block is judged as if it were free");
   if (softens) notes.push_back("friction that softens with slip is that before any slip");
   if (!fixed)

@@ -8,6 +8,7 @@
 #include "core/contact/contact.hpp"
 #include "core/contact/integrated_contact.hpp"
 #include "core/geometry/types.hpp"
+#include "core/joint_laws/joint_rise.hpp"
 #include "core/model/model.hpp"
 
 namespace voussoir {
@@ -31,6 +32,8 @@ template <int Dim>
 struct ContactsState {
   std::vector<Contact<Dim>> list;     // candidate pairs by (part a, part b); those that touch have a history
   std::vector<SubContact<Dim>> subs;  // as many places for each contact, in their order; none if no joint has any
+  std::vector<JointRise<Dim>> rises;  // of each contact, or of each of its sub-contacts; none if no joint remembers
+                                      // its place
   std::vector<IntegratedContact<Dim>>
       faces;                            // by contact, of the integrated ones; found every step; none if no joint is
   ContactsByBody by_body;               // places in `list`; rebuilt with it
@@ -48,6 +51,22 @@ template <class AnyContacts>
 auto subs_of(AnyContacts& contacts, std::size_t place) {
   const std::size_t stride = sub_stride(contacts);
   return std::span(contacts.subs).subspan(place * stride, std::min<std::size_t>(stride, contacts.list[place].cells));
+}
+
+// The places of a contact's joint, one for its own point or for each of its sub-contacts; none if no joint has any.
+template <class AnyContacts>
+auto rises_of(AnyContacts& contacts, std::size_t place) {
+  const std::size_t count = contacts.rises.empty() ? 0 : contacts.rises.size() / contacts.list.size();
+  return std::span(contacts.rises).subspan(place * count, count);
+}
+
+// the highest of a contact's points; none if it has not risen
+template <int Dim>
+const JointRise<Dim>* highest(std::span<const JointRise<Dim>> rises) {
+  if (rises.empty()) [[likely]]
+    return nullptr;
+  const JointRise<Dim>& most = *std::ranges::max_element(rises, {}, &JointRise<Dim>::rise);
+  return most.rise > 0 ? &most : nullptr;
 }
 
 struct Bonds {

@@ -68,6 +68,11 @@ void visit_fields(Either<JointState> auto& j, auto&& visit) {
   visit(Saved{}, dashpot, area, polar);
 }
 
+void visit_fields(Either<JointRise> auto& j, auto&& visit) {
+  auto& [offset, normal, rise, stress, largest_closure] = j;
+  visit(Hashed{}, offset, normal, rise, stress, largest_closure);
+}
+
 void visit_fields(Either<Proof> auto& p, auto&& visit) {
   auto& [kind, margin, point, axis, tangent, support, basis, section, section_size] = p;
   visit(Saved{}, kind, margin, point, axis, tangent, support, basis, section, section_size);
@@ -89,8 +94,8 @@ void visit_fields(Either<SubContact> auto& s, auto&& visit) {
 }
 
 void visit_fields(Either<ContactsState> auto& c, auto&& visit) {
-  auto& [list, subs, faces, by_body, loads] = c;
-  visit(Hashed{}, list, subs);
+  auto& [list, subs, rises, faces, by_body, loads] = c;
+  visit(Hashed{}, list, subs, rises);
   visit(Found{}, faces, by_body, loads);
 }
 
@@ -226,8 +231,8 @@ void visit_fields(Either<ContactHistory> auto& c, auto&& visit) {
 }
 
 void visit_fields(Either<JointHistories> auto& h, auto&& visit) {
-  auto& [contacts, subs] = h;
-  visit(Saved{}, contacts, subs);
+  auto& [contacts, subs, rises] = h;
+  visit(Saved{}, contacts, subs, rises);
 }
 
 void visit_fields(Either<StaticBase> auto& b, auto&& visit) {

@@ -15,6 +15,7 @@ JointHistories<Dim> histories_of(const ContactsState<Dim>& contacts) {
   histories.subs.reserve(contacts.subs.size());
   for (const SubContact<Dim>& s : contacts.subs)
     histories.subs.push_back(s.history);
+  histories.rises = contacts.rises;
   return histories;
 }
 
@@ -29,6 +30,7 @@ void set_histories(const JointHistories<Dim>& histories, ContactsState<Dim>& con
   }
   for (std::size_t i = 0; i < histories.subs.size(); ++i)
     contacts.subs[i].history = histories.subs[i];
+  contacts.rises = histories.rises;
 }
 
 template <int Dim>
@@ -36,8 +38,10 @@ std::vector<int> follow_list(const ContactsState<Dim>& contacts, JointHistories<
   const JointHistories<Dim> old = std::move(histories);
   const std::size_t cells = old.contacts.empty() ? 0 : old.subs.size() / old.contacts.size();
   const std::size_t stride = sub_stride(contacts);
+  const std::size_t rises = old.contacts.empty() ? 0 : old.rises.size() / old.contacts.size();
   histories.contacts.assign(contacts.list.size(), {});
   histories.subs.assign(contacts.subs.size(), {});
+  histories.rises.assign(contacts.rises.size(), {});
   std::vector<int> places(old.contacts.size(), -1);
   std::size_t from = 0;
   for (std::size_t i = 0; i < contacts.list.size(); ++i) {  // both lists ascend
@@ -50,6 +54,8 @@ std::vector<int> follow_list(const ContactsState<Dim>& contacts, JointHistories<
     histories.contacts[i] = old.contacts[from];
     for (std::size_t k = 0; k < std::min(cells, stride); ++k)
       histories.subs[i * stride + k] = old.subs[from * cells + k];
+    for (std::size_t k = 0; k < rises; ++k)
+      histories.rises[i * rises + k] = old.rises[from * rises + k];
     places[from] = static_cast<int>(i);
   }
   return places;

@@ -23,6 +23,7 @@ template <int Dim>
 struct JointHistories {
   std::vector<ContactHistory<Dim>> contacts;  // in the order of ContactsState::list
   std::vector<JointState<Dim>> subs;          // as many places for each contact
+  std::vector<JointRise<Dim>> rises;          // likewise
 };
 
 // the places of a contact's sub-contacts
@@ -30,6 +31,13 @@ template <int Dim>
 std::span<const JointState<Dim>> subs_of(const JointHistories<Dim>& histories, int contact) {
   const std::size_t stride = histories.contacts.empty() ? 0 : histories.subs.size() / histories.contacts.size();
   return std::span(histories.subs).subspan(contact * stride, stride);
+}
+
+// the places of a contact's joint, as ContactsState::rises has them
+template <int Dim>
+std::span<const JointRise<Dim>> rises_of(const JointHistories<Dim>& histories, int contact) {
+  const std::size_t count = histories.contacts.empty() ? 0 : histories.rises.size() / histories.contacts.size();
+  return std::span(histories.rises).subspan(contact * count, count);
 }
 
 template <int Dim>

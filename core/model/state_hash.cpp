@@ -53,6 +53,10 @@ void add_contact(const ContactsState<Dim>& contacts, std::size_t place, Bytes& b
     bytes.add(c.part_a);
     bytes.add(c.part_b);
   }
+  const std::span<const JointRise<Dim>> rises = rises_of(contacts, place);
+  if (c.touching() || highest(rises) != nullptr)  // a rise is kept beyond the loss of contact
+    for (const JointRise<Dim>& rise : rises)
+      bytes.add(rise);
   if (!c.touching()) return;
   bytes.add(c);
   for (const SubContact<Dim>& s : subs_of(contacts, place))

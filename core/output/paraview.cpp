@@ -196,7 +196,7 @@ PolyData contact_points(const Model<Dim>& model, const State<Dim>& state, double
   DataArray body_a{"body_a", 1, true, {}}, body_b{"body_b", 1, true, {}}, joint{"joint", 1, true, {}},
       properties{"properties", 1, true, {}}, normal{"normal", 3, false, {}}, force{"force", 3, false, {}},
       overlap{"overlap", 1, false, {}}, area{"area", 1, false, {}}, slip{"plastic_slip", 1, false, {}},
-      bond{"bonded", 1, true, {}}, mobilised{"mobilised_friction_deg", 1, false, {}};
+      bond{"bonded", 1, true, {}}, mobilised{"mobilised_friction_deg", 1, false, {}}, rise{"rise", 1, false, {}};
   for (std::size_t i = 0; i < state.contacts.list.size(); ++i) {
     const Contact<Dim>& contact = state.contacts.list[i];
     if (!contact.touching()) continue;
@@ -205,7 +205,7 @@ PolyData contact_points(const Model<Dim>& model, const State<Dim>& state, double
     // the contact's geometry is relative to the centroid of its first body
     const Vector<Dim> centroid = model.bodies[a].reference + state.bodies.motions[a].displacement;
     const auto add = [&](const Vector<Dim>& point, const Vector<Dim>& carried, double closed, double wide,
-                         const JointState<Dim>& history) {
+                         const JointState<Dim>& history, std::size_t place) {
       data.cells.push_back({static_cast<int>(data.points.size())});
       data.points.push_back(in_space(Vector<Dim>(model.origin + (centroid + point))));
       body_a.values.push_back(a);
@@ -219,13 +219,16 @@ PolyData contact_points(const Model<Dim>& model, const State<Dim>& state, double
       slip.values.push_back(history.plastic_slip);
       bond.values.push_back(static_cast<int>(history.bond));
       mobilised.values.push_back(mobilised_friction<Dim>(carried, contact.geometry.normal, history.shear_force));
+      if (const auto rises = rises_of(state.contacts, i); !rises.empty()) rise.values.push_back(rises[place].rise);
     };
     if (contact.cells == 0)
-      add(contact.geometry.point, contact.force, contact.geometry.overlap, contact.geometry.area, contact.history);
-    for (const SubContact<Dim>& s : subs_of(state.contacts, i))
-      if (s.area > 0) add(s.point, s.force, s.overlap, s.area, s.history);
+      add(contact.geometry.point, contact.force, contact.geometry.overlap, contact.geometry.area, contact.history, 0);
+    const std::span<const SubContact<Dim>> cells = subs_of(state.contacts, i);
+    for (std::size_t k = 0; k < cells.size(); ++k)
+      if (const SubContact<Dim>& s = cells[k]; s.area > 0) add(s.point, s.force, s.overlap, s.area, s.history, k);
   }
   data.point_data = {body_a, body_b, joint, properties, normal, force, overlap, area, slip, bond, mobilised};
+  if (!state.contacts.rises.empty()) data.point_data.push_back(rise);
   data.names = {{"joint_names", names_of(model.joints)}, {"property_names", names_of(model.properties)}};
   return data;
 }

@@ -32,7 +32,8 @@ void carry_motions(const Model<Dim>& before, const Model<Dim>& model, const Exca
 
 // a contact seen from its other body
 template <int Dim>
-void turn_round(const Model<Dim>& model, Contact<Dim>& c, std::span<SubContact<Dim>> subs) {
+void turn_round(const Model<Dim>& model, Contact<Dim>& c, std::span<SubContact<Dim>> subs,
+                std::span<JointRise<Dim>> rises) {
   const auto reverse = [](JointState<Dim>& history) {
     history.shear_force = -history.shear_force;
     history.normal = -history.normal;
@@ -50,6 +51,10 @@ void turn_round(const Model<Dim>& model, Contact<Dim>& c, std::span<SubContact<D
   for (SubContact<Dim>& s : subs) {
     s.force = -s.force;
     reverse(s.history);
+  }
+  for (JointRise<Dim>& rise : rises) {
+    rise.offset = -rise.offset;
+    rise.normal = -rise.normal;
   }
 }
 
@@ -71,6 +76,7 @@ void carry_contacts(const Model<Dim>& before, const Model<Dim>& model, const Exc
 
   std::vector<Contact<Dim>> list;
   std::vector<SubContact<Dim>> subs(order.size() * stride);
+  std::vector<JointRise<Dim>> rises;
   for (const auto& [a, b, from] : order) {
     Contact<Dim> c = contacts.list[from];
     const std::span<SubContact<Dim>> cells = std::span(subs).subspan(list.size() * stride, stride);
@@ -79,7 +85,8 @@ void carry_contacts(const Model<Dim>& before, const Model<Dim>& model, const Exc
     const bool turned = moved.part[c.part_a] != a;
     c.part_a = moved.part[c.part_a];
     c.part_b = moved.part[c.part_b];
-    if (turned) turn_round(model, c, cells);
+    std::ranges::copy(rises_of(contacts, from), std::back_inserter(rises));
+    if (turned) turn_round(model, c, cells, std::span(rises).last(rises_of(contacts, from).size()));
     // points are relative to the first body's centroid
     const Vector<Dim> shift =
         (model.bodies[is].reference - before.bodies[was].reference) + (now[is].displacement - then[was].displacement);
@@ -95,6 +102,7 @@ void carry_contacts(const Model<Dim>& before, const Model<Dim>& model, const Exc
   }
   contacts.list = std::move(list);
   contacts.subs = std::move(subs);
+  contacts.rises = std::move(rises);
 }
 
 template <int Dim>

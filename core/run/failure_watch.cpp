@@ -268,6 +268,8 @@ std::string not_watched(const Model<Dim>& model, const ReducePlan& plan, const S
   for (const JointProperties& joint : model.properties)
     if (joint.laws.friction != FrictionLaw::constant) return "friction depends on the slip";
   for (const JointProperties& joint : model.properties)
+    if (joint.remembers_place()) return "the normal stress depends on the slip or on the largest closure";
+  for (const JointProperties& joint : model.properties)
     if (joint.softens_cohesion()) return "cohesion depends on the slip";
   return {};
 }

@@ -50,6 +50,8 @@ INSTANTIATE_TEST_SUITE_P(
                     none("tension", "tension = 1e5\n", "which is lost point by point"),
                     none("law_of_stress", "normal_law = \"linear\"\nnormal_growth = 1e4\n",
                          "depends on stress or slip"),
+                    none("dilation", "dilation_law = \"falling\"\ndilation_deg = 8\ndilation_decay_m = 0.01\n",
+                         "rock dilates, by a rise that varies"),
                     none("softening", "friction_law = \"softening\"\nsoftening_drop = 0.1\nsoftening_slip_m = 0.01\n",
                          "would change nothing")),
     by_name);

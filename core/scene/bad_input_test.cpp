@@ -280,7 +280,21 @@ INSTANTIATE_TEST_SUITE_P(
                  "joint_properties.rock.tension = 1e+05", "no stiffness without stress"},
         BadInput{"softer_than_nothing", "friction_deg = 40",
                  "friction_deg = 40\nfriction_law = \"softening\"\nsoftening_slip_m = 0.1\nsoftening_drop = 0.9 #!",
-                 "joint_properties.rock.softening_drop = 0.9", "0.8391"}),
+                 "joint_properties.rock.softening_drop = 0.9", "0.8391"},
+        BadInput{"tension_of_a_hyperbola", "friction_deg = 40",
+                 "friction_deg = 40\nnormal_law = \"hyperbolic\"\nmaximum_closure_m = 2e-4\ntension = 1e5 #!",
+                 "joint_properties.rock.tension = 1e+05", "has no tension"},
+        BadInput{"dilates_more_than_it_rubs", "friction_deg = 40",
+                 "friction_deg = 40\ndilation_law = \"falling\"\ndilation_decay_m = 0.01\ndilation_deg = 41 #!",
+                 "joint_properties.rock.dilation_deg = 41", "the friction angle, 40 degrees"},
+        BadInput{"dilates_more_than_softening_leaves", "friction_deg = 40",
+                 "friction_deg = 40\nfriction_law = \"softening\"\nsoftening_slip_m = 0.1\nsoftening_drop = 0.7\n"
+                 "dilation_law = \"falling\"\ndilation_decay_m = 0.01\ndilation_deg = 10 #!",
+                 "joint_properties.rock.dilation_deg = 10", "that softening leaves, 7.922 degrees"},
+        BadInput{"dilates_before_it_rubs", "friction_deg = 40",
+                 "friction_deg = 40\nfriction_law = \"hardening\"\nhardening_slip_m = 1e-6\ndilation_deg = 8\n"
+                 "dilation_decay_m = 0.01\ndilation_law = \"falling\" #!",
+                 "joint_properties.rock.dilation_law", "zero before any slip"}),
     by_name);
 
 struct BadOverride {

@@ -47,6 +47,9 @@ int interface_of(const Model<Dim>& model, const LiningSpec& spec) {
       refuse(spec.subject, "joint_properties",
              "has a stiffness that depends on stress, but a lining's interface needs a constant one; give it "
              "properties of its own");
+    if (properties.dilates())
+      refuse(spec.subject, "joint_properties",
+             "dilates, which a lining's interface does not; give it properties of its own");
     return static_cast<int>(p);
   }
   refuse(spec.subject, "joint_properties",

@@ -23,9 +23,27 @@
 #include "core/scene/scene_text.hpp"
 #include "core/scene/support_table.hpp"
 #include "core/scene/toml_text.hpp"
+#include "text/angle.hpp"
 
 namespace voussoir {
 namespace {
+
+// A dilation above the friction would give back more energy than slip takes: its heat would be negative.
+void check_dilation(const Subject& item, const JointProperties& p) {
+  if (!p.dilates()) return;
+  if (p.laws.friction == FrictionLaw::hardening)
+    refuse(item, "dilation_law",
+           "friction that hardens is zero before any slip, less than any dilation, and slip would make energy; use "
+           "constant or softening friction");
+  const bool softens = p.laws.friction == FrictionLaw::softening;
+  const double left = std::tan(p.friction) - (softens ? p.softening_drop : 0);
+  if (std::tan(p.dilation) > left && p.softening_drop <= std::tan(p.friction))
+    refuse(
+        item, "dilation_deg",
+        fmt::format("exceeds the friction angle{}, {:.4g} degrees: slip would make energy; friction_deg is the total "
+                    "peak angle, dilation included, so give a dilation of at most that",
+                    softens ? " that softening leaves" : "", to_degrees(std::atan(left))));
+}
 
 void check_laws(const Subject& item, const JointProperties& p) {
   if (p.constant_stiffness && !p.laws.is_plain())
@@ -35,6 +53,9 @@ void check_laws(const Subject& item, const JointProperties& p) {
            "cohesion");
   if (p.laws.normal == StiffnessLaw::power && p.tension > 0)
     refuse(item, "tension", "a power law has no stiffness without stress; use the linear or the constant law");
+  if (p.laws.normal == StiffnessLaw::hyperbolic && p.tension > 0)
+    refuse(item, "tension", "a hyperbolic law has no tension; use the linear or the constant law");
+  check_dilation(item, p);
   if (p.residual_cohesion > p.cohesion)
     refuse(item, "residual_cohesion",
            fmt::format("exceeds cohesion = {:.4g} Pa, of which it is the part that slip leaves", p.cohesion));
@@ -48,6 +69,7 @@ void check_laws(const Subject& item, const JointProperties& p) {
 std::string why_by_points(const JointProperties& p) {
   if (p.constant_stiffness) return "has constant_stiffness, which is independent of the area";
   if (p.laws.bond) return "has tension or cohesion, which is lost point by point";
+  if (p.dilates()) return "dilates, by a rise that varies over the face";
   return "has a law that depends on stress or slip, which vary over the face";
 }
 

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
+#include <utility>
 
 #include "core/base/on_threads.hpp"
 #include "core/contact/integrable.hpp"
 #include "core/contact/narrow_phase.hpp"
 #include "core/contact/rounding.hpp"
 #include "core/contact/sub_contacts.hpp"
+#include "core/step/flight.hpp"
 #include "core/step/neighbours.hpp"
 
 namespace voussoir {
@@ -63,6 +66,49 @@ void set_apart(Contact<Dim>& contact) {
   forget(contact);
 }
 
+// nor is the place of its joint
+template <int Dim>
+void forget_place(ContactsState<Dim>& contacts, std::size_t place) {
+  std::ranges::fill(rises_of(contacts, place), JointRise<Dim>{});
+}
+
+// m: by how far the parts of a pair are separated along a direction, that of `axes`; without vertices as far as can be
+template <int Dim>
+double gap_along(const Pair<Dim>& pair, const Vector<Dim>& direction) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const Vector<Dim> of_a = pair.axes.transpose() * direction, of_b = pair.rotation.transpose() * of_a;
+  double high = -infinity, low = infinity;
+  for (const Vector<Dim>& v : pair.a->vertices)
+    high = std::max(high, of_a.dot(v));
+  for (const Vector<Dim>& v : pair.b->vertices)
+    low = std::min(low, of_b.dot(v));
+  return low < infinity ? low + of_a.dot(pair.offset) - high : infinity;
+}
+
+// Whether a joint that has parted keeps the place to which it had slipped: while its block flies no higher above the
+// risen plane than the joint has risen. The pair has been drawn together by that rise.
+template <int Dim>
+bool keeps_place(const Contact<Dim>& c, const Pair<Dim>& pair, std::span<const JointRise<Dim>> rises) {
+  const JointRise<Dim>* const rise = highest(rises);
+  return rise && c.status == ContactStatus::separated && gap_along<Dim>(pair, rise->normal) <= rise->rise;
+}
+
+// Sub-contacts of which the face was divided anew, or that do not touch, are where the highest of them is.
+template <int Dim>
+void follow_cells(int divided_before, std::size_t place, ContactsState<Dim>& contacts) {
+  const std::span<JointRise<Dim>> rises = rises_of(contacts, place);
+  const std::span<const SubContact<Dim>> cells = subs_of(std::as_const(contacts), place);
+  const JointRise<Dim>* const most = highest<Dim>(rises);
+  if (!most) return;
+  const JointRise<Dim> risen = *most;
+  const bool anew = divided_before >= 0 && contacts.list[place].divided_face != divided_before;
+  for (std::size_t k = 0; k < std::min(cells.size(), rises.size()); ++k) {
+    if (!anew && cells[k].area > 0) continue;
+    rises[k] = risen;
+    rises[k].stress = 0;
+  }
+}
+
 // the cost of some contacts, and the number of those without a result
 struct Tally {
   KernelCounters kernel;
@@ -80,9 +126,11 @@ struct PendingPairs {
   std::array<Contact<Dim>*, pairs_together> all;
 
   void add(const Model<Dim>& model, const Settings& settings, const BodiesState<Dim>& bodies, QueryLevel level,
-           ContactsState<Dim>& candidates, Contact<Dim>& c, KernelCounters& counters) {
+           double drawn, ContactsState<Dim>& candidates, Contact<Dim>& c, KernelCounters& counters) {
     Pair<Dim>& pair = pairs[count];
     set_pair(model, bodies, c.part_a, c.part_b, level, pair);
+    if (drawn > 0) [[unlikely]]
+      draw_together<Dim>(drawn, drawn_along<Dim>(rises_of(candidates, &c - candidates.list.data())), pair);
     all[looked_at++] = &c;
     if (c.touching() && is_integrated(settings.contact, model.properties[c.properties])) [[unlikely]] {
       if (integrate_as_before<Dim>(pair, c, candidates.faces[&c - candidates.list.data()])) {
@@ -108,6 +156,7 @@ void resolve(const Model<Dim>& model, const Settings& settings, const BodiesStat
     Contact<Dim>* const c = resolved[i];
     const std::size_t place = c - contacts.list.data();
     const long long bonds = c->bond_due ? bonds_of(contacts, place).held() : 0;
+    const int divided = c->divided_face;
     if (c->touching()) {
       const bool whole = choose_joint(model, settings.contact, pending.pairs[i], *c, planes);
       const int along = model.properties[c->properties].sub_contacts;
@@ -119,6 +168,8 @@ void resolve(const Model<Dim>& model, const Settings& settings, const BodiesStat
         }
       } else if (const int cells = sub_contact_count<Dim>(along); cells > 0) {
         divide<Dim>(pending.pairs[i], along, *c, std::span(contacts.subs).subspan(place * stride, cells));
+        if (!contacts.rises.empty()) [[unlikely]]
+          follow_cells(divided, place, contacts);
       } else {
         c->cells = 0;
       }
@@ -127,6 +178,14 @@ void resolve(const Model<Dim>& model, const Settings& settings, const BodiesStat
     }
     if (c->unanswered()) ++tally.unconverged;
     if (bonds > 0 || (c->status == ContactStatus::separated && c->proof.margin > gap)) c->bond_due = false;
+    if (!contacts.rises.empty()) [[unlikely]] {
+      if (keeps_place<Dim>(*c, pending.pairs[i], rises_of(std::as_const(contacts), place))) {
+        forget(*c);
+        c->free_until = 0;
+        continue;
+      }
+      forget_place(contacts, place);
+    }
     if (pending.touched[i]) {
       c->near_until = 0;  // only its boxes were compared
       if (!is_near(model, bodies, gap, *c)) {
@@ -142,7 +201,7 @@ void resolve(const Model<Dim>& model, const Settings& settings, const BodiesStat
 
 // the contacts of one group
 template <int Dim>
-void find_contacts_of(const Model<Dim>& model, const Settings& settings, const BodiesState<Dim>& bodies,
+void find_contacts_of(const Model<Dim>& model, const Settings& settings, double seconds, const BodiesState<Dim>& bodies,
                       QueryLevel level, double gap, int group, const FoundContacts<Dim>& found,
                       ContactsState<Dim>& contacts, Tally& tally) {
   static thread_local PendingPairs<Dim> pending;
@@ -155,7 +214,11 @@ void find_contacts_of(const Model<Dim>& model, const Settings& settings, const B
   for (std::size_t i = first; i < last; ++i) {
     Contact<Dim>& c = contacts.list[i];
     contacts.loads[i].second = -1;
-    if (!is_near(model, bodies, gap, c)) {
+    double drawn = 0;
+    if (!contacts.rises.empty()) [[unlikely]]
+      drawn = drawn_by<Dim>(model, bodies, c, rises_of(contacts, i), seconds);
+    if (!is_near(model, bodies, gap, c, drawn)) {
+      forget_place(contacts, i);
       if (c.bond_due && bonds_of(contacts, i).held() > 0) c.bond_due = false;  // broken, not to be made again
       set_apart(c);
       continue;
@@ -164,7 +227,7 @@ void find_contacts_of(const Model<Dim>& model, const Settings& settings, const B
       ++tally.kernel.motion_skips;
       continue;
     }
-    pending.add(model, settings, bodies, level, contacts, c, tally.kernel);
+    pending.add(model, settings, bodies, level, drawn, contacts, c, tally.kernel);
     if (pending.looked_at == pairs_together) resolve_waiting();
   }
   if (pending.looked_at > 0) resolve_waiting();
@@ -189,7 +252,7 @@ void add(Counters& total, const Tally& tally) {
 }  // namespace
 
 template <int Dim>
-void find_contacts(const Model<Dim>& model, const Settings& settings, BodiesState<Dim>& bodies,
+void find_contacts(const Model<Dim>& model, const Settings& settings, double seconds, BodiesState<Dim>& bodies,
                    ContactsState<Dim>& contacts, Counters& counters, const FoundContacts<Dim>& found) {
   const QueryLevel level = level_of(model, settings.contact);
   const double gap = closed_gap(model);
@@ -207,15 +270,15 @@ void find_contacts(const Model<Dim>& model, const Settings& settings, BodiesStat
   std::vector<Tally>& tallies = own;  // of this thread, filled by all
   tallies.assign(groups_of(contacts.list.size()), {});
   on_threads(settings.threads, static_cast<int>(tallies.size()), [&](int group) {
-    find_contacts_of(model, settings, bodies, level, gap, group, found, contacts, tallies[group]);
+    find_contacts_of(model, settings, seconds, bodies, level, gap, group, found, contacts, tallies[group]);
   });
   for (const Tally& tally : tallies)
     add(counters, tally);
 }
 
-template void find_contacts<2>(const Model<2>&, const Settings&, BodiesState<2>&, ContactsState<2>&, Counters&,
+template void find_contacts<2>(const Model<2>&, const Settings&, double, BodiesState<2>&, ContactsState<2>&, Counters&,
                                const FoundContacts<2>&);
-template void find_contacts<3>(const Model<3>&, const Settings&, BodiesState<3>&, ContactsState<3>&, Counters&,
+template void find_contacts<3>(const Model<3>&, const Settings&, double, BodiesState<3>&, ContactsState<3>&, Counters&,
                                const FoundContacts<3>&);
 
 }  // namespace voussoir

@@ -19,9 +19,10 @@ template <int Dim>
 using FoundContacts = std::function<void(int group, std::span<Contact<Dim>* const>)>;
 
 // Point, normal, overlap and area of each candidate, each in its own slot; a separated one loses its history. None has
-// a load until its joint force is computed. `found` receives those that touch, and some that do not.
+// a load until its joint force is computed. `found` receives those that touch, and some that do not. `seconds`: of the
+// last step, over which joints that dilate rise.
 template <int Dim>
-void find_contacts(const Model<Dim>& model, const Settings& settings, BodiesState<Dim>& bodies,
+void find_contacts(const Model<Dim>& model, const Settings& settings, double seconds, BodiesState<Dim>& bodies,
                    ContactsState<Dim>& contacts, Counters& counters, const FoundContacts<Dim>& found = {});
 
 }  // namespace voussoir

@@ -11,6 +11,7 @@
 #include "core/joint_laws/joint_law.hpp"
 #include "core/step/contacts.hpp"
 #include "core/step/face_forces.hpp"
+#include "core/step/flight.hpp"
 #include "core/step/neighbours.hpp"
 
 namespace voussoir {
@@ -41,7 +42,7 @@ struct Bearing {
 
 // contribution of some contacts to the energy balance, J
 struct JointSums {
-  double elastic = 0, friction = 0, lost_area = 0, dashpots = 0, stiffening = 0;
+  double elastic = 0, friction = 0, lost_area = 0, dashpots = 0, stiffening = 0, dilation = 0, crushing = 0;
   long long snap_backs = 0, bonds_made = 0;
 };
 
@@ -81,12 +82,22 @@ template <int Dim>
 template <int Dim>
 JointForce<Dim> answer_of_laws(const JointProperties& properties, double friction, double damping,
                                const JointKinematics<Dim>& k, double strength_factor, JointSums& sums,
-                               JointState<Dim>& history) {
+                               JointState<Dim>& history, const PlaceOfJoint<Dim>& place) {
+  const double largest = place.rise ? place.rise->largest_closure : 0;
   const double stiffness =
-      damping > 0 ? normal_answer(properties, k.overlap, history.bond == Bond::whole).stiffness : 0;
+      damping > 0 ? normal_answer(properties, k.overlap, history.bond == Bond::whole, largest).stiffness : 0;
+  if (place.rise) {
+    JointRise<Dim>& rise = *place.rise;
+    if (!rise.normal.isZero(0)) rise.offset = carried(rise.offset, rise.normal, k.normal, k.turn);
+    rise.normal = k.normal;
+  }
+  const double pushed = history.dashpot;
   const JointForce<Dim> answer =
-      joint_law<Dim>(properties, friction, damping * std::sqrt(stiffness), k, history, strength_factor);
+      joint_law<Dim>(properties, friction, damping * std::sqrt(stiffness), k, history, strength_factor, place);
   sums.stiffening += answer.stiffening;
+  sums.dilation += answer.dilation - 0.5 * (pushed + answer.dashpot) * answer.grown;
+  sums.dashpots += 0.5 * (pushed + answer.dashpot) * answer.grown;
+  sums.crushing += answer.crushing;
   if (answer.snap_back) ++sums.snap_backs;
   return answer;
 }
@@ -107,7 +118,7 @@ template <int Dim>
 [[gnu::always_inline]] inline Vector<Dim> joint_force(const JointProperties& properties, const JointStep& step,
                                                       const PairMotion<Dim>& motion, const Bearing<Dim>& at,
                                                       const Friction& friction, JointState<Dim>& history,
-                                                      JointSums& sums) {
+                                                      JointRise<Dim>* rise, JointSums& sums) {
   // the slip is that of the last step
   const double dt = step.length;
   const Vector<Dim>& n = at.normal;
@@ -144,7 +155,7 @@ template <int Dim>
     }
     history.shear_force = carried(history.shear_force, history.normal, n, k.turn);
   } else {
-    const double closed = k.closing_speed * dt, since = closed > k.overlap ? k.overlap / closed : 1;
+    const double closed = k.closing_speed * dt, since = closed > k.overlap ? std::max(k.overlap, 0.0) / closed : 1;
     k.slip = since * dt * (velocity + k.closing_speed * n);
   }
 
@@ -152,7 +163,8 @@ template <int Dim>
   const JointForce<Dim> answer =
       properties.laws.is_plain()
           ? plain_answer<Dim>(properties, friction.coefficient, damping, k, history)
-          : answer_of_laws<Dim>(properties, friction.angle, damping, k, friction.strength_factor, sums, history);
+          : answer_of_laws<Dim>(properties, friction.angle, damping, k, friction.strength_factor, sums, history,
+                                {properties.remembers_place() ? rise : nullptr, dt});
   sums.elastic += answer.elastic;
   sums.friction += answer.friction;
   sums.dashpots += 0.5 * (history.dashpot * closing_before + answer.dashpot * k.closing_speed) * dt;
@@ -234,7 +246,14 @@ template <int Dim>
                                           const BodiesState<Dim>& bodies, std::size_t place,
                                           ContactsState<Dim>& contacts, JointSums& sums) {
   Contact<Dim>& c = contacts.list[place];
-  if (!c.touching()) return;
+  if (!c.touching()) {
+    if (!contacts.rises.empty()) [[unlikely]]
+      fly<Dim>(model.properties[c.properties],
+               dilation_in_force(model.properties[c.properties], frictions[c.properties].angle,
+                                 frictions[c.properties].strength_factor),
+               step.length * motion_of(model, bodies, c).velocity_at(c.geometry.point), rises_of(contacts, place));
+    return;
+  }
   const JointProperties& properties = model.properties[c.properties];
   if (c.bond_due) [[unlikely]]
     bond_what_presses(properties, bonds_of(contacts, place).held() == 0, place, contacts, sums.bonds_made);
@@ -251,13 +270,19 @@ template <int Dim>
     sums.dashpots += f.dashpots;
     return;
   }
+  const std::span<JointRise<Dim>> rises = rises_of(contacts, place);
+  double drawn = 0;  // m: by this the pair was drawn together
+  if (!rises.empty()) [[unlikely]]
+    drawn = drawn_by<Dim>(model, bodies, c, rises, step.length);
   if (c.cells == 0) {
     Bearing<Dim> at{c.geometry.point, c.geometry.normal, c.geometry.overlap, c.geometry.area};
     if (properties.constant_stiffness) {
       at.area = 1;
       at.stiffness_factor = c.geometry.stiffness_factor;
     }
-    c.force = joint_force<Dim>(properties, step, motion, at, friction, c.history, sums);
+    JointRise<Dim>* const rise = rises.empty() ? nullptr : rises.data();
+    if (drawn > 0) at.overlap -= drawn - rise->rise;
+    c.force = joint_force<Dim>(properties, step, motion, at, friction, c.history, rise, sums);
     note_load<Dim>(c, {}, model.parts[c.part_b].body, motion.between, contacts.loads[place]);
     return;
   }
@@ -273,11 +298,13 @@ template <int Dim>
   c.history.bond = whole > 0 ? Bond::whole : Bond::lost;
   for (SubContact<Dim>& s : subs_of(contacts, place)) {
     if (!(s.area > 0)) continue;
+    JointRise<Dim>* const rise = rises.empty() ? nullptr : &rises[&s - subs_of(contacts, place).data()];
+    const double overlap = drawn > 0 ? s.overlap - (drawn - rise->rise) : s.overlap;
     const double area = properties.constant_stiffness ? s.area / whole : s.area;
     const Bond before = s.history.bond;
     s.force = joint_force<Dim>(properties, step, motion,
-                               {s.point, c.geometry.normal, s.overlap, area, s.overlap_variance, s.area / whole},
-                               friction, s.history, sums);
+                               {s.point, c.geometry.normal, overlap, area, s.overlap_variance, s.area / whole},
+                               friction, s.history, rise, sums);
     c.force += s.force;
     c.history.shear_force += s.history.shear_force;
     c.history.plastic_slip += s.area / whole * s.history.plastic_slip;
@@ -300,6 +327,8 @@ void add(const std::vector<JointSums>& sums, Ledger& ledger, Counters& counters)
     ledger.energy.flows[Source::lost_area] += b.lost_area;
     ledger.energy.flows[Source::dashpots] += b.dashpots;
     ledger.energy.flows[Source::stiffening] += b.stiffening;
+    ledger.energy.flows[Source::dilation] += b.dilation;
+    ledger.energy.flows[Source::irrecoverable_closure] += b.crushing;
     counters.snap_backs += b.snap_backs;
     ledger.bonds.made += b.bonds_made;
   }
@@ -311,7 +340,8 @@ template <int Dim>
 PairWrench<Dim> joint_wrench(const Model<Dim>& model, const Schedule& schedule, const JointStep& step,
                              const Contact<Dim>& c, std::span<const SubContact<Dim>> subs,
                              const IntegratedContact<Dim>* face, const PairMotion<Dim>& motion,
-                             const JointState<Dim>& history, std::span<const JointState<Dim>> sub_histories) {
+                             const JointState<Dim>& history, std::span<const JointState<Dim>> sub_histories,
+                             std::span<const JointRise<Dim>> rises, double drawn) {
   PairWrench<Dim> wrench = PairWrench<Dim>::Zero();
   if (!c.touching()) return wrench;
   const JointProperties& properties = model.properties[c.properties];
@@ -325,8 +355,9 @@ PairWrench<Dim> joint_wrench(const Model<Dim>& model, const Schedule& schedule, 
     return wrench;
   }
   JointSums sums;
-  const auto add = [&](const Bearing<Dim>& at, JointState<Dim> past) {
-    const Vector<Dim> force = joint_force<Dim>(properties, step, motion, at, friction, past, sums);
+  const auto add = [&](const Bearing<Dim>& at, JointState<Dim> past, std::size_t k) {
+    JointRise<Dim> rise = rises.empty() ? JointRise<Dim>{} : rises[k];
+    const Vector<Dim> force = joint_force<Dim>(properties, step, motion, at, friction, past, &rise, sums);
     wrench.template head<Dim>() += force;
     wrench.template tail<spin_freedoms<Dim>>() += moment(Vector<Dim>(at.point - motion.between), force);
   };
@@ -336,7 +367,8 @@ PairWrench<Dim> joint_wrench(const Model<Dim>& model, const Schedule& schedule, 
       at.area = 1;
       at.stiffness_factor = c.geometry.stiffness_factor;
     }
-    add(at, history);
+    if (drawn > 0) at.overlap -= drawn - rises[0].rise;
+    add(at, history, 0);
     return wrench;
   }
   double whole = 0;
@@ -346,7 +378,8 @@ PairWrench<Dim> joint_wrench(const Model<Dim>& model, const Schedule& schedule, 
     const SubContact<Dim>& s = subs[i];
     if (!(s.area > 0)) continue;
     const double area = properties.constant_stiffness ? s.area / whole : s.area;
-    add({s.point, c.geometry.normal, s.overlap, area, s.overlap_variance, s.area / whole}, sub_histories[i]);
+    const double overlap = drawn > 0 ? s.overlap - (drawn - rises[i].rise) : s.overlap;
+    add({s.point, c.geometry.normal, overlap, area, s.overlap_variance, s.area / whole}, sub_histories[i], i);
   }
   return wrench;
 }
@@ -364,7 +397,7 @@ void find_joint_forces(const Model<Dim>& model, const Settings& settings, const 
       answer(model, settings, frictions, step, bodies, static_cast<std::size_t>(c - contacts.list.data()), contacts,
              sums[group]);
   };
-  find_contacts<Dim>(model, settings, bodies, contacts, counters, std::ref(answer_found));
+  find_contacts<Dim>(model, settings, step.length, bodies, contacts, counters, std::ref(answer_found));
   add(sums, ledger, counters);
 }
 
@@ -394,7 +427,7 @@ void make_bonds(const Model<Dim>& model, const Settings& settings, BodiesState<D
   for (std::size_t i = 0; i < contacts.list.size(); ++i) {
     if (contacts.list[i].bond_due) renew_slipped(i, contacts);
   }
-  find_contacts(model, settings, bodies, contacts, counters);
+  find_contacts(model, settings, 0, bodies, contacts, counters);
   for (std::size_t i = 0; i < contacts.list.size(); ++i)
     if (const Contact<Dim>& c = contacts.list[i]; c.bond_due && c.touching())
       bond_what_presses(model.properties[c.properties], false, i, contacts, bonds.made);
@@ -433,19 +466,19 @@ BondCount count_bonds(const ContactsState<Dim>& contacts, const BondTally& bonds
   return count;
 }
 
-#define VOUSSOIR_INSTANTIATE(Dim)                                                                             \
-  template PairWrench<Dim> joint_wrench<Dim>(const Model<Dim>&, const Schedule&, const JointStep&,            \
-                                             const Contact<Dim>&, std::span<const SubContact<Dim>>,           \
-                                             const IntegratedContact<Dim>*, const PairMotion<Dim>&,           \
-                                             const JointState<Dim>&, std::span<const JointState<Dim>>);       \
-  template void find_joint_forces<Dim>(const Model<Dim>&, const Settings&, const Schedule&, const JointStep&, \
-                                       BodiesState<Dim>&, ContactsState<Dim>&, Ledger&, Counters&);           \
-  template void apply_joint_laws<Dim>(const Model<Dim>&, const Settings&, const Schedule&, const JointStep&,  \
-                                      const BodiesState<Dim>&, ContactsState<Dim>&, Ledger&, Counters&);      \
-  template void make_bonds<Dim>(const Model<Dim>&, const Settings&, BodiesState<Dim>&, ContactsState<Dim>&,   \
-                                BondTally&, Counters&, const std::vector<std::pair<int, int>>*);              \
-  template void remove_bonds<Dim>(const Model<Dim>&, ContactsState<Dim>&, BondTally&);                        \
-  template void zero_slip<Dim>(ContactsState<Dim>&);                                                          \
+#define VOUSSOIR_INSTANTIATE(Dim)                                                                                      \
+  template PairWrench<Dim> joint_wrench<Dim>(                                                                          \
+      const Model<Dim>&, const Schedule&, const JointStep&, const Contact<Dim>&, std::span<const SubContact<Dim>>,     \
+      const IntegratedContact<Dim>*, const PairMotion<Dim>&, const JointState<Dim>&, std::span<const JointState<Dim>>, \
+      std::span<const JointRise<Dim>>, double);                                                                        \
+  template void find_joint_forces<Dim>(const Model<Dim>&, const Settings&, const Schedule&, const JointStep&,          \
+                                       BodiesState<Dim>&, ContactsState<Dim>&, Ledger&, Counters&);                    \
+  template void apply_joint_laws<Dim>(const Model<Dim>&, const Settings&, const Schedule&, const JointStep&,           \
+                                      const BodiesState<Dim>&, ContactsState<Dim>&, Ledger&, Counters&);               \
+  template void make_bonds<Dim>(const Model<Dim>&, const Settings&, BodiesState<Dim>&, ContactsState<Dim>&,            \
+                                BondTally&, Counters&, const std::vector<std::pair<int, int>>*);                       \
+  template void remove_bonds<Dim>(const Model<Dim>&, ContactsState<Dim>&, BondTally&);                                 \
+  template void zero_slip<Dim>(ContactsState<Dim>&);                                                                   \
   template BondCount count_bonds<Dim>(const ContactsState<Dim>&, const BondTally&);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)

@@ -189,6 +189,15 @@ std::string crowd_at(const Model<Dim>& model, const std::vector<Box<Dim>>& boxes
       most_candidates(boxes.size()), count[most], fmt::join(middle, ", "));
 }
 
+// m, of all joints
+template <int Dim>
+double highest_rise(const ContactsState<Dim>& contacts) {
+  double most = 0;
+  for (const JointRise<Dim>& r : contacts.rises)
+    most = std::max(most, r.rise);
+  return most;
+}
+
 }  // namespace
 
 std::size_t most_candidates(std::size_t parts) {
@@ -220,8 +229,12 @@ double closed_gap(const Model<Dim>& model) {
 }
 
 template <int Dim>
-bool is_near(const Model<Dim>& model, const BodiesState<Dim>& bodies, double gap, Contact<Dim>& c) {
+bool is_near(const Model<Dim>& model, const BodiesState<Dim>& bodies, double gap, Contact<Dim>& c, double rise) {
   constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
+  if (rise > 0) [[unlikely]] {
+    c.near_until = 0;
+    return meet(bounds(model, bodies, c.part_a, rise), bounds(model, bodies, c.part_b, rise));
+  }
   const double way = travelled(model, bodies, c);
   if (way < c.near_until && !c.bond_due) return c.status != ContactStatus::apart;
   const Box<Dim> a = bounds(model, bodies, c.part_a, 0), b = bounds(model, bodies, c.part_b, 0);
@@ -256,24 +269,27 @@ void find_neighbours(const Model<Dim>& model, const Settings& settings, BodiesSt
   static thread_local std::vector<std::pair<int, int>> own_pairs;
   static thread_local std::vector<Contact<Dim>> own_renewed;
   static thread_local std::vector<SubContact<Dim>> own_subs;
+  static thread_local std::vector<JointRise<Dim>> own_rises;
   static thread_local std::vector<int> own_origin;
   std::vector<Box<Dim>>& boxes = own_boxes;
   ThinSpans<Dim>& spans = own_spans;
   std::vector<std::pair<int, int>>& pairs = own_pairs;
   std::vector<Contact<Dim>>& renewed = own_renewed;
   std::vector<SubContact<Dim>>& renewed_subs = own_subs;
+  std::vector<JointRise<Dim>>& renewed_rises = own_rises;
   std::vector<int>& origin = own_origin;  // of each pair: its index in the old list, or -1
   cache_poses(model, settings.threads, bodies);
+  // either part reaches half as far as the pair; a joint that has risen is kept up to twice its rise
+  const double reach = candidate_reach * skin + highest_rise(contacts);
   boxes.resize(model.parts.size());
-  each_on_threads(settings.threads, boxes.size(),
-                  [&](int part) { boxes[part] = bounds(model, bodies, part, candidate_reach * skin); });
-  find_thin_spans(model, settings, bodies, candidate_reach * skin, spans);
+  each_on_threads(settings.threads, boxes.size(), [&](int part) { boxes[part] = bounds(model, bodies, part, reach); });
+  find_thin_spans(model, settings, bodies, reach, spans);
   std::atomic<std::size_t> count = 0;
   const std::size_t most = most_candidates(boxes.size());
   const auto wanted = [&](int a, int b) {
     if (count.load(std::memory_order_relaxed) > most || !spans.meet(a, b)) return false;
     const bool near = may_come_near(pair_of(model, bodies, a, b, QueryLevel::decision), radius_of(model, a),
-                                    radius_of(model, b), candidate_reach * skin);
+                                    radius_of(model, b), reach);
     if (near) count.fetch_add(1, std::memory_order_relaxed);
     return near;
   };
@@ -282,6 +298,8 @@ void find_neighbours(const Model<Dim>& model, const Settings& settings, BodiesSt
 
   // continuing candidates keep their record: both lists are in ascending order
   const std::size_t stride = most_cells(model, settings.contact);
+  const std::size_t places =
+      std::ranges::any_of(model.properties, &JointProperties::remembers_place) ? std::max<std::size_t>(stride, 1) : 0;
   origin.assign(pairs.size(), -1);
   auto old = contacts.list.begin();
   for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -292,10 +310,12 @@ void find_neighbours(const Model<Dim>& model, const Settings& settings, BodiesSt
   }
   renewed.resize(pairs.size());
   renewed_subs.assign(pairs.size() * stride, {});
+  renewed_rises.assign(pairs.size() * places, {});
   each_on_threads(settings.threads, pairs.size(), [&](int i) {
     if (origin[i] >= 0) {
       renewed[i] = contacts.list[origin[i]];
       std::ranges::copy(subs_of(contacts, origin[i]), renewed_subs.begin() + i * static_cast<std::ptrdiff_t>(stride));
+      std::ranges::copy(rises_of(contacts, origin[i]), renewed_rises.begin() + i * static_cast<std::ptrdiff_t>(places));
       return;
     }
     renewed[i] = {};
@@ -304,6 +324,7 @@ void find_neighbours(const Model<Dim>& model, const Settings& settings, BodiesSt
   });
   std::swap(contacts.list, renewed);
   std::swap(contacts.subs, renewed_subs);
+  std::swap(contacts.rises, renewed_rises);
   list_by_body(model, contacts);
   note_placements(bodies, bodies.listed_at);
   ++counters.neighbour_builds;
@@ -314,7 +335,7 @@ void find_neighbours(const Model<Dim>& model, const Settings& settings, BodiesSt
                                      Counters&);                                                                 \
   template void count_travels<Dim>(const Model<Dim>&, const Settings&, BodiesState<Dim>&);                       \
   template double closed_gap<Dim>(const Model<Dim>&);                                                            \
-  template bool is_near<Dim>(const Model<Dim>&, const BodiesState<Dim>&, double, Contact<Dim>&);
+  template bool is_near<Dim>(const Model<Dim>&, const BodiesState<Dim>&, double, Contact<Dim>&, double);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)
 #undef VOUSSOIR_INSTANTIATE

@@ -59,6 +59,13 @@ Pair<Dim> pair_of(const Model<Dim>& model, const BodiesState<Dim>& bodies, int p
   return pair;
 }
 
+// Draws a pair together against the rise of its joint (flight.hpp): its contact is where the faces would meet without
+// it, with the area and the normal of these faces, and its overlap is the closure of the joint's spring.
+template <int Dim>
+void draw_together(double drawn, const Vector<Dim>& normal, Pair<Dim>& pair) {
+  if (drawn > 0) pair.offset -= drawn * (pair.axes.transpose() * normal);
+}
+
 // narrow_phase, or, if the model has potential particles, that of all kinds of pairs
 template <int Dim>
 void resolve_pairs(const Model<Dim>& model, const ContactSettings& settings, std::span<const Pair<Dim>> pairs,
@@ -82,8 +89,9 @@ double closed_gap(const Model<Dim>& model);
 
 // Whether a pair is near: its boxes meet and, unless it touched in the step before, no face separates it
 // (contact/nearness). Examined only when its bodies have moved by the distance that decided it, and at every step if a
-// bond is due, which lapses when the pair is farther apart than `gap`, closed_gap.
+// bond is due, which lapses when the pair is farther apart than `gap`, closed_gap. One whose joint has risen is
+// examined at every step, by its boxes, and is near up to twice that `rise`.
 template <int Dim>
-bool is_near(const Model<Dim>& model, const BodiesState<Dim>& bodies, double gap, Contact<Dim>& c);
+bool is_near(const Model<Dim>& model, const BodiesState<Dim>& bodies, double gap, Contact<Dim>& c, double rise = 0);
 
 }  // namespace voussoir

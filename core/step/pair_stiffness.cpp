@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/base/on_threads.hpp"
 #include "core/contact/integrable.hpp"
 #include "core/contact/sensitivity.hpp"
 #include "core/contact/sub_contacts.hpp"
+#include "core/step/flight.hpp"
 #include "core/step/joint_forces.hpp"
 #include "core/step/neighbours.hpp"
 
@@ -107,15 +109,19 @@ struct MovedContacts {
   std::vector<std::size_t> of_kernel;  // indices in `contacts`
 
   void find(const Model<Dim>& model, const Settings& settings, const BodiesState<Dim>& bodies,
-            const ContactsState<Dim>& candidates, std::span<const PairStiffness<Dim>> batch, KernelCounters& counters) {
+            const ContactsState<Dim>& candidates, const JointHistories<Dim>& histories, double seconds,
+            std::span<const PairStiffness<Dim>> batch, KernelCounters& counters) {
     pairs.clear();
     asked.clear();
     contacts.clear();
     steps.clear();
     places.clear();
     of_kernel.clear();
-    for (const PairStiffness<Dim>& p : batch)
-      move(model, settings, bodies, candidates.list[p.contact], p);
+    for (const PairStiffness<Dim>& p : batch) {
+      const std::span<const JointRise<Dim>> rises = rises_of(histories, p.contact);
+      const Contact<Dim>& c = candidates.list[p.contact];
+      move(model, settings, bodies, c, drawn_by<Dim>(model, bodies, c, rises, seconds), drawn_along<Dim>(rises), p);
+    }
     for (const std::size_t k : of_kernel)
       places.push_back(&contacts[k]);
     resolve_pairs<Dim>(model, settings.contact, asked, places, counters);
@@ -123,12 +129,13 @@ struct MovedContacts {
 
  private:
   void move(const Model<Dim>& model, const Settings& settings, const BodiesState<Dim>& bodies, const Contact<Dim>& c,
-            const PairStiffness<Dim>& p) {
+            double drawn, const Vector<Dim>& along, const PairStiffness<Dim>& p) {
     const double width = Dim == 3 ? std::sqrt(c.geometry.area) : c.geometry.area;
     const double size = size_of(model, p.body_a, p.body_b);
     const bool whole = is_integrated(settings.contact, model.properties[c.properties]);  // recomputed by the caller
     const double way = whole ? step_on_face(model, c, p) : std::max(of_overlap * c.geometry.overlap, of_size * size);
-    const Pair<Dim> here = pair_of(model, bodies, c.part_a, c.part_b, QueryLevel::area);
+    Pair<Dim> here = pair_of(model, bodies, c.part_a, c.part_b, QueryLevel::area);
+    draw_together<Dim>(drawn, along, here);
     ContactSensitivity<Dim> sensitivity;
     const bool closed_form = !whole && c.proof.kind != ProofKind::least_point && has_sensitivity(settings.contact) &&
                              find_sensitivity<Dim>(here, settings.contact, c, sensitivity);
@@ -158,7 +165,7 @@ void difference(const Model<Dim>& model, const Settings& settings, const Schedul
   static thread_local std::vector<SubContact<Dim>> cells;
   static thread_local IntegratedContact<Dim> pressed;
   static thread_local HalfSpaces<Dim> planes;
-  after.find(model, settings, bodies, contacts, batch, counters);
+  after.find(model, settings, bodies, contacts, histories, joint_step.length, batch, counters);
 
   cells.resize(sub_stride(contacts));
   for (std::size_t i = 0; i < batch.size(); ++i) {
@@ -166,13 +173,16 @@ void difference(const Model<Dim>& model, const Settings& settings, const Schedul
     const Contact<Dim>& c = contacts.list[p.contact];
     const JointState<Dim>& history = histories.contacts[p.contact].history;
     const std::span<const JointState<Dim>> sub_histories = subs_of(histories, p.contact);
+    const std::span<const JointRise<Dim>> rises = rises_of(histories, p.contact);
+    const double drawn = drawn_by<Dim>(model, bodies, c, rises, joint_step.length);
     const CachedPose<Dim>&a = bodies.poses[p.body_a], &b = bodies.poses[p.body_b];
     const bool whole = is_integrated(settings.contact, model.properties[c.properties]);
     const int along = model.properties[c.properties].sub_contacts, count = whole ? 0 : sub_contact_count<Dim>(along);
     p.apart = between(a, b);
     const PairMotion<Dim> now{p.apart, b.velocity - a.velocity, a.spin, b.spin, a.inverse_mass + b.inverse_mass};
-    p.wrench = joint_wrench<Dim>(model, schedule, joint_step, c, subs_of(contacts, static_cast<std::size_t>(p.contact)),
-                                 whole ? &contacts.faces[p.contact] : nullptr, now, history, sub_histories);
+    p.wrench =
+        joint_wrench<Dim>(model, schedule, joint_step, c, subs_of(contacts, static_cast<std::size_t>(p.contact)),
+                          whole ? &contacts.faces[p.contact] : nullptr, now, history, sub_histories, rises, drawn);
     // the wrench after a step of the second body
     const auto wrench_after = [&](int f, double step, const Contact<Dim>& then, std::span<const SubContact<Dim>> subs,
                                   const IntegratedContact<Dim>* face) {
@@ -183,7 +193,8 @@ void difference(const Model<Dim>& model, const Settings& settings, const Schedul
       else
         spin[f - Dim] += step;
       const PairMotion<Dim> motion{now.between + way, now.drift + way, a.spin, spin, now.inverse_mass};
-      return joint_wrench<Dim>(model, schedule, joint_step, then, subs, face, motion, history, sub_histories);
+      return joint_wrench<Dim>(model, schedule, joint_step, then, subs, face, motion, history, sub_histories, rises,
+                               drawn);
     };
     Pair<Dim> here;
     if (whole) here = pair_of(model, bodies, c.part_a, c.part_b, QueryLevel::area);
@@ -298,6 +309,8 @@ void find_closed_joints(const Model<Dim>& model, const Settings& settings, const
     const double probe = probe_of_size * size_of(model, a, b);
     if (c.status == ContactStatus::separated && c.proof.margin > probe) continue;
     Pair<Dim> pair = pair_of(model, bodies, c.part_a, c.part_b, QueryLevel::area);
+    const std::span<const JointRise<Dim>> rises = rises_of(std::as_const(histories), static_cast<int>(i));
+    if (const JointRise<Dim>* const risen = highest(rises)) draw_together<Dim>(risen->rise, risen->normal, pair);
     Vector<Dim> axis =
         c.proof.kind == ProofKind::separating_axis ? Vector<Dim>(c.proof.axis) : Vector<Dim>(Vector<Dim>::Zero());
     if (axis.isZero(0)) axis = (pair.offset + pair.rotation * pair.b->centre - pair.a->centre).normalized();

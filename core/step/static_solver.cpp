@@ -440,7 +440,8 @@ double memory_of_newton(const State<Dim>& state) {
   using Pair = PairStiffness<Dim>;
   return static_cast<double>(state.contacts.list.size()) *
              (sizeof(ContactHistory<Dim>) + sizeof(Pair) + blocks_of_a_pair * sizeof(typename Pair::Block)) +
-         static_cast<double>(state.contacts.subs.size() * sizeof(JointState<Dim>));
+         static_cast<double>(state.contacts.subs.size() * sizeof(JointState<Dim>) +
+                             state.contacts.rises.size() * sizeof(JointRise<Dim>));
 }
 
 template <int Dim>

@@ -38,7 +38,7 @@ Tangent tangent(const JointProperties& p, double overlap) {
   if (p.laws.is_plain()) return {p.normal_stiffness, p.shear_stiffness};
   // as if bonded: the loss of a bond increases no stiffness
   const NormalAnswer answer = normal_answer(p, overlap, true);
-  return {answer.stiffness, shear_stiffness_at(p, answer.stress)};
+  return {stiffest_normal(p, overlap), shear_stiffness_at(p, answer.stress)};
 }
 
 // factor by which stress stiffens a contact, relative to its joint's properties; 1 for the plain law

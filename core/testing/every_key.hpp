@@ -117,6 +117,20 @@ friction_deg = 30
 friction_law = "softening"
 softening_drop = 0.1
 softening_slip_m = 0.1
+dilation_law = "falling"
+dilation_deg = 8
+dilation_decay_m = 0.002
+[[joint_properties]]
+name = "hyperbolic"
+normal_stiffness = 1e10
+normal_law = "hyperbolic"
+maximum_closure_m = 2e-4
+irrecoverable_fraction = 0.4
+shear_stiffness = 4e9
+friction_deg = 30
+dilation_law = "constant"
+dilation_deg = 8
+dilation_until_m = 0.004
 [[blocks]]
 name = "by planes"
 planes = [{ normal = [1, 0, 0], offset = 11 }, { normal = [-2, 0, 0], offset = -20 },

@@ -31,10 +31,12 @@ KeyTable joint_property_keys() {
          "only",
      .breaks = "with one point a face does not resist twist, nor rocking as a real face does; more points cost time"},
     {.key = "normal_law", .members = {one_of(&JointLaws::normal,
-         {{"constant", StiffnessLaw::constant}, {"linear", StiffnessLaw::linear}, {"power", StiffnessLaw::power}})},
+         {{"constant", StiffnessLaw::constant}, {"linear", StiffnessLaw::linear},
+          {"hyperbolic", StiffnessLaw::hyperbolic}, {"power", StiffnessLaw::power}})},
      .example = "\"linear\"",
      .meaning = "normal stiffness kn against normal stress σ; constant: kn = normal_stiffness; linear: normal_stiffness + "
-         "normal_growth σ, so that σ = normal_stiffness / normal_growth (exp(normal_growth u) - 1) at overlap u; power: normal_stiffness "
+         "normal_growth σ, so that σ = normal_stiffness / normal_growth (exp(normal_growth u) - 1) at overlap u; hyperbolic: normal_stiffness (1 + σ / (normal_stiffness maximum_closure_m))², so that σ = normal_stiffness u / "
+         "(1 - u / maximum_closure_m); power: normal_stiffness "
          "(σ / 1 Pa)^normal_exponent, so that normal_stiffness is the stiffness at 1 Pa",
      .breaks = "stiffness grows with load, and the time step shrinks with its square root"},
     {.key = "normal_growth", .members = {in(&JointProperties::normal_growth)}, .unit = "1/m", .range = positive,
@@ -44,6 +46,15 @@ KeyTable joint_property_keys() {
      .range = {0, 1, true, true}, .plausible = {0.1, 0.95}, .example = "0.75", .required = true,
      .when = {"normal_law", "power"},
      .meaning = "exponent of the normal stress", .repair = "it must be below 1: from 1 on no stress builds up from zero"},
+    {.key = "maximum_closure_m", .members = {in(&JointProperties::maximum_closure)}, .unit = "m", .range = positive,
+     .plausible = {1e-6, 2e-3}, .example = "2e-4", .required = true, .when = {"normal_law", "hyperbolic"},
+     .meaning = "closure that no stress exceeds (Bandis' Vm); at 0.999 of it the law continues along its tangent",
+     .breaks = "stiffness grows with the square of the stress, and the time step shrinks with its square root",
+     .mistake = "was it given in mm?"},
+    {.key = "irrecoverable_fraction", .members = {in(&JointProperties::irrecoverable_fraction)}, .unit = "1",
+     .range = {0, 0.99}, .example = "0.4", .when = {"normal_law", "hyperbolic"},
+     .meaning = "fraction of the largest closure so far that remains without stress, until the joint has opened by more; unloading and "
+         "reloading follow the hyperbola of the same maximum_closure_m through that closure and the largest one; 0: elastic"},
     {.key = "shear_law", .members = {one_of(&JointLaws::shear,
          {{"constant", StiffnessLaw::constant}, {"linear", StiffnessLaw::linear}, {"power", StiffnessLaw::power}})},
      .example = "\"linear\"",
@@ -77,6 +88,27 @@ KeyTable joint_property_keys() {
     {.key = "softening_slip_m", .members = {in(&JointProperties::softening_slip)}, .unit = "m", .range = positive,
      .plausible = {2e-4, 10}, .example = "0.35", .required = true, .when = {"friction_law", "softening"},
      .meaning = "plastic slip at which 63 % of softening_drop is lost"},
+    {.key = "dilation_law", .members = {one_of(&JointLaws::dilation,
+         {{"none", DilationLaw::none}, {"constant", DilationLaw::constant}, {"falling", DilationLaw::falling}})},
+     .example = "\"constant\"",
+     .meaning = "rise of a joint against its distance r of slip from where it was mated, not against its accumulated slip, so that slip "
+         "back to there closes it; constant: tan(dilation_deg) r up to r = dilation_until_m; falling: tan(dilation_deg) dilation_decay_m "
+         "(1 - exp(-r / dilation_decay_m)). It adds nothing to the strength at a normal stress: friction_deg is the total peak angle",
+     .breaks = "stress grows in a block that is confined as it slips; a rise without limit lifts it for ever"},
+    {.key = "dilation_deg", .members = {degrees(&JointProperties::dilation)}, .unit = "deg", .range = friction_range,
+     .plausible = {.low = 0.5, .high = 30, .or_zero = true}, .example = "8", .required = true,
+     .when = {"dilation_law", "constant|falling"},
+     .meaning = "dilation angle at the beginning of slip, at most friction_deg or what softening leaves of it; in a search, and if a stage "
+         "lowers friction_deg, at most the friction in force",
+     .mistake = angle_mistake},
+    {.key = "dilation_until_m", .members = {in(&JointProperties::dilation_until)}, .unit = "m", .range = positive,
+     .plausible = {1e-4, 1}, .example = "0.005", .required = true, .when = {"dilation_law", "constant"},
+     .meaning = "distance of slip from where the joint was mated beyond which it rises no more (3DEC's dilation-zero)",
+     .mistake = "was it given in mm?"},
+    {.key = "dilation_decay_m", .members = {in(&JointProperties::dilation_decay)}, .unit = "m", .range = positive,
+     .plausible = {1e-4, 1}, .example = "0.002", .required = true, .when = {"dilation_law", "falling"},
+     .meaning = "distance of slip at which the tangent of the dilation angle has fallen to 37 %",
+     .mistake = "was it given in mm?"},
     {.key = "tension", .members = {in(&JointProperties::tension)}, .unit = "Pa", .range = not_negative,
      .plausible = {.low = 1e3, .high = 2e7, .or_zero = true}, .example = "0.076e6",
      .meaning = "tensile strength of bonds, until they are pulled beyond it or slip, under every cohesion_law; no factor of safety divides "

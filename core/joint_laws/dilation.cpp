@@ -1,0 +1,101 @@
+#include "core/joint_laws/dilation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace voussoir {
+namespace {
+
+// parts of a return on which the excess is looked at
+constexpr int parts_of_return = 32;
+
+// The root between `low`, where the excess is positive, and `high`, where it is not: secants, of which the end that
+// stays is weighted down (Anderson and Bjorck 1973), else halves.
+double root_between(const std::function<double(double)>& excess, double low, double at_low, double high,
+                    double at_high) {
+  constexpr int limit = 2 * std::numeric_limits<double>::digits;
+  double best = high;
+  int side = 0;  // the end that moved last
+  for (int i = 0; i < limit; ++i) {
+    double next = low + (high - low) * (at_low / (at_low - at_high));
+    if (!(next > low && next < high) || i % 4 == 3) next = 0.5 * (low + high);
+    if (!(next > low && next < high)) break;
+    const double at = excess(next);
+    const bool done = std::abs(next - best) <= std::numeric_limits<double>::epsilon() * next;
+    best = next;
+    if (at == 0 || done) break;
+    const auto weight = [&](double last) {
+      const double left = 1 - at / last;
+      return left > 0 ? left : 0.5;
+    };
+    if (at > 0) {
+      if (side > 0) at_high *= weight(at_low);
+      low = next;
+      at_low = at;
+      side = 1;
+    } else {
+      if (side < 0) at_low *= weight(at_high);
+      high = next;
+      at_high = at;
+      side = -1;
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+double dilation_in_force(const JointProperties& p, double friction, double strength_factor) {
+  const double lost = p.laws.friction == FrictionLaw::softening ? p.softening_drop / strength_factor : 0;
+  return std::min(std::tan(p.dilation), std::max(std::tan(friction) - lost, 0.0));
+}
+
+double rise_at(const JointProperties& p, double tangent, double offset) {
+  if (p.laws.dilation == DilationLaw::constant) return tangent * std::min(offset, p.dilation_until);
+  if (p.laws.dilation == DilationLaw::falling)
+    return -tangent * p.dilation_decay * std::expm1(-offset / p.dilation_decay);
+  return 0;
+}
+
+double OffsetPath::length(double slip) const {
+  return across == 0 ? std::abs(along + slip) : std::hypot(along + slip, across);
+}
+
+double first_slip(const JointProperties& p, const OffsetPath& path, double most,
+                  const std::function<double(double)>& excess) {
+  std::array<double, 3> kinks{most, most, most};
+  const double limit = p.laws.dilation == DilationLaw::constant ? p.dilation_until : 0;
+  if (limit > path.across) {
+    const double half = std::sqrt((limit - path.across) * (limit + path.across));
+    kinks = {-path.along - half, -path.along, half - path.along};
+  } else {
+    kinks[1] = -path.along;
+  }
+  std::ranges::sort(kinks);
+  double low = 0, at_low = excess(0);
+  const auto go_to = [&](double next, double& found) {
+    const double at = excess(next);
+    if (!(at > 0)) {
+      found = root_between(excess, low, at_low, next, at);
+      return true;
+    }
+    low = next;
+    at_low = at;
+    return false;
+  };
+  double slip = most;
+  const double returns_until = std::clamp(-path.along, 0.0, most);
+  for (const double kink : {kinks[0], kinks[1], kinks[2], most}) {
+    const double end = std::min(kink, most);
+    if (!(end > low)) continue;
+    const int parts = low < returns_until ? parts_of_return : 1;
+    const double begin = low;
+    for (int k = 1; k < parts; ++k)
+      if (go_to(begin + (end - begin) * k / parts, slip)) return slip;
+    if (go_to(end, slip)) return slip;
+  }
+  return slip;
+}
+
+}  // namespace voussoir

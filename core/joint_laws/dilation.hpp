@@ -1,0 +1,35 @@
+// Dilation of a joint: its rise as a function of its offset from the place where it was mated, and slip against a
+// normal stress that grows as it rises.
+#pragma once
+
+#include <array>
+#include <functional>
+
+#include "core/joint_laws/joint_properties.hpp"
+
+namespace voussoir {
+
+// tan ψ in force: never above the coefficient of friction in force, which softening may still reach; otherwise slip
+// would make energy. `friction`, rad, and the factor as friction_answer takes them.
+double dilation_in_force(const JointProperties& properties, double friction, double strength_factor = 1);
+
+// m, after the offset r, m, with tan ψ = `tangent`:
+//   constant  tan ψ min(r, r0)
+//   falling   tan ψ r1 (1 - e^(-r/r1))
+double rise_at(const JointProperties& properties, double tangent, double offset);
+
+// Slip from an offset in the direction of the trial's shear force.
+struct OffsetPath {
+  double along = 0;   // m: the offset's component in that direction; negative: slip returns
+  double across = 0;  // m
+
+  double length(double slip) const;
+};
+
+// The least slip in [0, most] at which `excess`, continuous and positive at 0, is no longer positive; it is not at
+// `most`. The rise has a kink where the offset reaches the limit of the dilation, and at its smallest; excess may rise
+// on the way back, where it is looked at on several parts of the way: continuous slip ends at the first root.
+double first_slip(const JointProperties& properties, const OffsetPath& path, double most,
+                  const std::function<double(double)>& excess);
+
+}  // namespace voussoir

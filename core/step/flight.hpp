@@ -1,0 +1,60 @@
+// Pairs whose joint has risen: by how much they are drawn together, and blocks that fly above the risen plane.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include "core/joint_laws/dilation.hpp"
+#include "core/joint_laws/elastic_coulomb.hpp"
+#include "core/joint_laws/joint_rise.hpp"
+#include "core/model/bodies_state.hpp"
+#include "core/model/contacts_state.hpp"
+#include "core/model/model.hpp"
+
+namespace voussoir {
+
+// m: by this a pair is drawn together before its contact is found, along the last normal of the joint: its highest
+// rise, and a bound of what the slip of the last step, of `seconds`, may add to it. Without that a block that slips
+// farther in a step than its overlap over the dilation would lose its contact; the law subtracts what is too much. 0:
+// the joint has never touched, or none of the model remembers its place.
+template <int Dim>
+double drawn_by(const Model<Dim>& model, const BodiesState<Dim>& bodies, const Contact<Dim>& c,
+                std::span<const JointRise<Dim>> rises, double seconds) {
+  double highest = -1, steepest = 0;
+  for (const JointRise<Dim>& rise : rises)
+    if (!rise.normal.isZero(0)) highest = std::max(highest, rise.rise);
+  for (const JointProperties& p : model.properties)
+    if (p.dilates()) steepest = std::max(steepest, std::tan(p.dilation));
+  if (highest < 0 || steepest == 0) return 0;
+  const int first = model.parts[c.part_a].body, second = model.parts[c.part_b].body;
+  const CachedPose<Dim>&a = bodies.poses[first], &b = bodies.poses[second];
+  const double speed = (b.velocity - a.velocity).norm() + a.spin.norm() * model.bodies[first].radius +
+                       b.spin.norm() * model.bodies[second].radius;
+  return highest + steepest * speed * seconds;
+}
+
+// the direction in which it is
+template <int Dim>
+Vector<Dim> drawn_along(std::span<const JointRise<Dim>> rises) {
+  const auto touched = [](const JointRise<Dim>& rise) { return !rise.normal.isZero(0); };
+  const auto most = std::ranges::max_element(rises, [&](const JointRise<Dim>& x, const JointRise<Dim>& y) {
+    return std::pair(touched(x), x.rise) < std::pair(touched(y), y.rise);
+  });
+  return most == rises.end() ? Vector<Dim>(Vector<Dim>::Zero()) : most->normal;
+}
+
+// Its offset moves along with the block, by `way`, m, and its rise with the offset; `tangent`: dilation_in_force.
+template <int Dim>
+[[gnu::noinline]] void fly(const JointProperties& properties, double tangent, const Vector<Dim>& way,
+                           std::span<JointRise<Dim>> rises) {
+  for (JointRise<Dim>& rise : rises) {
+    rise.stress = 0;
+    if (!(rise.rise > 0)) continue;
+    rise.offset -= way - way.dot(rise.normal) * rise.normal;  // against the slip, as a shear force is
+    rise.rise = rise_at(properties, tangent, length_of<Dim>(rise.offset));
+  }
+}
+
+}  // namespace voussoir
