@@ -71,7 +71,7 @@ Decision decide(const Meeting& meeting, const FeasibilityResult<3>& lp, const Sc
   candidate.part_a = 0;
   candidate.part_b = 1;
   state.contacts.list = {candidate};
-  find_contacts(model, Settings{}, state.bodies, state.contacts, state.counters);
+  find_contacts(model, Settings{}, 0, state.bodies, state.contacts, state.counters);
   Decision decision{{}, state.contacts.list[0], state.counters};
 
   // the same bodies exactly
