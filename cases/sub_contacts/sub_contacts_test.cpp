@@ -62,7 +62,7 @@ struct Pressed {
 
   Answer<Dim> answer() {
     find_neighbours(model, settings, state.bodies, state.contacts, state.counters);
-    find_contacts(model, settings, state.bodies, state.contacts, state.counters);
+    find_contacts(model, settings, 0, state.bodies, state.contacts, state.counters);
     apply_joint_laws(model, settings, state.schedule, joint_step(settings, state.time_step, state.relaxation),
                      state.bodies, state.contacts, state.ledger, state.counters);
     sum_loads(model, settings, state.schedule, state.bodies, state.contacts, state.supports, state.loads);
