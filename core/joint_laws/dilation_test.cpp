@@ -163,7 +163,7 @@ TEST(Dilation, HostilePathsStayFinite) {
         k.area = 1;
         k.slip = {(i % 2 == 0 ? 1 : -1) * shapes::power_of_ten(random, -9, -3), shapes::uniform(random, -1e-4, 1e-4),
                   0};
-        const JointForce<3> f = joint_law<3>(p, p.friction, 0, k, history, 1, {&rise, 0});
+        const LawForce<3> f = joint_law<3>(p, p.friction, 0, k, history, 1, {&rise, 0});
         ASSERT_TRUE(f.force.allFinite());
         EXPECT_GE(f.force[2], 0);
         EXPECT_LE(history.shear_force.norm(), std::tan(p.friction) * f.force[2] * (1 + 1e-12) + 1e-6);
@@ -237,7 +237,7 @@ TEST(HyperbolicClosure, RandomPathsNeverMakeEnergy) {
     k.overlap = next;
     k.area = 1;
     k.slip = {0, 0};
-    const JointForce<2> f = joint_law<2>(p, p.friction, 0, k, history, 1, {&rise, 0});
+    const LawForce<2> f = joint_law<2>(p, p.friction, 0, k, history, 1, {&rise, 0});
     work += 0.5 * (stress + f.force[1]) * (next - closure);
     EXPECT_GE(f.crushing, 0);
     lost += f.crushing;

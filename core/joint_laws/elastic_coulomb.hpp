@@ -28,9 +28,6 @@ struct JointForce {
                         // never negative
   double dashpot = 0;   // N: the dashpot's fraction of the normal force
   double stiffening = 0;   // J lost by the shear spring as it stiffened under its force; negative: gained
-  double grown = 0;        // m, by which the joint rose in this step
-  double dilation = 0;     // J given back to the normal spring by the rise of a joint, negative as it rises
-  double crushing = 0;     // J lost by closure that will not be recovered
   bool snap_back = false;  // strength fell faster than the spring could unload
 };
 

@@ -220,7 +220,7 @@ class Rising {
   const OffsetPath& path() const { return path_; }
 
   // the place after the step, and what it cost; the offset has been moved
-  void settle(double slip, double stress, double area, JointForce<Dim>& result) const {
+  void settle(double slip, double stress, double area, LawForce<Dim>& result) const {
     JointRise<Dim>& rise = *place_.rise;
     const double grown = grown_after(slip), closure = overlap_ + grown;
     result.grown = grown;
@@ -243,12 +243,12 @@ class Rising {
 }  // namespace
 
 template <int Dim>
-JointForce<Dim> joint_law(const JointProperties& p, double friction, double dashpot,
-                          const JointKinematics<Dim>& kinematics, JointState<Dim>& history, double strength_factor,
-                          PlaceOfJoint<Dim> place) {
+LawForce<Dim> joint_law(const JointProperties& p, double friction, double dashpot,
+                        const JointKinematics<Dim>& kinematics, JointState<Dim>& history, double strength_factor,
+                        PlaceOfJoint<Dim> place) {
   Vector<Dim>& shear = history.shear_force;
   const double area = kinematics.area;
-  JointForce<Dim> result;
+  LawForce<Dim> result;
   Rising<Dim> rising(p, kinematics.overlap, friction, strength_factor, place);
   double slipped = 0;  // m, in this step
 
@@ -336,9 +336,9 @@ JointForce<Dim> joint_law(const JointProperties& p, double friction, double dash
   return result;
 }
 
-#define VOUSSOIR_INSTANTIATE(Dim)                                                                              \
-  template JointForce<Dim> joint_law<Dim>(const JointProperties&, double, double, const JointKinematics<Dim>&, \
-                                          JointState<Dim>&, double, PlaceOfJoint<Dim>);
+#define VOUSSOIR_INSTANTIATE(Dim)                                                                            \
+  template LawForce<Dim> joint_law<Dim>(const JointProperties&, double, double, const JointKinematics<Dim>&, \
+                                        JointState<Dim>&, double, PlaceOfJoint<Dim>);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)
 #undef VOUSSOIR_INSTANTIATE

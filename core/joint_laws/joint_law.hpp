@@ -83,12 +83,20 @@ struct PlaceOfJoint {
   double seconds = 0;
 };
 
+// of one with any laws
+template <int Dim>
+struct LawForce : JointForce<Dim> {
+  double grown = 0;     // m, by which the joint rose in this step
+  double dilation = 0;  // J given back to the normal spring by the rise of a joint, negative as it rises
+  double crushing = 0;  // J lost by closure that will not be recovered
+};
+
 // As elastic_coulomb, for a joint with any laws; stiffness per area only. It updates the history's shear force, plastic
 // slip, shear stiffness and bond. A joint that remembers its place has it in `place`, whose offset has been rotated to
 // the new plane; its overlap is the closure of its spring, that of the bodies and the rise before the step.
 template <int Dim>
-JointForce<Dim> joint_law(const JointProperties& properties, double friction, double dashpot,
-                          const JointKinematics<Dim>& kinematics, JointState<Dim>& history, double strength_factor = 1,
-                          PlaceOfJoint<Dim> place = {});
+LawForce<Dim> joint_law(const JointProperties& properties, double friction, double dashpot,
+                        const JointKinematics<Dim>& kinematics, JointState<Dim>& history, double strength_factor = 1,
+                        PlaceOfJoint<Dim> place = {});
 
 }  // namespace voussoir

@@ -15,7 +15,7 @@ struct Specimen {
   std::vector<JointPathPoint> points;
 
   // its force when the walls have come together by `overlap`; the closure of its spring is larger by its rise
-  JointForce<2> force(double overlap, double slip, JointState<2>& after, JointRise<2>& risen) const {
+  LawForce<2> force(double overlap, double slip, JointState<2>& after, JointRise<2>& risen) const {
     JointKinematics<2> k;
     k.normal = {0, 1};
     k.overlap = overlap + risen.rise;
@@ -52,7 +52,7 @@ struct Specimen {
   }
 
   void load(double overlap, double slip) {
-    const JointForce<2> answer = force(overlap, slip, history, rise);
+    const LawForce<2> answer = force(overlap, slip, history, rise);
     now.overlap = overlap;
     now.rise = rise.rise;
     now.offset = rise.offset[0];

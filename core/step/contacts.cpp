@@ -37,8 +37,8 @@ QueryLevel level_of(const Model<Dim>& model, const ContactSettings& settings) {
 // The joint of a contact, and the kind of its contact; true: integrated, with the planes of both parts. If there are
 // integrated contacts, the faces nearest to the contact point determine the joint of every contact.
 template <int Dim>
-bool choose_joint(const Model<Dim>& model, const ContactSettings& settings, const Pair<Dim>& pair, Contact<Dim>& c,
-                  HalfSpaces<Dim>& planes) {
+[[gnu::always_inline]] inline bool choose_joint(const Model<Dim>& model, const ContactSettings& settings,
+                                                const Pair<Dim>& pair, Contact<Dim>& c, HalfSpaces<Dim>& planes) {
   if (settings.face == ContactFace::integrated && c.proof.kind == ProofKind::interior_point) [[unlikely]]
     find_nearest_faces<Dim>(pair, c, planes);
   c.joint = joint_of(model, c);
@@ -125,12 +125,14 @@ struct PendingPairs {
   int looked_at = 0;
   std::array<Contact<Dim>*, pairs_together> all;
 
+  template <bool Places>
   void add(const Model<Dim>& model, const Settings& settings, const BodiesState<Dim>& bodies, QueryLevel level,
            double drawn, ContactsState<Dim>& candidates, Contact<Dim>& c, KernelCounters& counters) {
     Pair<Dim>& pair = pairs[count];
     set_pair(model, bodies, c.part_a, c.part_b, level, pair);
-    if (drawn > 0) [[unlikely]]
-      draw_together<Dim>(drawn, drawn_along<Dim>(rises_of(candidates, &c - candidates.list.data())), pair);
+    if constexpr (Places)
+      if (drawn > 0)
+        draw_together<Dim>(drawn, drawn_along<Dim>(rises_of(candidates, &c - candidates.list.data())), pair);
     all[looked_at++] = &c;
     if (c.touching() && is_integrated(settings.contact, model.properties[c.properties])) [[unlikely]] {
       if (integrate_as_before<Dim>(pair, c, candidates.faces[&c - candidates.list.data()])) {
@@ -144,8 +146,9 @@ struct PendingPairs {
   }
 };
 
-// their results
-template <int Dim>
+// Their results. With `Places` some joint remembers its place (ContactsState::rises); compiled apart, so that other
+// models have no instruction of it.
+template <int Dim, bool Places>
 void resolve(const Model<Dim>& model, const Settings& settings, const BodiesState<Dim>& bodies, double gap,
              const PendingPairs<Dim>& pending, ContactsState<Dim>& contacts, Tally& tally) {
   const std::span resolved = std::span(pending.contacts).first(pending.count);
@@ -156,7 +159,7 @@ void resolve(const Model<Dim>& model, const Settings& settings, const BodiesStat
     Contact<Dim>* const c = resolved[i];
     const std::size_t place = c - contacts.list.data();
     const long long bonds = c->bond_due ? bonds_of(contacts, place).held() : 0;
-    const int divided = c->divided_face;
+    [[maybe_unused]] const int divided = c->divided_face;
     if (c->touching()) {
       const bool whole = choose_joint(model, settings.contact, pending.pairs[i], *c, planes);
       const int along = model.properties[c->properties].sub_contacts;
@@ -168,8 +171,7 @@ void resolve(const Model<Dim>& model, const Settings& settings, const BodiesStat
         }
       } else if (const int cells = sub_contact_count<Dim>(along); cells > 0) {
         divide<Dim>(pending.pairs[i], along, *c, std::span(contacts.subs).subspan(place * stride, cells));
-        if (!contacts.rises.empty()) [[unlikely]]
-          follow_cells(divided, place, contacts);
+        if constexpr (Places) follow_cells(divided, place, contacts);
       } else {
         c->cells = 0;
       }
@@ -178,7 +180,7 @@ void resolve(const Model<Dim>& model, const Settings& settings, const BodiesStat
     }
     if (c->unanswered()) ++tally.unconverged;
     if (bonds > 0 || (c->status == ContactStatus::separated && c->proof.margin > gap)) c->bond_due = false;
-    if (!contacts.rises.empty()) [[unlikely]] {
+    if constexpr (Places) {
       if (keeps_place<Dim>(*c, pending.pairs[i], rises_of(std::as_const(contacts), place))) {
         forget(*c);
         c->free_until = 0;
@@ -200,13 +202,13 @@ void resolve(const Model<Dim>& model, const Settings& settings, const BodiesStat
 }
 
 // the contacts of one group
-template <int Dim>
+template <int Dim, bool Places>
 void find_contacts_of(const Model<Dim>& model, const Settings& settings, double seconds, const BodiesState<Dim>& bodies,
                       QueryLevel level, double gap, int group, const FoundContacts<Dim>& found,
                       ContactsState<Dim>& contacts, Tally& tally) {
   static thread_local PendingPairs<Dim> pending;
   const auto resolve_waiting = [&] {
-    resolve(model, settings, bodies, gap, pending, contacts, tally);
+    resolve<Dim, Places>(model, settings, bodies, gap, pending, contacts, tally);
     if (found) found(group, std::span(pending.all).first(pending.looked_at));
     pending.count = pending.looked_at = 0;
   };
@@ -215,10 +217,9 @@ void find_contacts_of(const Model<Dim>& model, const Settings& settings, double 
     Contact<Dim>& c = contacts.list[i];
     contacts.loads[i].second = -1;
     double drawn = 0;
-    if (!contacts.rises.empty()) [[unlikely]]
-      drawn = drawn_by<Dim>(model, bodies, c, rises_of(contacts, i), seconds);
-    if (!is_near(model, bodies, gap, c, drawn)) {
-      forget_place(contacts, i);
+    if constexpr (Places) drawn = drawn_by<Dim>(model, bodies, c, rises_of(contacts, i), seconds);
+    if (!(drawn > 0 ? is_near_risen(model, bodies, drawn, c) : is_near(model, bodies, gap, c))) {
+      if constexpr (Places) forget_place(contacts, i);
       if (c.bond_due && bonds_of(contacts, i).held() > 0) c.bond_due = false;  // broken, not to be made again
       set_apart(c);
       continue;
@@ -227,7 +228,7 @@ void find_contacts_of(const Model<Dim>& model, const Settings& settings, double 
       ++tally.kernel.motion_skips;
       continue;
     }
-    pending.add(model, settings, bodies, level, drawn, contacts, c, tally.kernel);
+    pending.template add<Places>(model, settings, bodies, level, drawn, contacts, c, tally.kernel);
     if (pending.looked_at == pairs_together) resolve_waiting();
   }
   if (pending.looked_at > 0) resolve_waiting();
@@ -269,8 +270,10 @@ void find_contacts(const Model<Dim>& model, const Settings& settings, double sec
   static thread_local std::vector<Tally> own;
   std::vector<Tally>& tallies = own;  // of this thread, filled by all
   tallies.assign(groups_of(contacts.list.size()), {});
+  const bool places = !contacts.rises.empty();
   on_threads(settings.threads, static_cast<int>(tallies.size()), [&](int group) {
-    find_contacts_of(model, settings, seconds, bodies, level, gap, group, found, contacts, tallies[group]);
+    (places ? find_contacts_of<Dim, true> : find_contacts_of<Dim, false>)(model, settings, seconds, bodies, level, gap,
+                                                                          group, found, contacts, tallies[group]);
   });
   for (const Tally& tally : tallies)
     add(counters, tally);

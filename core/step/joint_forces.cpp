@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -78,11 +79,11 @@ template <int Dim>
   return answer;
 }
 
-// the force of a joint with laws of its own
+// the force of a joint with laws of its own; never inlined, as the loop of plain joints would have its registers
 template <int Dim>
-JointForce<Dim> answer_of_laws(const JointProperties& properties, double friction, double damping,
-                               const JointKinematics<Dim>& k, double strength_factor, JointSums& sums,
-                               JointState<Dim>& history, const PlaceOfJoint<Dim>& place) {
+[[gnu::noinline]] JointForce<Dim> answer_of_laws(const JointProperties& properties, double friction, double damping,
+                                                 const JointKinematics<Dim>& k, double strength_factor, JointSums& sums,
+                                                 JointState<Dim>& history, const PlaceOfJoint<Dim>& place) {
   const double largest = place.rise ? place.rise->largest_closure : 0;
   const double stiffness =
       damping > 0 ? normal_answer(properties, k.overlap, history.bond == Bond::whole, largest).stiffness : 0;
@@ -92,7 +93,7 @@ JointForce<Dim> answer_of_laws(const JointProperties& properties, double frictio
     rise.normal = k.normal;
   }
   const double pushed = history.dashpot;
-  const JointForce<Dim> answer =
+  const LawForce<Dim> answer =
       joint_law<Dim>(properties, friction, damping * std::sqrt(stiffness), k, history, strength_factor, place);
   sums.stiffening += answer.stiffening;
   sums.dilation += answer.dilation - 0.5 * (pushed + answer.dashpot) * answer.grown;
@@ -239,15 +240,15 @@ template <int Dim>
     if (s.area > 0) add(s.point, s.force);
 }
 
-// The joint of one contact, or of each of its cells; inlined as above.
-template <int Dim>
+// The joint of one contact, or of each of its cells; inlined as above. With `Places` some joint remembers its place.
+template <int Dim, bool Places>
 [[gnu::always_inline]] inline void answer(const Model<Dim>& model, const Settings& settings,
                                           const std::vector<Friction>& frictions, const JointStep& step,
                                           const BodiesState<Dim>& bodies, std::size_t place,
                                           ContactsState<Dim>& contacts, JointSums& sums) {
   Contact<Dim>& c = contacts.list[place];
   if (!c.touching()) {
-    if (!contacts.rises.empty()) [[unlikely]]
+    if constexpr (Places)
       fly<Dim>(model.properties[c.properties],
                dilation_in_force(model.properties[c.properties], frictions[c.properties].angle,
                                  frictions[c.properties].strength_factor),
@@ -270,17 +271,19 @@ template <int Dim>
     sums.dashpots += f.dashpots;
     return;
   }
-  const std::span<JointRise<Dim>> rises = rises_of(contacts, place);
+  std::span<JointRise<Dim>> rises;
   double drawn = 0;  // m: by this the pair was drawn together
-  if (!rises.empty()) [[unlikely]]
+  if constexpr (Places) {
+    rises = rises_of(contacts, place);
     drawn = drawn_by<Dim>(model, bodies, c, rises, step.length);
+  }
   if (c.cells == 0) {
     Bearing<Dim> at{c.geometry.point, c.geometry.normal, c.geometry.overlap, c.geometry.area};
     if (properties.constant_stiffness) {
       at.area = 1;
       at.stiffness_factor = c.geometry.stiffness_factor;
     }
-    JointRise<Dim>* const rise = rises.empty() ? nullptr : rises.data();
+    JointRise<Dim>* const rise = Places ? rises.data() : nullptr;
     if (drawn > 0) at.overlap -= drawn - rise->rise;
     c.force = joint_force<Dim>(properties, step, motion, at, friction, c.history, rise, sums);
     note_load<Dim>(c, {}, model.parts[c.part_b].body, motion.between, contacts.loads[place]);
@@ -298,7 +301,7 @@ template <int Dim>
   c.history.bond = whole > 0 ? Bond::whole : Bond::lost;
   for (SubContact<Dim>& s : subs_of(contacts, place)) {
     if (!(s.area > 0)) continue;
-    JointRise<Dim>* const rise = rises.empty() ? nullptr : &rises[&s - subs_of(contacts, place).data()];
+    JointRise<Dim>* const rise = Places ? &rises[&s - subs_of(contacts, place).data()] : nullptr;
     const double overlap = drawn > 0 ? s.overlap - (drawn - rise->rise) : s.overlap;
     const double area = properties.constant_stiffness ? s.area / whole : s.area;
     const Bond before = s.history.bond;
@@ -392,12 +395,15 @@ void find_joint_forces(const Model<Dim>& model, const Settings& settings, const 
   std::vector<JointSums>& sums = own;  // of this thread, filled by all
   sums.assign(groups_of(contacts.list.size()), {});
   const std::vector<Friction>& frictions = frictions_of(schedule);
-  const auto answer_found = [&](int group, std::span<Contact<Dim>* const> found) {
-    for (const Contact<Dim>* c : found)
-      answer(model, settings, frictions, step, bodies, static_cast<std::size_t>(c - contacts.list.data()), contacts,
-             sums[group]);
+  const auto find = [&](auto places) {
+    const auto answer_found = [&](int group, std::span<Contact<Dim>* const> found) {
+      for (const Contact<Dim>* c : found)
+        answer<Dim, decltype(places)::value>(model, settings, frictions, step, bodies,
+                                             static_cast<std::size_t>(c - contacts.list.data()), contacts, sums[group]);
+    };
+    find_contacts<Dim>(model, settings, step.length, bodies, contacts, counters, std::ref(answer_found));
   };
-  find_contacts<Dim>(model, settings, step.length, bodies, contacts, counters, std::ref(answer_found));
+  contacts.rises.empty() ? find(std::false_type()) : find(std::true_type());
   add(sums, ledger, counters);
 }
 
@@ -407,10 +413,13 @@ void apply_joint_laws(const Model<Dim>& model, const Settings& settings, const S
                       Ledger& ledger, Counters& counters) {
   contacts.loads.resize(contacts.list.size());
   const std::vector<Friction>& frictions = frictions_of(schedule);
-  const auto work = [&](int i, JointSums& sum) {
-    answer(model, settings, frictions, step, bodies, static_cast<std::size_t>(i), contacts, sum);
+  const auto work = [&](auto places) {
+    return sums_in_groups<JointSums>(settings.threads, contacts.list.size(), [&](int i, JointSums& sum) {
+      answer<Dim, decltype(places)::value>(model, settings, frictions, step, bodies, static_cast<std::size_t>(i),
+                                           contacts, sum);
+    });
   };
-  add(sums_in_groups<JointSums>(settings.threads, contacts.list.size(), work), ledger, counters);
+  add(contacts.rises.empty() ? work(std::false_type()) : work(std::true_type()), ledger, counters);
 }
 
 template <int Dim>

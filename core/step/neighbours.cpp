@@ -229,12 +229,14 @@ double closed_gap(const Model<Dim>& model) {
 }
 
 template <int Dim>
-bool is_near(const Model<Dim>& model, const BodiesState<Dim>& bodies, double gap, Contact<Dim>& c, double rise) {
+bool is_near_risen(const Model<Dim>& model, const BodiesState<Dim>& bodies, double rise, Contact<Dim>& c) {
+  c.near_until = 0;
+  return meet(bounds(model, bodies, c.part_a, rise), bounds(model, bodies, c.part_b, rise));
+}
+
+template <int Dim>
+bool is_near(const Model<Dim>& model, const BodiesState<Dim>& bodies, double gap, Contact<Dim>& c) {
   constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
-  if (rise > 0) [[unlikely]] {
-    c.near_until = 0;
-    return meet(bounds(model, bodies, c.part_a, rise), bounds(model, bodies, c.part_b, rise));
-  }
   const double way = travelled(model, bodies, c);
   if (way < c.near_until && !c.bond_due) return c.status != ContactStatus::apart;
   const Box<Dim> a = bounds(model, bodies, c.part_a, 0), b = bounds(model, bodies, c.part_b, 0);
@@ -335,7 +337,8 @@ void find_neighbours(const Model<Dim>& model, const Settings& settings, BodiesSt
                                      Counters&);                                                                 \
   template void count_travels<Dim>(const Model<Dim>&, const Settings&, BodiesState<Dim>&);                       \
   template double closed_gap<Dim>(const Model<Dim>&);                                                            \
-  template bool is_near<Dim>(const Model<Dim>&, const BodiesState<Dim>&, double, Contact<Dim>&, double);
+  template bool is_near_risen<Dim>(const Model<Dim>&, const BodiesState<Dim>&, double, Contact<Dim>&);           \
+  template bool is_near<Dim>(const Model<Dim>&, const BodiesState<Dim>&, double, Contact<Dim>&);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)
 #undef VOUSSOIR_INSTANTIATE

@@ -89,9 +89,12 @@ double closed_gap(const Model<Dim>& model);
 
 // Whether a pair is near: its boxes meet and, unless it touched in the step before, no face separates it
 // (contact/nearness). Examined only when its bodies have moved by the distance that decided it, and at every step if a
-// bond is due, which lapses when the pair is farther apart than `gap`, closed_gap. One whose joint has risen is
-// examined at every step, by its boxes, and is near up to twice that `rise`.
+// bond is due, which lapses when the pair is farther apart than `gap`, closed_gap.
 template <int Dim>
-bool is_near(const Model<Dim>& model, const BodiesState<Dim>& bodies, double gap, Contact<Dim>& c, double rise = 0);
+bool is_near(const Model<Dim>& model, const BodiesState<Dim>& bodies, double gap, Contact<Dim>& c);
+
+// A pair whose joint has risen is examined at every step, by its boxes, and is near up to twice that `rise`.
+template <int Dim>
+bool is_near_risen(const Model<Dim>& model, const BodiesState<Dim>& bodies, double rise, Contact<Dim>& c);
 
 }  // namespace voussoir
