@@ -72,6 +72,8 @@ class FailingCalls : public FaultTest {
     }
   }
 
+  void keep_the_only_good_checkpoint(int apart) const;
+
   // `growth` of the distances between the calls that fail; `fewest` failures
   void refuse_memory(double growth, int fewest) const;
 
@@ -79,22 +81,22 @@ class FailingCalls : public FaultTest {
   Contents complete_;
 };
 
-// every fourth of them in each build
-constexpr int fourth = 4;
+// every fifth of them in each build, every one in the Long test
+constexpr int fifth = 5;
 TEST_F(FailingCalls, WritesThatFail) {
-  EXPECT_GT(sweep("write", EIO, 5, fourth), 15);
+  EXPECT_GT(sweep("write", EIO, 5, fifth), 15);
 }
 TEST_F(FailingCalls, WritesToAFullDisk) {
-  EXPECT_GT(sweep("write", ENOSPC, 6, fourth), 15);
+  EXPECT_GT(sweep("write", ENOSPC, 6, fifth), 15);
 }
 TEST_F(FailingCalls, FlushesThatFail) {
-  EXPECT_GT(sweep("fsync", EIO, 5, fourth), 30);
+  EXPECT_GT(sweep("fsync", EIO, 5, fifth), 30);
 }
 TEST_F(FailingCalls, RenamesThatFail) {
-  EXPECT_GT(sweep("rename", EIO, 5, fourth), 15);
+  EXPECT_GT(sweep("rename", EIO, 5, fifth), 15);
 }
 TEST_F(FailingCalls, OpensThatFail) {
-  EXPECT_GT(sweep("open", EACCES, 7, fourth), 30);
+  EXPECT_GT(sweep("open", EACCES, 7, fifth), 30);
 }
 TEST_F(FailingCalls, EveryRemovalThatFails) {
   EXPECT_GT(sweep("unlink", EIO, 5, 1), 3);
@@ -124,8 +126,8 @@ TEST_F(FailingCalls, ShortWritesAndInterruptedCallsAreTriedAgain) {
   }
 }
 
-// if the newest checkpoint is damaged, the one before it must survive any failure
-TEST_F(FailingCalls, TheOnlyGoodCheckpointSurvivesFailures) {
+// if the newest checkpoint is damaged, the one before it must survive any failure; renames that fail are `apart`
+void FailingCalls::keep_the_only_good_checkpoint(int apart) const {
   // as a kill between two checkpoints leaves it
   run_failing(run_arguments(scene_, at("out"), steps), "rename", std::to_string(EIO), 19, 19);
   ASSERT_TRUE(failed());
@@ -134,7 +136,7 @@ TEST_F(FailingCalls, TheOnlyGoodCheckpointSurvivesFailures) {
   damaged[damaged.size() / 2] ^= 1;
   write("out/checkpoint", damaged);
   fs::copy(at("out"), at("kept"), fs::copy_options::recursive);
-  for (int k = 1;; ++k) {
+  for (int k = 1;; k += apart) {
     fs::remove_all(at("out"));
     fs::copy(at("kept"), at("out"), fs::copy_options::recursive);
     const Ended ended = run_failing(resume_arguments(at("out")), "rename", std::to_string(EIO), k, k);
@@ -145,6 +147,14 @@ TEST_F(FailingCalls, TheOnlyGoodCheckpointSurvivesFailures) {
     expect_equal(contents_of(at("out")), complete_, fmt::format("rename {}", k));
     if (HasFailure()) break;
   }
+}
+
+TEST_F(FailingCalls, TheOnlyGoodCheckpointSurvivesFailures) {
+  keep_the_only_good_checkpoint(3);
+}
+
+TEST_F(FailingCallsLong, TheOnlyGoodCheckpointSurvivesEveryFailure) {
+  keep_the_only_good_checkpoint(1);
 }
 
 // ---- memory -------------------------------------------------------------------------------------------------------

@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 
-// two hundred blocks for about a second
-const std::string large = cubes_scene(5, 5, 8, 0.03, 10);
+// a hundred blocks for about a second
+const std::string large = cubes_scene(4, 4, 6, 0.02, 10);
 constexpr int large_steps = 7;  // between checkpoints
 // a dozen blocks for a few hundredths of a second
 const std::string small = cubes_scene(2, 2, 3, 0.008, 3);

@@ -28,6 +28,7 @@ function(voussoir_case name)
     target_precompile_headers(case_${name} REUSE_FROM voussoir_case_headers)
   endif()
   voussoir_compile_as_one(case_${name})
+  voussoir_optimised_first(case_${name} voussoir_core voussoir_reference ${arg_LIBS})
   target_compile_definitions(case_${name} PRIVATE
     VOUSSOIR_SOURCE_DIR="${PROJECT_SOURCE_DIR}" VOUSSOIR_CASE_DIR="${PROJECT_SOURCE_DIR}/cases/${name}")
 

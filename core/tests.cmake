@@ -57,7 +57,7 @@ voussoir_test(unit.joint_sets LABEL unit SOURCES joint_sets/*_test.cpp exchange/
   LIBS voussoir_core Boost::headers fmt::fmt)
 voussoir_test(unit.key_blocks LABEL unit SOURCES key_blocks/*_test.cpp LIBS voussoir_core fmt::fmt)
 voussoir_test(unit.support LABEL unit SOURCES support/*_test.cpp LIBS voussoir_core voussoir_oracle_algebra Boost::headers)
-voussoir_test(unit.contact OPTIMISED LABEL unit SOURCES contact/*_test.cpp
+voussoir_test(unit.contact LONG OPTIMISED LABEL unit SOURCES contact/*_test.cpp
   LIBS voussoir_core voussoir_oracle_algebra Boost::headers)
 voussoir_test(unit.potential LONG LABEL unit SOURCES potential/*_test.cpp
   LIBS voussoir_core ${outside_cone_solver} Boost::headers)
@@ -66,6 +66,6 @@ voussoir_test(unit.output LABEL unit SOURCES output/*_test.cpp LIBS voussoir_cor
 if(TARGET voussoir_limit)
   voussoir_test(unit.limit LABEL unit SOURCES limit/*_test.cpp LIBS voussoir_limit Boost::headers)
 endif()
-voussoir_test(unit.step LABEL unit
+voussoir_test(unit.step LONG LABEL unit
   SOURCES *_test.cpp load/*_test.cpp model/*_test.cpp run/*_test.cpp stage/*_test.cpp step/*_test.cpp testing/*_test.cpp
   LIBS voussoir_core voussoir_end_bytes voussoir_oracle_algebra Boost::headers fmt::fmt)

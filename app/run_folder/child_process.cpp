@@ -1,7 +1,9 @@
 #include "app/run_folder/child_process.hpp"
 
 #include <fcntl.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -12,15 +14,12 @@
 #include "app/base/digest.hpp"
 #include "core/base/bad_input.hpp"
 #include "core/output/atomic_file.hpp"
-#include "text/read_file.hpp"
 
 namespace voussoir {
 namespace {
 
 // the file of this process, even after another was built in its place
 const char* const this_program = "/proc/self/exe";
-
-constexpr std::uintmax_t largest_program = 4ull << 30;  // bytes
 
 // between fork and exec: no allocation and no lock
 [[noreturn]] void become_program(char* const* arguments, int input, int messages, pid_t parent) {
@@ -77,13 +76,21 @@ double ChildProcess::seconds() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
 }
 
+// Mapped: to read its ten megabytes into memory took three quarters of the time of a small run.
 const std::string& program_digest() {
   static const std::string of_program = [] {
-    try {
-      return digest(read_file(this_program, largest_program));
-    } catch (const ReadFault&) {
+    const int file = ::open(this_program, O_RDONLY | O_CLOEXEC);
+    struct stat status = {};
+    void* bytes = MAP_FAILED;
+    if (file >= 0 && ::fstat(file, &status) == 0)
+      bytes = ::mmap(nullptr, static_cast<std::size_t>(status.st_size), PROT_READ, MAP_PRIVATE | MAP_POPULATE, file, 0);
+    if (file >= 0) ::close(file);
+    if (bytes == MAP_FAILED)
       throw BadInput("the program cannot read its own file, so results cannot be distinguished from older ones");
-    }
+    const auto size = static_cast<std::size_t>(status.st_size);
+    std::string text = digest({static_cast<const char*>(bytes), size});
+    ::munmap(bytes, size);
+    return text;
   }();
   return of_program;
 }

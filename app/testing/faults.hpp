@@ -121,10 +121,7 @@ class FaultTest : public ::testing::Test {
     return contents_of(at("undisturbed"));
   }
 
-  // in memory if the system has such a folder: hundreds of runs would wait for the disk
-  const std::filesystem::path folder_ =
-      (::access("/dev/shm", W_OK) == 0 ? "/dev/shm" : std::filesystem::temp_directory_path()) /
-      fmt::format("voussoir_faults_{}", ::getpid());
+  const std::filesystem::path folder_ = scratch_folder("faults");
 };
 
 }  // namespace voussoir

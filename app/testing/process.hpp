@@ -28,6 +28,13 @@ inline std::string read(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
+// A folder for the runs of one test program, in memory if the system has such a folder: hundreds of runs would wait for
+// the disk.
+inline std::filesystem::path scratch_folder(const std::string& name) {
+  return (::access("/dev/shm", W_OK) == 0 ? "/dev/shm" : std::filesystem::temp_directory_path()) /
+         std::filesystem::path("voussoir_" + name + "_" + std::to_string(::getpid()));
+}
+
 struct Launch {
   std::vector<std::string> arguments = {};                            // without the program's name
   std::vector<std::pair<std::string, std::string>> environment = {};  // besides ours

@@ -64,7 +64,7 @@ class Program : public ::testing::Test {
 
   const std::string cubes_ = "'" + (scenes / "two_cubes.toml").string() + "' ";
   const std::string squares_ = "'" + (scenes / "two_squares.toml").string() + "' ";
-  const fs::path folder_ = fs::temp_directory_path() / fmt::format("voussoir_cli_{}", ::getpid());
+  const fs::path folder_ = scratch_folder("cli");
 };
 
 }  // namespace voussoir::program

@@ -147,10 +147,10 @@ double depth(const ContactGeometry<Dim>& g) {
 
 // The smoothed overlap is never larger than the unsmoothed one and close to it, so that a force begins at zero.
 template <int Dim>
-void expect_less_by_the_smoothing(std::uint64_t seed) {
+void expect_less_by_the_smoothing(std::uint64_t seed, int pairs) {
   Random random(seed);
   int pressed = 0;
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < pairs; ++i) {
     const Polytope<Dim> a = shapes::block<Dim>(shapes::random_planes<Dim>(random, shapes::integer(random, 0, 8), 0.5)),
                         b = shapes::block<Dim>(shapes::random_planes<Dim>(random, shapes::integer(random, 0, 8), 0.5));
     const Matrix<Dim> turn = matrix(shapes::orientation<Dim>(random));
@@ -174,12 +174,17 @@ void expect_less_by_the_smoothing(std::uint64_t seed) {
       pressed += contact.geometry.overlap > 0;
     }
   }
-  EXPECT_GT(pressed, 100);
+  EXPECT_GT(pressed, pairs / 3);
 }
 
 TEST(CentralPathContact, IsLessDeepByTheSmoothing) {
-  expect_less_by_the_smoothing<3>(97);
-  expect_less_by_the_smoothing<2>(98);
+  expect_less_by_the_smoothing<3>(97, 60);
+  expect_less_by_the_smoothing<2>(98, 60);
+}
+
+TEST(CentralPathContactLong, IsLessDeepByTheSmoothing) {
+  expect_less_by_the_smoothing<3>(97, 300);
+  expect_less_by_the_smoothing<2>(98, 300);
 }
 
 TEST(CentralPathContact, FaceOnFaceActsInTheMiddleAndMovesAsItRocks) {

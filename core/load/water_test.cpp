@@ -166,8 +166,8 @@ class Water : public testing::Test {};
 TYPED_TEST_SUITE(Water, Dimensions);
 
 // Eq. 6.8
-TYPED_TEST(Water, HasVolumeAndMomentsOfElementaryGeometry) {
-  constexpr int Dim = TypeParam::value;
+template <int Dim>
+void expect_elementary_geometry(int blocks) {
   Random random(Dim);
   int cut = 0;
   for (int i = 0; i < blocks; ++i) {
@@ -196,6 +196,15 @@ TYPED_TEST(Water, HasVolumeAndMomentsOfElementaryGeometry) {
     ASSERT_LT((found.load.moment - load.moment).norm(), 1e-12 * size * steep) << i;
   }
   EXPECT_GT(cut, blocks / 5);
+}
+
+TYPED_TEST(Water, HasVolumeAndMomentsOfElementaryGeometry) {
+  expect_elementary_geometry<TypeParam::value>(blocks / 5);
+}
+
+TEST(WaterLong, HasVolumeAndMomentsOfElementaryGeometry) {
+  expect_elementary_geometry<2>(blocks);
+  expect_elementary_geometry<3>(blocks);
 }
 
 TYPED_TEST(Water, PushesFacesAsItPushesTheVolume) {

@@ -119,13 +119,13 @@ void judge_pairs(unsigned seed, int first, int pairs) {
 
 // Eq. A.3, in exact digits and, by Ipopt, through Eqs A.6-A.9; Ipopt takes most of the time
 TEST(PotentialCertainty, RandomPairs) {
-  judge_pairs<2>(1, 0, 75);
-  judge_pairs<3>(2, 0, 75);
+  judge_pairs<2>(1, 0, 25);
+  judge_pairs<3>(2, 0, 25);
 }
 
 TEST(PotentialPairsLong, MoreRandomPairs) {
-  judge_pairs<2>(1, 75, 425);
-  judge_pairs<3>(2, 75, 425);
+  judge_pairs<2>(1, 25, 475);
+  judge_pairs<3>(2, 25, 475);
 }
 
 // 100,000 of each dimension, in parts of which each takes Ipopt some minutes: --gtest_filter=*CertaintyLong*Space/3

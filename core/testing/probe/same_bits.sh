@@ -10,7 +10,8 @@ shift 7
 [ $# -gt 0 ] || set -- ""
 case $program in
   core/*) part=(-DVOUSSOIR_NUMERICS_ONLY=ON -DVOUSSOIR_BUILD_BENCHMARKS=OFF) ;;
-  *) part=(-DVOUSSOIR_NUMERICS_ONLY=kernel -DVOUSSOIR_BUILD_BENCHMARKS=ON) ;;
+  # so few sources read their headers in less time than it takes to precompile them
+  *) part=(-DVOUSSOIR_NUMERICS_ONLY=kernel -DVOUSSOIR_BUILD_BENCHMARKS=ON -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON) ;;
 esac
 mkdir -p "$folder"
 
