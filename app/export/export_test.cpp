@@ -218,6 +218,17 @@ TEST_F(Export, ReadsBackAsTheBlocksThatWereCut) {
     EXPECT_NE(data.find(part), std::string::npos) << part;
   EXPECT_EQ(data.find("range plane"), data.rfind("range plane")) << "only one joint has other properties than most";
 
+  // 3DEC's joints dilate as ours of the constant law, YADE's do not
+  const std::string dilation =
+      " --set joint_properties.rock.dilation_law=constant --set joint_properties.rock.dilation_deg=8 --set "
+      "joint_properties.rock.dilation_until_m=0.01";
+  EXPECT_NE(exported("--as 3dec" + dilation).find("friction 35 dilation 8 dilation-zero 0.01 cohesion"),
+            std::string::npos);
+  expect_one_line(run("export scene.toml --as yade --set joints.C.properties=rock --set "
+                      "joint_properties.rock.cohesion=0 --out y.py" +
+                      dilation),
+                  2, "joint_properties.rock.dilation_law");
+
   // YADE has one stiffness and friction for all
   expect_one_line(run("export scene.toml --as yade --out y.py"), 2, "2 joint_properties (rock, clay)");
   const std::string alike = "--as yade --set joints.C.properties=rock --set joint_properties.rock.cohesion=0";
@@ -365,8 +376,8 @@ TEST_F(Export, UnsupportedFeaturesAreRefusedInOneLine) {
               "joint_properties.rock.softening_slip_m=0.01",
               "joint_properties.rock.friction_law"},
              {"",
-              "--set joint_properties.rock.dilation_law=constant --set joint_properties.rock.dilation_deg=8 --set "
-              "joint_properties.rock.dilation_until_m=0.01",
+              "--set joint_properties.rock.dilation_law=falling --set joint_properties.rock.dilation_deg=8 --set "
+              "joint_properties.rock.dilation_decay_m=0.01",
               "joint_properties.rock.dilation_law"},
          }) {
       write("scene.toml", rock + c.more);

@@ -32,17 +32,19 @@ void refuse_laws(const Scene& scene, const ExportedScene& found, std::string_vie
     const PropertiesSpec& spec = scene.properties[p];
     JointLaws laws = spec.properties.laws;
     laws.bond = false;
-    const char* const key = laws.normal != StiffnessLaw::constant    ? "normal_law"
-                            : laws.shear != StiffnessLaw::constant   ? "shear_law"
-                            : laws.friction != FrictionLaw::constant ? "friction_law"
-                            : laws.dilation != DilationLaw::none     ? "dilation_law"
-                            : spec.properties.constant_stiffness     ? "constant_stiffness"
-                                                                     : nullptr;
+    // 3DEC's joints dilate at a constant angle up to an offset, as ours of this law
+    const bool dilates_there = program == "3DEC" && laws.dilation == DilationLaw::constant;
+    const char* const key = laws.normal != StiffnessLaw::constant         ? "normal_law"
+                            : laws.shear != StiffnessLaw::constant        ? "shear_law"
+                            : laws.friction != FrictionLaw::constant      ? "friction_law"
+                            : spec.properties.dilates() && !dilates_there ? "dilation_law"
+                            : spec.properties.constant_stiffness          ? "constant_stiffness"
+                                                                          : nullptr;
     if (key)
       refuse(spec.subject, key,
              fmt::format("cannot be expressed in the text for {}, which has constant stiffness per area and constant "
-                         "friction without dilation; give the joint these",
-                         program));
+                         "friction{}; give the joint these",
+                         program, program == "3DEC" ? ", and dilation_law = \"constant\" alone" : " without dilation"));
   }
 }
 

@@ -57,8 +57,11 @@ std::string range_of(const Vector<3>& centroid, double within) {
 
 // properties of every contact
 std::string elastic_friction(const JointProperties& p) {
-  return fmt::format("property stiffness-normal {} stiffness-shear {} friction {}", p.normal_stiffness,
-                     p.shear_stiffness, to_degrees(p.friction));
+  std::string text = fmt::format("property stiffness-normal {} stiffness-shear {} friction {}", p.normal_stiffness,
+                                 p.shear_stiffness, to_degrees(p.friction));
+  if (p.laws.dilation == DilationLaw::constant)
+    text += fmt::format(" dilation {} dilation-zero {}", to_degrees(p.dilation), p.dilation_until);
+  return text;
 }
 
 std::string properties_text(const JointProperties& p) {

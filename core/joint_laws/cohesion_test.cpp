@@ -1,7 +1,9 @@
 // Cohesion that slip takes or leaves, against closed forms.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "core/joint_laws/joint_law.hpp"
 #include "core/joint_laws/joint_path.hpp"
@@ -138,6 +140,38 @@ TEST(Cohesion, AFactorDividesBothCohesions) {
               joint_law<3>(weaker, p.friction, 0, k, stated).force);
   }
   EXPECT_EQ(divided.bond, Bond::slipped);
+}
+
+// Two joints of 1 m² under one block that is pushed sideways. Brittle: the stiffer one has lost its cohesion before the
+// other yields, and the pair's peak is the larger of both moments; plastic: the sum of both strengths, at any
+// stiffness.
+TEST(Cohesion, TwoJointsUnderOneBlockReachTheirSumOnlyIfCohesionStays) {
+  constexpr double c = 0.1e6, stress = 0.2e6, stiff = 10e9, soft = 4e9;
+  const double frictional = std::tan(30 * degree) * stress, strength = c + frictional;
+  const double first = strength / stiff, second = strength / soft;  // m: slip at which each yields
+  const auto peak = [&](CohesionLaw law) {
+    JointPath path;
+    path.normal_stress = stress;
+    path.slip = second * (1 - 1e-12);
+    path.bonded = true;
+    path.steps = 1000;  // `first` is one of them
+    std::vector<double> sum(path.steps + 1);
+    for (const double stiffness : {stiff, soft}) {
+      JointProperties p = cohesive();
+      p.friction = 30 * degree;
+      p.shear_stiffness = stiffness;
+      p.cohesion = c;
+      p.cohesion_law = law;
+      const std::vector<JointPathPoint> points = follow(p, path);
+      for (int i = 1; i <= path.steps; ++i)
+        sum[i] += points[points.size() - 1 - path.steps + i].shear_stress;
+    }
+    return *std::ranges::max_element(sum);
+  };
+  EXPECT_NEAR(first, 21.547005383792513e-6, 1e-18);
+  EXPECT_NEAR(strength + soft * first, 301.6580753730952e3, 1e-6);  // the pair as the first yields
+  EXPECT_NEAR(peak(CohesionLaw::brittle), 330.9401076758503e3, 1e-3);
+  EXPECT_NEAR(peak(CohesionLaw::plastic), 430.9401076758503e3, 1e-3);
 }
 
 }  // namespace
