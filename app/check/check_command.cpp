@@ -287,7 +287,7 @@ void print_left_to_relaxation(const Prepared<Dim>& prepared) {
   for (const JointProperties& p : prepared.model.properties)
     if (!newton_follows(p)) names.push_back(p.name);
   if (!names.empty())
-    print_line("", fmt::format("relaxation replaces Newton's method: {} softens", fmt::join(names, ", ")));
+    print_line("", fmt::format("relaxation replaces Newton's method: {} softens or dilates", fmt::join(names, ", ")));
 }
 
 template <int Dim>

@@ -69,6 +69,13 @@ bool slip_takes_cohesion(const JudgedSet<Dim>& set) {
 }
 
 template <int Dim>
+bool dilates(const JudgedSet<Dim>& set) {
+  return std::ranges::any_of(set.block.faces, [&](const RockFace<Dim>& face) {
+    return set.assembly.model.properties[face.properties].dilates();
+  });
+}
+
+template <int Dim>
 std::string name_of_face(const JudgedSet<Dim>& set, int face) {
   const int joint = set.block.faces[face].joint;
   return joint == no_joint ? "a face that no joint made" : set.assembly.model.joints[joint].name;
@@ -145,6 +152,7 @@ std::optional<BlockTheory> judge_moving(const Prepared<Dim>& prepared, int place
   theory.reasons = reasons_of(set, mechanism);
   if (!theory.brittle && slip_takes_cohesion(set))
     theory.reasons.push_back("it counts cohesion that slip takes as plastic");
+  if (dilates(set)) theory.reasons.push_back("joints dilate, which it does not count");
   return theory;
 }
 

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
 #include "core/run/bonds_as_sliced.hpp"
+#include "core/run/failure_watch.hpp"
 #include "core/run/record.hpp"
 #include "core/run/trial_record.hpp"
 #include "core/step/free_fall.hpp"
@@ -115,6 +117,27 @@ std::string found_by(const ReductionReport& report) {
 }
 
 // the value that a search has found, if any, and its message
+// joints that dilated by less than stated at the level that a search has found (dilation_in_force)
+template <int Dim>
+void note_lowered_dilation(const StageInForce<Dim>& stage, const ReducePlan& plan, double critical, Results& results) {
+  const bool factor = plan.searched == Searched::factor;
+  for (const int k : chosen_properties(stage.model, plan)) {
+    const JointProperties& p = stage.model.properties[k];
+    if (p.laws.dilation == DilationLaw::none || p.dilation == 0) continue;
+    const double drop = p.laws.friction == FrictionLaw::softening ? p.softening_drop : 0;
+    // the level at which friction in force, as softening leaves it, is the dilation
+    const double level =
+        factor ? (std::tan(p.friction) - drop) / std::tan(p.dilation) : std::atan(std::tan(p.dilation) + drop);
+    if (factor ? critical <= level : critical >= level) continue;
+    results.warnings.push_back(
+        fmt::format("stage {}: {} {} the friction in force of {} is less than its dilation_deg = {:.4g}; there it "
+                    "dilates by that friction, as more would make energy",
+                    stage.plan().name, factor ? "above a factor of" : "below",
+                    factor ? fmt::format("{:.4g}", level) : fmt::format("{:.4g} deg", to_degrees(level)), p.name,
+                    to_degrees(p.dilation)));
+  }
+}
+
 template <int Dim>
 StageOutcome judge_search(const ReducePlan& reduction, const ReductionReport& report, const StageInForce<Dim>& stage,
                           Results& results) {
@@ -136,6 +159,7 @@ StageOutcome judge_search(const ReducePlan& reduction, const ReductionReport& re
     }
     if (reduction.searched == Searched::factor) value.divides = divided_by_factor(reduction.properties);
     results.values.emplace_back(name, std::move(value));
+    note_lowered_dilation(stage, reduction, report.critical, results);
     for (StableState& at : results.at_last_stable_state) {
       if (at.stage != stage.plan().name) continue;
       if (report.by == CriticalBy::required_strength || report.by == CriticalBy::stable_fit)

@@ -396,7 +396,7 @@ struct Newton {
 }  // namespace
 
 bool newton_follows(const JointProperties& joint) {
-  return joint.laws.friction != FrictionLaw::softening && !joint.softens_cohesion();
+  return joint.laws.friction != FrictionLaw::softening && !joint.softens_cohesion() && !joint.dilates();
 }
 
 template <int Dim>

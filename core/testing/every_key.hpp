@@ -125,7 +125,6 @@ name = "hyperbolic"
 normal_stiffness = 1e10
 normal_law = "hyperbolic"
 maximum_closure_m = 2e-4
-irrecoverable_fraction = 0.4
 shear_stiffness = 4e9
 friction_deg = 30
 dilation_law = "constant"
