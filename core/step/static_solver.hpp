@@ -22,7 +22,8 @@
 
 namespace voussoir {
 
-// Whether Newton's method supports a joint's laws: all except softening, by which the force falls within an increment.
+// Whether Newton's method supports a joint's laws: all except softening and Barton and Bandis' mobilisation, by
+// which the force falls within an increment.
 // Bonds are followed as long as they are intact: a trial that breaks one is refused, and if no shorter step avoids
 // this, the increment is left to relaxation.
 bool newton_follows(const JointProperties& joint);
