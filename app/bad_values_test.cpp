@@ -214,6 +214,8 @@ const Harmless harmless[] = {
     {"joint_properties", "hardening_exponent", "0", is_default},
     {"joint_properties", "irrecoverable_fraction", "0", is_default},
     {"joint_properties", "dilation_deg", "0", "no rise"},
+    {"joint_properties", "jrc", "0", "no roughness: Coulomb's law"},
+    {"joint_properties", "dilation_share", "0", "no rise"},
     {"joint_properties", "tension", "0", is_default},
     {"joint_properties", "cohesion", "0", is_default},
     {"joint_properties", "residual_cohesion", "0", "none is left, as without the key"},

@@ -12,6 +12,7 @@
 #include "app/check/assess.hpp"
 #include "app/check/check_blocks.hpp"
 #include "app/check/check_line.hpp"
+#include "app/check/check_rough_joints.hpp"
 #include "app/check/check_stages.hpp"
 #include "app/check/check_support.hpp"
 #include "core/contact/integrable.hpp"
@@ -163,6 +164,9 @@ std::vector<std::string> laws_text(const JointProperties& p) {
       p.hardening_exponent);
   add(p.laws.friction == FrictionLaw::softening,
       fmt::runtime("friction coefficient softens by {:g} within {:g} m of slip"), p.softening_drop, p.softening_slip);
+  if (p.states_barton_bandis())
+    for (const std::string& line : rough_joint_text(p))
+      laws.push_back(line);
   add(p.laws.normal == StiffnessLaw::hyperbolic,
       fmt::runtime("normal stiffness hyperbolic up to a closure of {:g} m, of which {:g} is not recovered"),
       p.maximum_closure, p.irrecoverable_fraction);
@@ -190,6 +194,9 @@ void print_properties(const Model<Dim>& model, const ContactSettings& contact) {
                            used[k] ? "" : "; no face that may touch another has them"));
     for (const std::string& law : laws_text(p))
       print_line("", "  " + law);
+    if (p.states_barton_bandis())
+      if (const std::string angles = rough_joint_angles(model, static_cast<int>(k)); !angles.empty())
+        print_line("", "  " + angles);
     if (is_integrated(contact, p)) {
       print_line("", p.sub_contacts == 1
                          ? "  integrated face contact"
@@ -200,7 +207,8 @@ void print_properties(const Model<Dim>& model, const ContactSettings& contact) {
       print_line(
           "", fmt::format("  not integrated: {}", p.constant_stiffness ? "constant_stiffness is independent of the area"
                                                   : p.laws.bond        ? "it can be bonded"
-                                                  : p.dilates()        ? "its rise varies over the face"
+                                                  : p.states_barton_bandis() ? "its friction varies over the face"
+                                                  : p.dilates()              ? "its rise varies over the face"
                                                                 : "its laws depend on the history at each point"));
     print_line("", p.sub_contacts == 1 ? "  one contact point per face"
                                        : fmt::format("  {} contact points per face",
@@ -283,11 +291,13 @@ std::string solvers_text(const ContactSettings& contact) {
 template <int Dim>
 void print_left_to_relaxation(const Prepared<Dim>& prepared) {
   if (!asks_for_newton(prepared.settings.statics, prepared.stages)) return;
-  std::vector<std::string> names;
+  std::vector<std::string> left;
   for (const JointProperties& p : prepared.model.properties)
-    if (!newton_follows(p)) names.push_back(p.name);
-  if (!names.empty())
-    print_line("", fmt::format("relaxation replaces Newton's method: {} softens or dilates", fmt::join(names, ", ")));
+    if (!newton_follows(p))
+      left.push_back(p.name + (p.follows_barton_bandis() && p.mobilises() ? " softens beyond its peak"
+                               : p.dilates()                              ? " dilates"
+                                                                          : " softens"));
+  if (!left.empty()) print_line("", fmt::format("relaxation replaces Newton's method: {}", fmt::join(left, ", ")));
 }
 
 template <int Dim>
@@ -307,6 +317,7 @@ void print_active(const Scene& stated, const Prepared<Dim>& prepared) {
   print_line("damping", damping_text(settings.damping));
   print_line("solvers", solvers_text(settings.contact));
   print_stages(prepared.stages, prepared.model.waters);
+  print_set_aside(prepared);
   print_left_to_relaxation(prepared);
   print_support(prepared);
   print_monitors(prepared);

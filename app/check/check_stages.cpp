@@ -116,8 +116,10 @@ std::string change_text(const Change& change) {
   if (!change.excavate.empty()) text += fmt::format("; excavates '{}'", fmt::join(change.excavate, "', '"));
   if (!change.install.empty()) text += fmt::format("; installs '{}'", fmt::join(change.install, "', '"));
   if (change.friction) text += fmt::format("; friction {:g} deg", to_degrees(*change.friction));
+  if (change.friction_as_stated) text += "; friction of all joints as their joint_properties state it";
   for (const FrictionPlan& plan : change.friction_of)
-    text += fmt::format("; friction of {} {:g} deg", plan.properties, to_degrees(plan.friction));
+    text += plan.as_stated ? fmt::format("; friction of {} as its joint_properties state it", plan.properties)
+                           : fmt::format("; friction of {} {:g} deg", plan.properties, to_degrees(plan.friction));
   if (change.zero_slip) text += "; plastic slip set to zero";
   return text;
 }

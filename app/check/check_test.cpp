@@ -75,6 +75,27 @@ TEST_F(Check, PrintsLawsStrengthsAndSubContacts) {
   says(rough, "dilates at 8 deg up to 0.004 m of slip; no strength is added");
 }
 
+TEST_F(Check, PrintsBartonAndBandisLawOfTheBlocks) {
+  const std::string law = "friction_law = \"barton_bandis\"\njrc = 15\njcs = 150e6\n";
+  const std::string stone = ground() + box("stone", 0, 0) + rock_properties + law;
+  const std::string scaled = stone +
+                             "block_length_m = 1\nsample_length_m = 0.1\nmobilisation = \"table\"\n"
+                             "dilation_share = 0\n" +
+                             settle_stage;
+  says(stone + settle_stage, "as stated: no scale correction without sample_length_m");
+  says(stone + settle_stage, "without mobilisation: the peak strength at any slip");
+  says(stone + settle_stage, "dilates at 0.5 of the mobilised roughness angle");
+  says(scaled, "JRC 15, JCS 150000 kPa of a sample of 0.1 m; 7.518, ");
+  says(scaled, "peak at 3.89 mm of plastic slip");
+  says(scaled, "does not dilate");
+  says("statics = \"newton\"\n" + scaled, "relaxation replaces Newton's method: rock softens beyond its peak");
+  const std::string stages =
+      stone + settle_stage + "friction_deg = 75\n[[stage]]\nname = \"slide\"\nkind = \"settle\"\n";
+  says(stages, "Coulomb's friction of 75 deg replaces Barton and Bandis' law of 'rock' from stage");
+  silent(stages, "acts again");
+  says(stages + "friction_as_stated = true\n", "Barton and Bandis' law of 'rock' acts again from stage slide on");
+}
+
 TEST_F(Check, PrintsTheContactModelOfEachJoint) {
   const std::string whole = "[contact]\nface = \"integrated\"\n";
   const std::string stone = ground() + box("stone", 0, 0) + rock_properties;

@@ -379,6 +379,10 @@ TEST_F(Export, UnsupportedFeaturesAreRefusedInOneLine) {
               "--set joint_properties.rock.dilation_law=falling --set joint_properties.rock.dilation_deg=8 --set "
               "joint_properties.rock.dilation_decay_m=0.01",
               "joint_properties.rock.dilation_law"},
+             {"",
+              "--set joint_properties.rock.friction_law=barton_bandis --set joint_properties.rock.jrc=10 --set "
+              "joint_properties.rock.jcs=3e7",
+              "has no Barton-Bandis model"},
          }) {
       write("scene.toml", rock + c.more);
       expect_one_line(run(fmt::format("export scene.toml --as {} --out x.txt --set joints.C.properties=rock --set "

@@ -40,6 +40,12 @@ void refuse_laws(const Scene& scene, const ExportedScene& found, std::string_vie
                             : spec.properties.dilates() && !dilates_there ? "dilation_law"
                             : spec.properties.constant_stiffness          ? "constant_stiffness"
                                                                           : nullptr;
+    if (spec.properties.states_barton_bandis())
+      refuse(spec.subject, "friction_law",
+             fmt::format(
+                 "{} has no Barton-Bandis model; give the joint friction_law = \"constant\" with the friction angle "
+                 "at the stress of your blocks, which 'voussoir check' prints",
+                 program));
     if (key)
       refuse(spec.subject, key,
              fmt::format("cannot be expressed in the text for {}, which has constant stiffness per area and constant "

@@ -12,6 +12,7 @@
 #include "app/base/shown_unit.hpp"
 #include "app/run_folder/claimed_folder.hpp"
 #include "core/base/bad_input.hpp"
+#include "core/joint_laws/barton_bandis.hpp"
 #include "core/joint_laws/joint_path.hpp"
 #include "core/output/atomic_file.hpp"
 #include "core/scene/scene.hpp"
@@ -29,7 +30,7 @@ struct JointTestArguments {
   std::vector<std::string> properties;  // names of joint_properties; none: all
   std::string path = "shear";           // normal, shear, stiffness, cyclic
   std::vector<double> stresses;         // Pa; none: 0.1, 0.5, 1, 2, 5 MPa
-  double slip = 1e-3;                   // m
+  std::optional<double> slip;           // m; unstated: 1e-3, or what shows peak and residual strength
   double surroundings = 1e9;            // Pa/m, of the path `stiffness`
   std::optional<double> dilation;       // of the path `stiffness`, of joints that have none; unstated: 0.05
   int cycles = 2;                       // of the path `cyclic`
@@ -38,7 +39,7 @@ struct JointTestArguments {
   bool overwrite = false;
 };
 
-constexpr double usual_dilation = 0.05;
+constexpr double usual_dilation = 0.05, usual_slip = 1e-3;
 constexpr double usual_stresses[] = {0.1e6, 0.5e6, 1e6, 2e6, 5e6};
 
 // one curve of the table and of the figure
@@ -47,6 +48,17 @@ struct JointTest {
   double stress;  // Pa
   std::vector<JointPathPoint> points;
 };
+
+// m. Barton and Bandis' joints are sheared beyond their peak, nearly to the strength of a joint without roughness;
+// their slip at the peak is that of the plastic slip, to which the elastic one adds.
+double slip_of(const JointProperties& p, double stress) {
+  if (!p.follows_barton_bandis()) return usual_slip;
+  constexpr double peaks = 25;
+  const double peak_slip = p.mobilises() ? p.barton_bandis.peak_slip : 0;
+  const double plastic = peak_slip > 0 ? peaks * peak_slip : usual_slip;
+  const double shear = stress * friction_answer(p, p.friction, peak_slip, stress).coefficient;
+  return plastic + shear / shear_stiffness_at(p, stress);
+}
 
 JointPath path_of(const JointTestArguments& arguments, const JointProperties& p, double stress) {
   JointPath path;
@@ -57,7 +69,7 @@ JointPath path_of(const JointTestArguments& arguments, const JointProperties& p,
     path.unload = true;
     return path;
   }
-  path.slip = arguments.slip;
+  path.slip = arguments.slip ? *arguments.slip : slip_of(p, stress);
   if (arguments.path == "cyclic") path.cycles = arguments.cycles;
   if (arguments.path == "stiffness") {
     path.surroundings = arguments.surroundings;
@@ -132,22 +144,74 @@ std::ptrdiff_t columns_of(const std::string& cell) {
   return 1 + std::count(cell.begin() + static_cast<std::ptrdiff_t>(cell.find('"', 1)), cell.end(), ',');
 }
 
-std::string figure(const std::vector<JointTest>& tests, bool normal) {
-  std::string text =
-      "# gnuplot joint_test.gp\nset terminal svg size 760,460 background rgb 'white' font 'sans,13'\n"
-      "set output 'joint_test.svg'\nset datafile separator comma\nset key outside right noenhanced\nset grid\n";
-  text += normal ? "set xlabel 'closure (µm)'\nset ylabel 'normal stress (MPa)'\nplot "
-                 : "set xlabel 'slip (mm)'\nset ylabel 'shear stress (MPa)'\nplot ";
+// columns of the table, as distances from that of the name
+enum TableColumn { overlap_column = 2, slip_column = 3, normal_column = 4, shear_column = 5, rise_column = 15 };
+
+// the curves of all tests: one column against another, each in a unit
+std::string curves(const std::vector<JointTest>& tests, TableColumn x, const char* x_unit, TableColumn y,
+                   const char* y_unit) {
+  std::string text;
   std::size_t row = 1;  // behind the header
   for (const JointTest& test : tests) {
     const std::ptrdiff_t first = columns_of(csv_cell(test.name));
-    text += fmt::format("{}'joint_test.csv' every ::{}::{} using (${} * {}):(${} * 1e-6) with lines lw 2 title {}",
-                        &test == tests.data() ? "" : ", \\\n     ", row, row + test.points.size() - 1,
-                        first + (normal ? 2 : 3), normal ? "1e6" : "1e3", first + (normal ? 4 : 5),
+    text += fmt::format("{}'joint_test.csv' every ::{}::{} using (${} * {}):(${} * {}) with lines lt {} lw 2 title {}",
+                        text.empty() ? "plot " : ", \\\n     ", row, row + test.points.size() - 1, first + x, x_unit,
+                        first + y, y_unit, &test - tests.data() + 1,
                         gnuplot_text(fmt::format("{}, {:g} MPa", test.name, test.stress * 1e-6)));
     row += test.points.size();
   }
-  return text + "\n";
+  return text;
+}
+
+// the largest shear strength of a joint, MPa, at a normal stress of x MPa
+std::string envelope_of(const JointProperties& p, bool bonded) {
+  if (p.follows_barton_bandis()) {
+    const double friction = to_degrees(p.friction);
+    return fmt::format("x * tan(pi / 180 * ({:.10g} + max(0, min({:.10g}, {:.10g} * log10({:.10g} / max(x, 1e-9))))))",
+                       friction, 70 - friction, p.barton_bandis.jrc, 1e-6 * p.barton_bandis.jcs);
+  }
+  return fmt::format("x * {:.10g} + {:.10g}", std::tan(p.friction), bonded ? 1e-6 * p.cohesion : 0);
+}
+
+// shear stress, rise if a joint has one, and the path of both stresses with the strength; the last panel is the key
+std::string shear_panels(const std::vector<JointTest>& tests, const std::vector<JointProperties>& tested, bool bonded) {
+  std::string text = "min(a, b) = a < b ? a : b\nmax(a, b) = a > b ? a : b\nset multiplot layout 2, 2\nunset key\n";
+  const auto panel = [&](const char* x, const char* y, const std::string& plot) {
+    text += fmt::format("set xlabel '{}'\nset ylabel '{}'\n{}\n", x, y, plot);
+  };
+  panel("slip (mm)", "shear stress (MPa)", curves(tests, slip_column, "1e3", shear_column, "1e-6"));
+  const auto rises = [](const JointTest& test) {
+    return std::ranges::any_of(test.points, [](const JointPathPoint& at) { return at.rise != 0; });
+  };
+  if (std::ranges::any_of(tests, rises))
+    panel("slip (mm)", "rise (mm)", curves(tests, slip_column, "1e3", rise_column, "1e3"));
+  std::string envelopes, key;
+  for (const JointTest& test : tests)
+    key +=
+        fmt::format("{}NaN with lines lt {} lw 2 title {}", key.empty() ? "plot " : ", \\\n     ",
+                    &test - tests.data() + 1, gnuplot_text(fmt::format("{}, {:g} MPa", test.name, test.stress * 1e-6)));
+  for (const JointProperties& p : tested) {
+    envelopes += ", \\\n     " + envelope_of(p, bonded) + " with lines lc rgb 'black' dt 2";
+    key += ", \\\n     NaN with lines lc rgb 'black' dt 2 title " + gnuplot_text(p.name + ", strength");
+  }
+  text += "set offsets graph 0, graph 0.05, 0, 0\nset xrange [0:*]\nset samples 400\n";
+  panel("normal stress (MPa)", "shear stress (MPa)",
+        curves(tests, normal_column, "1e-6", shear_column, "1e-6") + envelopes);
+  text += "set key center center noenhanced\nunset border\nunset tics\nunset xlabel\nunset ylabel\nset yrange [0:1]\n" +
+          key;
+  return text + "\nunset multiplot\n";
+}
+
+std::string figure(const std::vector<JointTest>& tests, const std::vector<JointProperties>& tested,
+                   const JointTestArguments& arguments) {
+  const bool normal = arguments.path == "normal";
+  const std::string text = fmt::format(
+      "# gnuplot joint_test.gp\nset terminal svg size {} background rgb 'white' font 'sans,13'\n"
+      "set output 'joint_test.svg'\nset datafile separator comma\nset key outside right noenhanced\nset grid\n",
+      normal ? "760,460" : "980,760");
+  if (!normal) return text + shear_panels(tests, tested, arguments.bonded);
+  return text + "set xlabel 'closure (µm)'\nset ylabel 'normal stress (MPa)'\n" +
+         curves(tests, overlap_column, "1e6", normal_column, "1e-6") + "\n";
 }
 
 // the table is the result, the figure an aid: without gnuplot one line names the script that draws it
@@ -177,7 +241,7 @@ ExitCode joint_test_command(const JointTestArguments& arguments) {
   const ClaimedFolder claim(folder, {"joint-test", {"joint_test.csv", "joint_test.gp", "joint_test.svg"}}, scene.files,
                             arguments.overwrite);
   write_file(folder / "joint_test.csv", table(tests));
-  write_file(folder / "joint_test.gp", figure(tests, arguments.path == "normal"));
+  write_file(folder / "joint_test.gp", figure(tests, tested, arguments));
   draw(folder);
 
   const ShownUnit stress = shown_unit("Pa");
@@ -222,7 +286,9 @@ void add_joint_test(CLI::App& program, Action& action) {
   add_repeated(command, "--stress", arguments.stresses,
                "normal stress in Pa; may be repeated (default: 0.1, 0.5, 1, 2, 5 MPa)")
       ->check(finite(least_positive, largest_argument));
-  command->add_option("--slip", arguments.slip, "largest slip in m (default: 1e-3)")
+  command
+      ->add_option("--slip", arguments.slip,
+                   "largest slip in m (default: 1e-3; of Barton and Bandis' joints to 25 times the slip at the peak)")
       ->check(finite(least_positive, largest_argument));
   command
       ->add_option("--surroundings", arguments.surroundings,

@@ -234,10 +234,12 @@ struct ForcePlan {
   double last_factor = 1;        // when it ends
 };
 
-// a friction angle of joint properties by name
+// The friction of joint properties by name: an angle, which is Coulomb's also for joints of Barton and Bandis' law, or
+// that of the scene, with its law.
 struct FrictionPlan {
   std::string properties;
-  double friction = 0;  // rad
+  double friction = 0;     // rad
+  bool as_stated = false;  // instead
 };
 
 // The relief loads, by which excavated rock supported the remaining rock: they fall linearly from the share that still
@@ -255,6 +257,7 @@ struct Change {
   std::vector<BoundaryPlan> boundary;
   std::vector<ForcePlan> force{};
   std::optional<double> friction;           // rad: new friction angle of every joint
+  bool friction_as_stated = false;          // instead: every joint has the friction of the scene, and its law
   std::vector<FrictionPlan> friction_of{};  // then that of some
   std::vector<std::string> install{};       // Model::bolt_properties and Model::linings that are installed
   bool bond = false;                        // closed joints with tensile strength or cohesion are bonded

@@ -1,8 +1,11 @@
 #include "core/joint_laws/dilation.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+
+#include "core/joint_laws/barton_bandis.hpp"
 
 namespace voussoir {
 namespace {
@@ -51,6 +54,11 @@ double dilation_in_force(const JointProperties& p, double friction, double stren
   return std::min(std::tan(p.dilation), std::max(std::tan(friction) - lost, 0.0));
 }
 
+double steepest_dilation(const JointProperties& p) {
+  if (!p.dilates()) return 0;
+  return p.follows_barton_bandis() ? steepest_roughness(p) : std::tan(p.dilation);
+}
+
 double rise_at(const JointProperties& p, double tangent, double offset) {
   if (p.laws.dilation == DilationLaw::constant) return tangent * std::min(offset, p.dilation_until);
   if (p.laws.dilation == DilationLaw::falling)
@@ -63,16 +71,23 @@ double OffsetPath::length(double slip) const {
 }
 
 double first_slip(const JointProperties& p, const OffsetPath& path, double most,
-                  const std::function<double(double)>& excess) {
-  std::array<double, 3> kinks{most, most, most};
+                  const std::function<double(double)>& excess, std::span<const double> kinks) {
+  std::array<double, 16> ends;
+  std::size_t count = 0;
+  const auto add = [&](double slip) {
+    if (slip > 0 && slip < most) ends[count++] = slip;
+  };
   const double limit = p.laws.dilation == DilationLaw::constant ? p.dilation_until : 0;
   if (limit > path.across) {
     const double half = std::sqrt((limit - path.across) * (limit + path.across));
-    kinks = {-path.along - half, -path.along, half - path.along};
-  } else {
-    kinks[1] = -path.along;
+    add(-path.along - half);
+    add(half - path.along);
   }
-  std::ranges::sort(kinks);
+  add(-path.along);
+  std::ranges::for_each(kinks, add);
+  ends[count++] = most;
+  const std::span<double> sorted(ends.data(), count);
+  std::ranges::sort(sorted);
   double low = 0, at_low = excess(0);
   const auto go_to = [&](double next, double& found) {
     const double at = excess(next);
@@ -86,8 +101,7 @@ double first_slip(const JointProperties& p, const OffsetPath& path, double most,
   };
   double slip = most;
   const double returns_until = std::clamp(-path.along, 0.0, most);
-  for (const double kink : {kinks[0], kinks[1], kinks[2], most}) {
-    const double end = std::min(kink, most);
+  for (const double end : sorted) {
     if (!(end > low)) continue;
     const int parts = low < returns_until ? parts_of_return : 1;
     const double begin = low;

@@ -2,8 +2,8 @@
 // normal stress that grows as it rises.
 #pragma once
 
-#include <array>
 #include <functional>
+#include <span>
 
 #include "core/joint_laws/joint_properties.hpp"
 
@@ -12,6 +12,9 @@ namespace voussoir {
 // tan ψ in force: never above the coefficient of friction in force, which softening may still reach; otherwise slip
 // would make energy. `friction`, rad, and the factor as friction_answer takes them.
 double dilation_in_force(const JointProperties& properties, double friction, double strength_factor = 1);
+
+// tan ψ of the steepest rise that the joint may have at any slip and stress
+double steepest_dilation(const JointProperties& properties);
 
 // m, after the offset r, m, with tan ψ = `tangent`:
 //   constant  tan ψ min(r, r0)
@@ -27,9 +30,10 @@ struct OffsetPath {
 };
 
 // The least slip in [0, most] at which `excess`, continuous and positive at 0, is no longer positive; it is not at
-// `most`. The rise has a kink where the offset reaches the limit of the dilation, and at its smallest; excess may rise
-// on the way back, where it is looked at on several parts of the way: continuous slip ends at the first root.
+// `most`. The rise has a kink where the offset reaches the limit of the dilation, and at its smallest, and the excess
+// at some slips of its own, `kinks`, in any order; excess may rise on the way back, where it is looked at on several
+// parts of the way: continuous slip ends at the first root.
 double first_slip(const JointProperties& properties, const OffsetPath& path, double most,
-                  const std::function<double(double)>& excess);
+                  const std::function<double(double)>& excess, std::span<const double> kinks = {});
 
 }  // namespace voussoir

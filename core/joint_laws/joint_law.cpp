@@ -1,9 +1,12 @@
 #include "core/joint_laws/joint_law.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
+#include "core/joint_laws/barton_bandis.hpp"
 #include "core/joint_laws/dilation.hpp"
 
 namespace voussoir {
@@ -123,6 +126,11 @@ double shear_stiffness_at(const JointProperties& p, double stress) {
 
 FrictionAnswer friction_answer(const JointProperties& p, double friction, double slip, double stress,
                                double strength_factor) {
+  if (p.follows_barton_bandis()) {
+    const MobilisedAngle now = mobilised_angle(p, slip, stress);
+    const double tangent = std::tan(now.angle);
+    return {tangent / strength_factor, (1 + tangent * tangent) * now.slope / strength_factor};
+  }
   const double last = std::tan(friction);
   if (p.laws.friction == FrictionLaw::hardening) {
     const double scale = p.hardening_slip * std::pow(std::max(stress, 0.0), p.hardening_exponent);
@@ -186,13 +194,19 @@ SlipReturn return_to_cone(const JointProperties& p, double friction, double plas
 
 namespace {
 
+// What a joint that has slipped by `slip` in this step has risen by, m, and its normal stress.
+struct Risen {
+  double grown = 0;
+  NormalAnswer normal;
+};
+
 // The place of a joint over a step: its rise and its normal stress as functions of the slip.
 template <int Dim>
 class Rising {
  public:
-  Rising(const JointProperties& p, double overlap, double friction, double strength_factor,
+  Rising(const JointProperties& p, double overlap, double friction, double strength_factor, double plastic_slip,
          const PlaceOfJoint<Dim>& place)
-      : p_(p), overlap_(overlap), place_(place) {
+      : p_(p), overlap_(overlap), strength_factor_(strength_factor), plastic_slip_(plastic_slip), place_(place) {
     if (!changes()) return;
     tangent_ = dilation_in_force(p, friction, strength_factor);
     path_.across = length_of<Dim>(place_.rise->offset);
@@ -204,41 +218,117 @@ class Rising {
     const Vector<Dim>& offset = place_.rise->offset;
     path_.along = offset.dot(direction);
     path_.across = Dim == 2 ? 0 : length_of<Dim>(offset - path_.along * direction);
+    farthest_at_ = slip_to_farthest();
   }
 
-  double rise_after(double slip) const { return rise_at(p_, tangent_, path_.length(slip)); }
-
-  double grown_after(double slip) const { return changes() ? rise_after(slip) - place_.rise->rise : 0; }
-
-  NormalAnswer normal_after(double slip, bool bonded) const {
-    return normal_answer(p_, overlap_ + grown_after(slip), bonded, place_.rise ? place_.rise->largest_closure : 0);
+  Risen after(double slip, bool bonded) const {
+    if (!changes()) return {0, normal_at(overlap_, bonded)};
+    if (p_.follows_barton_bandis()) return over_asperities(slip, bonded);
+    const double grown = rise_at(p_, tangent_, path_.length(slip)) - place_.rise->rise;
+    return {grown, normal_at(overlap_ + grown, bonded)};
   }
 
-  // what the rise adds to it, m/s
-  double closing_speed_after(double slip) const { return place_.seconds > 0 ? grown_after(slip) / place_.seconds : 0; }
+  // what it adds to the closing speed, m/s
+  double closing_speed(const Risen& risen) const { return place_.seconds > 0 ? risen.grown / place_.seconds : 0; }
 
   const OffsetPath& path() const { return path_; }
 
+  // the slip at which the offset is the largest so far
+  double farthest_at() const { return farthest_at_; }
+
   // the place after the step, and what it cost; the offset has been moved
-  void settle(double slip, double stress, double area, LawForce<Dim>& result) const {
+  void settle(const Risen& risen, double area, LawForce<Dim>& result) const {
     JointRise<Dim>& rise = *place_.rise;
-    const double grown = grown_after(slip), closure = overlap_ + grown;
-    result.grown = grown;
-    result.dilation = -0.5 * (rise.stress + stress) * area * grown;
+    const double closure = overlap_ + risen.grown, stress = risen.normal.stress;
+    result.grown = risen.grown;
+    result.dilation = -0.5 * (rise.stress + stress) * area * risen.grown;
     if (p_.irrecoverable_fraction > 0 && closure > rise.largest_closure) {
       result.crushing = area * crushing_between(p_, rise.largest_closure, closure);
       rise.largest_closure = closure;
     }
-    rise.rise += grown;
+    rise.rise += risen.grown;
     rise.stress = stress;
+    if (!p_.follows_barton_bandis()) return;
+    if (const double offset = length_of<Dim>(rise.offset); offset > rise.farthest) {
+      rise.farthest = offset;
+      rise.rise_there = rise.rise;
+    }
   }
 
  private:
+  NormalAnswer normal_at(double closure, bool bonded) const {
+    return normal_answer(p_, closure, bonded, place_.rise ? place_.rise->largest_closure : 0);
+  }
+
+  double slip_to_farthest() const {
+    const double far = place_.rise->farthest;
+    if (!(far > path_.across)) return std::max(-path_.along, 0.0);
+    return std::max(std::sqrt((far - path_.across) * (far + path_.across)) - path_.along, 0.0);
+  }
+
+  // Barton and Bandis' rise depends on the stress, which it changes: its angle is that at the mean of the old and the
+  // new stress, so that its error is of the second order in the step. The stress after it, minus a trial of it, falls
+  // as the trial grows: one root.
+  Risen over_asperities(double slip, bool bonded) const {
+    const JointRise<Dim>& now = *place_.rise;
+    if (slip == 0) return {0, normal_at(overlap_, bonded)};
+    const double offset = path_.length(slip), further = offset - now.farthest;
+    if (!(further > 0)) {
+      const double grown = rise_within(now, offset) - now.rise;
+      return {grown, normal_at(overlap_ + grown, bonded)};
+    }
+    const auto at = [&](double stress) -> Risen {
+      const double tangent =
+          barton_bandis_dilation(p_, plastic_slip_ + std::min(farthest_at_, slip), plastic_slip_ + slip,
+                                 0.5 * (now.stress + stress), strength_factor_);
+      const double grown = now.rise_there - now.rise + tangent * further;
+      return {grown, normal_at(overlap_ + grown, bonded)};
+    };
+    Risen risen = at(0);
+    double low = 0, high = risen.normal.stress, stress = high;
+    double last = low, last_excess = high;  // the trial before, for secants
+    constexpr int limit = 2 * std::numeric_limits<double>::digits;
+    for (int i = 0; i < limit && high > low; ++i) {
+      risen = at(stress);
+      const double excess = risen.normal.stress - stress;
+      (excess > 0 ? low : high) = stress;
+      double next = 0.5 * (low + high);
+      if (excess != last_excess) {
+        const double secant = stress - excess * (stress - last) / (excess - last_excess);
+        if (secant >= low && secant <= high) next = secant;
+      }
+      last = stress;
+      last_excess = excess;
+      stress = next;
+      if (std::abs(stress - last) <= 2 * std::numeric_limits<double>::epsilon() * stress) break;
+    }
+    return risen;
+  }
+
   const JointProperties& p_;
-  double overlap_, tangent_ = 0;
+  double overlap_, strength_factor_, plastic_slip_, tangent_ = 0, farthest_at_ = 0;
   PlaceOfJoint<Dim> place_;
   OffsetPath path_;  // before it is turned to a direction: of an offset across it
 };
+
+// The plastic slip of a joint whose rise or whose friction has kinks: the first at which the rest of the trial's force
+// is no more than the strength.
+template <int Dim, class StrengthAfter>
+SlipReturn return_by_first_slip(const JointProperties& p, const Rising<Dim>& rising, double plastic_slip, double trial,
+                                double stiffness, const StrengthAfter& strength_after) {
+  std::array<double, mobilisation_kinks + 1> kinks{};
+  std::size_t count = 0;
+  if (p.follows_barton_bandis()) {
+    for (const double slip : slips_of_kinks(p))
+      kinks[count++] = slip - plastic_slip;
+    kinks[count++] = rising.farthest_at();
+  }
+  const auto excess = [&](double slip) { return trial - stiffness * slip - strength_after(slip); };
+  SlipReturn back;
+  back.slip = first_slip(p, rising.path(), trial / stiffness, excess, std::span(kinks).first(count));
+  back.snap_back = strength_after(0) - strength_after(0.5 * back.slip) > 0.5 * stiffness * back.slip;
+  return back;
+}
 
 }  // namespace
 
@@ -249,18 +339,19 @@ LawForce<Dim> joint_law(const JointProperties& p, double friction, double dashpo
   Vector<Dim>& shear = history.shear_force;
   const double area = kinematics.area;
   LawForce<Dim> result;
-  Rising<Dim> rising(p, kinematics.overlap, friction, strength_factor, place);
-  double slipped = 0;  // m, in this step
+  Rising<Dim> rising(p, kinematics.overlap, friction, strength_factor, history.plastic_slip, place);
 
   // the normal force; a bond breaks when it is pulled beyond its strength, of which a slipped one has none
-  NormalAnswer normal = rising.normal_after(0, history.bond == Bond::whole);
-  double damping = dashpot * (kinematics.closing_speed + rising.closing_speed_after(0));
-  if (history.bond == Bond::whole && normal.stress * area + damping < -p.tension * area) {
+  Risen risen = rising.after(0, history.bond == Bond::whole);
+  const auto damping_of = [&](const Risen& at) {
+    return dashpot * (kinematics.closing_speed + rising.closing_speed(at));
+  };
+  if (history.bond == Bond::whole && risen.normal.stress * area + damping_of(risen) < -p.tension * area) {
     history.bond = Bond::lost;
-    normal = rising.normal_after(0, false);
+    risen = rising.after(0, false);
   }
   const auto normal_force = [&] {
-    const double force = normal.stress * area + damping;
+    const double force = risen.normal.stress * area + damping_of(risen);
     return history.bond == Bond::whole ? force : std::max(force, 0.0);
   };
   const auto lose_if_open = [&] {
@@ -269,7 +360,7 @@ LawForce<Dim> joint_law(const JointProperties& p, double friction, double dashpo
   lose_if_open();
 
   // at constant shear force the spring's energy changes with its stiffness
-  const double per_area = shear_stiffness_at(p, normal.stress), stiffness = per_area * area;
+  const double per_area = shear_stiffness_at(p, risen.normal.stress), stiffness = per_area * area;
   if (history.shear_stiffness > 0 && per_area > 0 && per_area != history.shear_stiffness)
     result.stiffening = 0.5 * shear.squaredNorm() / area * (1 / history.shear_stiffness - 1 / per_area);
   history.shear_stiffness = per_area;
@@ -280,7 +371,7 @@ LawForce<Dim> joint_law(const JointProperties& p, double friction, double dashpo
   const double trial = length_of<Dim>(shear);
   const auto strength = [&] {
     const double coefficient =
-        friction_answer(p, friction, history.plastic_slip, normal.stress, strength_factor).coefficient;
+        friction_answer(p, friction, history.plastic_slip, risen.normal.stress, strength_factor).coefficient;
     const double cohesion = cohesion_answer(p, history.bond, history.bond_slip, strength_factor).stress;
     return std::max(cohesion * area + coefficient * normal_force(), 0.0);
   };
@@ -289,33 +380,28 @@ LawForce<Dim> joint_law(const JointProperties& p, double friction, double dashpo
       const bool keeps = p.cohesion_law != CohesionLaw::brittle && p.cohesion > 0;
       history.bond = keeps ? Bond::slipped : Bond::lost;
       history.bond_slip = 0;
-      normal = rising.normal_after(0, false);
+      risen = rising.after(0, false);
       result.snap_back = keeps && falls_at_once(p);
       lose_if_open();
     }
     double limit = strength();  // after the bond's loss; hardening may leave no slip
     if (stiffness > 0 && trial > limit) {
       SlipReturn back;
-      if (rising.changes()) {
-        rising.turn_to(shear / trial);
+      if (rising.changes() || p.follows_barton_bandis()) {
+        if (rising.changes()) rising.turn_to(shear / trial);
         const auto strength_after = [&](double slip) {
-          const NormalAnswer then = rising.normal_after(slip, false);
-          const double pressed = std::max(
-              then.stress * area + dashpot * (kinematics.closing_speed + rising.closing_speed_after(slip)), 0.0);
+          const Risen then = rising.after(slip, false);
+          const double pressed = std::max(then.normal.stress * area + damping_of(then), 0.0);
           return area * cohesion_answer(p, history.bond, history.bond_slip + slip, strength_factor).stress +
-                 friction_answer(p, friction, history.plastic_slip + slip, then.stress, strength_factor).coefficient *
+                 friction_answer(p, friction, history.plastic_slip + slip, then.normal.stress, strength_factor)
+                         .coefficient *
                      pressed;
         };
-        back.slip = first_slip(p, rising.path(), trial / stiffness,
-                               [&](double slip) { return trial - stiffness * slip - strength_after(slip); });
-        back.snap_back = rising.path().along < 0 &&
-                         strength_after(0) - strength_after(0.5 * back.slip) > 0.5 * stiffness * back.slip;
-        slipped = back.slip;
-        place.rise->offset += slipped * (shear / trial);
-        normal = rising.normal_after(slipped, false);
-        damping = dashpot * (kinematics.closing_speed + rising.closing_speed_after(slipped));
+        back = return_by_first_slip(p, rising, history.plastic_slip, trial, stiffness, strength_after);
+        risen = rising.after(back.slip, false);
+        if (rising.changes()) place.rise->offset += back.slip * (shear / trial);
       } else {
-        back = return_to_cone(p, friction, history.plastic_slip, trial, stiffness, normal_force(), normal.stress,
+        back = return_to_cone(p, friction, history.plastic_slip, trial, stiffness, normal_force(), risen.normal.stress,
                               strength_factor, {area, history.bond, history.bond_slip});
       }
       result.plastic_slip = back.slip;
@@ -329,10 +415,12 @@ LawForce<Dim> joint_law(const JointProperties& p, double friction, double dashpo
     if (stiffness > 0) result.friction = std::max(0.5 * (old_shear + shear).dot(excess) / stiffness, 0.0);
   }
   result.force = normal_force() * kinematics.normal + shear;
-  result.dashpot = normal_force() - normal.stress * area;
-  result.elastic = normal.energy * area + 0.5 * normal.stiffness * area * kinematics.overlap_variance;
+  result.dashpot = normal_force() - risen.normal.stress * area;
+  result.elastic = risen.normal.energy * area + 0.5 * risen.normal.stiffness * area * kinematics.overlap_variance;
   if (stiffness > 0) result.elastic += 0.5 * shear.squaredNorm() / stiffness;
-  if (place.rise) rising.settle(slipped, normal.stress, area, result);
+  if (place.rise) rising.settle(risen, area, result);
+  // the mean of the shear forces does not see that a joint slips at its strength only: slip never gives energy
+  if (rising.changes()) result.friction = std::max(result.friction, -result.dilation);
   return result;
 }
 

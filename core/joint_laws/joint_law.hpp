@@ -1,7 +1,7 @@
 // Joint laws beyond the plain one (Boon 2013, Eqs 4.10-4.14, 4.16-4.18, 6.3-6.7; decisions in
 // core/joint_laws/README.md): stiffness that depends on the normal stress, strength in tension, cohesion that
-// slip takes or leaves, friction that hardens or softens with slip. The table of scene keys
-// (scene/keys/joint_properties.cpp) repeats parameters and equations for users.
+// slip takes or leaves, friction that hardens or softens with slip or follows Barton and Bandis (barton_bandis.hpp).
+// The table of scene keys (scene/keys/joint_properties.cpp) repeats parameters and equations for users.
 #pragma once
 
 #include "core/joint_laws/elastic_coulomb.hpp"
@@ -41,7 +41,8 @@ double shear_stiffness_at(const JointProperties& properties, double stress);
 
 // tan φ after a plastic slip `slip`, m, under a normal stress, Pa, where `friction`, rad, is the joint's own
 // (Eqs 4.16, 4.18, 6.7), and its derivative, 1/m. In a search for a factor of safety the joint's friction angle is that
-// of tan φ over the factor; here it divides the softening drop, elsewhere the cohesion.
+// of tan φ over the factor; here it divides the softening drop, elsewhere the cohesion. Barton and Bandis' law has the
+// friction of the properties, undivided, and the factor divides the tangent of its angle.
 struct FrictionAnswer {
   double coefficient = 0, slope = 0;
 };

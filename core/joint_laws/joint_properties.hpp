@@ -19,8 +19,9 @@ enum class StiffnessLaw : unsigned char {
 // how the friction coefficient depends on the plastic slip β
 enum class FrictionLaw : unsigned char {
   constant,
-  hardening,  // tan φ (1 - e^(-β/u)), u = hardening_slip (σ / 1 Pa)^hardening_exponent
-  softening   // tan φ - softening_drop (1 - e^(-β/softening_slip))
+  hardening,     // tan φ (1 - e^(-β/u)), u = hardening_slip (σ / 1 Pa)^hardening_exponent
+  softening,     // tan φ - softening_drop (1 - e^(-β/softening_slip))
+  barton_bandis  // of the normal stress too (barton_bandis.hpp)
 };
 
 // how the rise of a joint depends on the distance r by which it has slipped from where it was mated
@@ -37,6 +38,24 @@ enum class CohesionLaw : unsigned char {
   softening  // residual_cohesion + (cohesion - residual_cohesion) e^(-β/cohesion_slip)
 };
 
+// how much of Barton and Bandis' roughness acts
+enum class Mobilisation : unsigned char {
+  none,  // all of it at any slip: the envelope of limit equilibrium
+  table  // what the plastic slip over that at the peak mobilises
+};
+
+// The roughness of a joint (barton_bandis.hpp). Without a block and a sample length both strengths are those of the
+// blocks.
+struct BartonBandis {
+  double sample_jrc = 0;                       // 1: joint roughness coefficient of the sample
+  double sample_jcs = 0;                       // Pa: compressive strength of its walls
+  double sample_length = 0, block_length = 0;  // m; 0: not stated
+  double dilation_share = 0.5;                 // 1: dilation over the mobilised roughness angle, M'
+  Mobilisation mobilisation = Mobilisation::none;
+  double jrc = 0, jcs = 0;  // of the blocks, and
+  double peak_slip = 0;     // m: found by scale_to_blocks
+};
+
 // which joints have the tension and cohesion of their properties
 enum class BondsMade : unsigned char {
   by_stage,  // those that a stage bonds
@@ -49,7 +68,8 @@ struct JointLaws {
   FrictionLaw friction = FrictionLaw::constant;
   bool bond = false;  // strength in tension, cohesion or both, of bonds
   DilationLaw dilation = DilationLaw::none;
-  std::array<unsigned char, 3> unused{};  // none of its bytes is undefined
+  bool set_aside = false;  // Barton and Bandis' friction, for the constant one of a stage's friction angle
+  std::array<unsigned char, 2> unused{};  // none of its bytes is undefined
 
   bool depends_on_stress() const { return normal != StiffnessLaw::constant || shear != StiffnessLaw::constant; }
 
@@ -64,7 +84,8 @@ struct JointProperties {
   // 1 Pa (power)
   double normal_stiffness = 0;
   double shear_stiffness = 0;       // same unit
-  double friction = 0;              // rad, 0 <= friction < pi/2; of hardening the last, of softening the first
+  double friction = 0;              // rad, 0 <= friction < pi/2; of hardening the last, of softening the first, of
+                                    // Barton and Bandis' law without roughness
   bool constant_stiffness = false;  // N/m for any area, which then is never computed (except with sub-contacts)
   int sub_contacts = 1;             // contact points of a face along each of its directions; 1: the contact's own
 
@@ -76,19 +97,34 @@ struct JointProperties {
   double softening_drop = 0, softening_slip = 0;      // 1; m
   double maximum_closure = 0;                         // m: at which a hyperbolic law's stress is without limit
   double irrecoverable_fraction = 0;                  // of its largest closure, 0 <= . < 1
-  double dilation = 0;                                // rad, ψ
-  double dilation_until = 0, dilation_decay = 0;      // m
-  double tension = 0, cohesion = 0;                   // Pa
+  BartonBandis barton_bandis{};
+  double stated_friction = 0;                     // rad: of the scene, if a stage has set another
+  double dilation = 0;                            // rad, ψ
+  double dilation_until = 0, dilation_decay = 0;  // m
+  double tension = 0, cohesion = 0;               // Pa
   CohesionLaw cohesion_law = CohesionLaw::brittle;
   double residual_cohesion = 0, cohesion_slip = 0;  // Pa, 0 to cohesion; m, 0: at once
   BondsMade bonds = BondsMade::by_stage;
 
   bool bonds_as_sliced() const { return laws.bond && bonds == BondsMade::as_sliced; }
 
-  bool dilates() const { return laws.dilation != DilationLaw::none; }
+  bool follows_barton_bandis() const { return laws.friction == FrictionLaw::barton_bandis; }
+  bool states_barton_bandis() const { return follows_barton_bandis() || laws.set_aside; }
+
+  bool dilates() const {
+    return laws.dilation != DilationLaw::none || (follows_barton_bandis() && barton_bandis.dilation_share > 0);
+  }
 
   // whether it has a JointRise beside its JointState
-  bool remembers_place() const { return dilates() || irrecoverable_fraction > 0; }
+  bool remembers_place() const {
+    return dilates() || irrecoverable_fraction > 0 || (states_barton_bandis() && barton_bandis.dilation_share > 0);
+  }
+
+  // whether its friction depends on its slip
+  bool mobilises() const {
+    if (follows_barton_bandis()) return barton_bandis.mobilisation == Mobilisation::table;
+    return laws.friction != FrictionLaw::constant;
+  }
 
   bool softens_cohesion() const {
     return cohesion_law == CohesionLaw::softening && laws.bond && residual_cohesion < cohesion;

@@ -14,6 +14,14 @@ struct JointRise {
   double rise = 0;                           // m
   double stress = 0;                         // Pa, normal, of the step before
   double largest_closure = 0;                // m, overlap and rise, of a law with irrecoverable closure
+  double farthest = 0;                       // m: the largest offset so far, and
+  double rise_there = 0;                     // m: the rise at it, of Barton and Bandis' law
 };
+
+// m: of Barton and Bandis' law, at an offset not beyond the farthest: asperities slide back on their faces
+template <int Dim>
+double rise_within(const JointRise<Dim>& rise, double offset) {
+  return rise.farthest > 0 ? rise.rise_there * offset / rise.farthest : 0;
+}
 
 }  // namespace voussoir

@@ -69,8 +69,10 @@ void visit_fields(Either<JointState> auto& j, auto&& visit) {
 }
 
 void visit_fields(Either<JointRise> auto& j, auto&& visit) {
-  auto& [offset, normal, rise, stress, largest_closure] = j;
+  auto& [offset, normal, rise, stress, largest_closure, farthest, rise_there] = j;
   visit(Hashed{}, offset, normal, rise, stress, largest_closure);
+  visit(HashedIfSet{}, farthest);
+  visit(HashedIfSet{}, rise_there);
 }
 
 void visit_fields(Either<Proof> auto& p, auto&& visit) {

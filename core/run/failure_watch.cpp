@@ -237,13 +237,32 @@ void look(const Model<Dim>& model, const State<Dim>& state, const std::vector<Pl
     ++trial.looks;
 }
 
+namespace {
+
+// m: the slip over which the shear strength changes; none if it does not. Hardening is asked at an ordinary stress.
+double slip_of_strength(const JointProperties& p) {
+  constexpr double ordinary_stress = 1e6;  // Pa
+  double slip = p.softens_cohesion() ? p.cohesion_slip : 0;
+  if (p.laws.friction == FrictionLaw::softening) slip = std::max(slip, p.softening_slip);
+  if (p.laws.friction == FrictionLaw::hardening)
+    slip = std::max(slip, p.hardening_slip * std::pow(ordinary_stress, p.hardening_exponent));
+  // the elastic slip comes before, which is seldom longer than that at the peak
+  if (p.follows_barton_bandis() && p.mobilises()) slip = std::max(slip, 2 * p.barton_bandis.peak_slip);
+  return slip;
+}
+
+}  // namespace
+
 template <int Dim>
 double failure_displacement_of(const Model<Dim>& model, const ReducePlan& plan) {
   if (plan.failure_displacement > 0) return plan.failure_displacement;
   double smallest = 0;
   for (const Body<Dim>& b : model.bodies)
     if (!b.fixed) smallest = smallest == 0 ? b.size : std::min(smallest, b.size);
-  return failure_fraction_of_radius * smallest;
+  double displacement = failure_fraction_of_radius * smallest;
+  for (const JointProperties& p : model.properties)
+    displacement = std::max(displacement, slip_of_strength(p));
+  return displacement;
 }
 
 template <int Dim>
@@ -266,7 +285,9 @@ std::string not_watched(const Model<Dim>& model, const ReducePlan& plan, const S
   if (!supports.grouted.empty()) return "there are grouted bolts";
   if (!supports.linings.empty()) return "there are linings";
   for (const JointProperties& joint : model.properties)
-    if (joint.laws.friction != FrictionLaw::constant) return "friction depends on the slip";
+    if (joint.mobilises()) return "friction depends on the slip";
+  for (const JointProperties& joint : model.properties)
+    if (joint.follows_barton_bandis()) return "friction depends on the normal stress";
   for (const JointProperties& joint : model.properties)
     if (joint.remembers_place()) return "the normal stress depends on the slip or on the largest closure";
   for (const JointProperties& joint : model.properties)

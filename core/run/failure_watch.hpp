@@ -95,7 +95,9 @@ inline constexpr double failure_fraction_of_radius = 0.1;
 template <int Dim>
 std::vector<int> chosen_properties(const Model<Dim>& model, const ReducePlan& plan);
 
-// m: the displacement at which a block has failed: as the plan states, or a tenth of the smallest inscribed radius
+// m: the displacement at which a block has failed: as the plan states, or a tenth of the smallest inscribed radius, or
+// the longest slip over which the strength of a joint's law changes, if that is more: before it the law may still gain
+// what holds the block
 template <int Dim>
 double failure_displacement_of(const Model<Dim>& model, const ReducePlan& plan);
 

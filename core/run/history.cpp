@@ -72,7 +72,8 @@ template <int Dim>
 std::vector<int> properties_changed(const Model<Dim>& model, const Change& change) {
   std::vector<int> changed;
   for (std::size_t p = 0; p < model.properties.size(); ++p)
-    if (change.friction || std::ranges::count(change.friction_of, model.properties[p].name, &FrictionPlan::properties))
+    if (change.friction || change.friction_as_stated ||
+        std::ranges::count(change.friction_of, model.properties[p].name, &FrictionPlan::properties))
       changed.push_back(static_cast<int>(p));
   return changed;
 }

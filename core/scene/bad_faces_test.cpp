@@ -52,6 +52,8 @@ INSTANTIATE_TEST_SUITE_P(
                          "depends on stress or slip"),
                     none("dilation", "dilation_law = \"falling\"\ndilation_deg = 8\ndilation_decay_m = 0.01\n",
                          "rock dilates, by a rise that varies"),
+                    none("barton_bandis", "friction_law = \"barton_bandis\"\njrc = 10\njcs = 30e6\n",
+                         "rock follows Barton and Bandis' law"),
                     none("softening", "friction_law = \"softening\"\nsoftening_drop = 0.1\nsoftening_slip_m = 0.01\n",
                          "would change nothing")),
     by_name);

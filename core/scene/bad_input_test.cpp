@@ -294,7 +294,29 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"dilates_before_it_rubs", "friction_deg = 40",
                  "friction_deg = 40\nfriction_law = \"hardening\"\nhardening_slip_m = 1e-6\ndilation_deg = 8\n"
                  "dilation_decay_m = 0.01\ndilation_law = \"falling\" #!",
-                 "joint_properties.rock.dilation_law", "zero before any slip"}),
+                 "joint_properties.rock.dilation_law", "zero before any slip"},
+        BadInput{"rough_and_steep", "friction_deg = 40",
+                 "friction_law = \"barton_bandis\"\njrc = 10\njcs = 30e6\nfriction_deg = 70 #!",
+                 "joint_properties.rock.friction_deg = 70", "must be below 70 degrees"},
+        BadInput{"rough_without_strength", "friction_deg = 40",
+                 "friction_deg = 40\njrc = 10\nfriction_law = \"barton_bandis\"", "joint_properties.rock.jcs",
+                 "is missing"},
+        BadInput{"mobilised_without_blocks", "friction_deg = 40",
+                 "friction_deg = 40\nfriction_law = \"barton_bandis\"\njrc = 10\njcs = 30e6\nmobilisation = \"table\"",
+                 "joint_properties.rock.block_length_m", "write mobilisation = \"none\""},
+        BadInput{"sample_without_blocks", "friction_deg = 40",
+                 "friction_deg = 40\nfriction_law = \"barton_bandis\"\njrc = 10\njcs = 30e6\nsample_length_m = 0.1 #!",
+                 "joint_properties.rock.sample_length_m = 0.1", "state both or neither"},
+        BadInput{"sample_of_several_blocks", "friction_deg = 40",
+                 "friction_deg = 40\nfriction_law = \"barton_bandis\"\njrc = 10\njcs = 30e6\nblock_length_m = 0.1\n"
+                 "sample_length_m = 0.2 #!",
+                 "joint_properties.rock.sample_length_m = 0.2", "exceeds block_length_m = 0.1"},
+        BadInput{"two_dilations", "friction_deg = 40",
+                 "friction_deg = 40\nfriction_law = \"barton_bandis\"\njrc = 10\njcs = 30e6\ndilation_decay_m = 0.01\n"
+                 "dilation_deg = 8\ndilation_law = \"falling\" #!",
+                 "joint_properties.rock.dilation_law", "dilates by dilation_share"},
+        BadInput{"smooth_with_roughness", "friction_deg = 40", "friction_deg = 40\njrc = 10 #!",
+                 "joint_properties.rock.jrc", "applies only if friction_law"}),
     by_name);
 
 struct BadOverride {

@@ -198,6 +198,51 @@ TEST(DividedStrength, TheWetSlopeNeedsItsRestoringLine) {
   }
 }
 
+// A stage's angle replaces Barton and Bandis' law until a stage restores it.
+TEST(DividedStrength, BartonAndBandisLawIsSetAsideAndRestored) {
+  WrittenScene scene{{{"a", "26"}}, {{.name = "settle", .all = "75"}, {.name = "safety", .search = "factor"}}};
+  const auto with_law = [&] {
+    std::string text = scene.text();
+    const std::string angle = "shear_stiffness = 1e8\n";
+    return text.insert(text.find(angle) + angle.size(), "friction_law = \"barton_bandis\"\njrc = 10\njcs = 30e6\n");
+  };
+  const auto complaint = [&](const std::string& text) {
+    try {
+      parse_scene(text, "scene.toml");
+      return std::string();
+    } catch (const SceneError& error) {
+      return std::string(error.what());
+    }
+  };
+  const std::string said = complaint(with_law());
+  const std::string line = "friction = [{ name = \"a\", as_stated = true }]";
+  EXPECT_NE(said.find("'a' has 75 deg since stage 'settle', and its joint_properties state Barton and Bandis' law"),
+            std::string::npos)
+      << said;
+  EXPECT_NE(said.find("write " + line), std::string::npos) << said;
+  for (const std::string& restored : {line, std::string("friction_as_stated = true")}) {
+    const Prepared<2> prepared = prepare<2>(parse_scene(with_law() + restored + "\n", "scene.toml"));
+    Model<2> model = apply(Model<2>(prepared.model), prepared.stages[0].change);
+    EXPECT_EQ(model.properties[0].laws.friction, FrictionLaw::constant);
+    EXPECT_TRUE(model.properties[0].states_barton_bandis());
+    EXPECT_TRUE(model.properties[0].remembers_place());
+    EXPECT_FALSE(model.properties[0].dilates());
+    EXPECT_NEAR(model.properties[0].friction, 75 * degree, 1e-15);
+    model = apply(std::move(model), prepared.stages[1].change);
+    EXPECT_TRUE(model.properties[0].follows_barton_bandis());
+    EXPECT_FALSE(model.properties[0].laws.set_aside);
+    EXPECT_NEAR(model.properties[0].friction, 26 * degree, 1e-15);
+  }
+  EXPECT_NE(complaint(with_law() + "friction_deg = 30\nfriction_as_stated = true\n").find("remove one of the two"),
+            std::string::npos);
+
+  // a search for an angle
+  scene.stages = {{.name = "settle"}, {.name = "critical", .search = "friction"}};
+  EXPECT_NE(complaint(with_law()).find("write search = \"factor\""), std::string::npos);
+  scene.stages[1].all = "75";
+  EXPECT_EQ(complaint(with_law()), "");
+}
+
 TEST(DividedStrength, ASentenceNamesTheDividedStrengths) {
   EXPECT_EQ(divided_by_factor({"joint", "crack"}),
             "divides tan φ and cohesion of 'joint', 'crack'; not tensile strength, bolts, linings' beams or water");

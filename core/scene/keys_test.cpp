@@ -108,6 +108,7 @@ Values values_of(const Scene& s) {
   for (const PropertiesSpec& spec : s.properties) {
     add(values, "joint_properties", spec.properties);
     add(values, "joint_properties", spec.properties.laws);
+    add(values, "joint_properties", spec.properties.barton_bandis);
   }
   for (const BlockSpec& block : s.blocks) {
     add(values, "blocks", block);

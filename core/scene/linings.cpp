@@ -47,6 +47,10 @@ int interface_of(const Model<Dim>& model, const LiningSpec& spec) {
       refuse(spec.subject, "joint_properties",
              "has a stiffness that depends on stress, but a lining's interface needs a constant one; give it "
              "properties of its own");
+    if (properties.states_barton_bandis())
+      refuse(
+          spec.subject, "joint_properties",
+          "has Barton and Bandis' friction, but a lining's interface needs Coulomb's; give it properties of its own");
     if (properties.dilates())
       refuse(spec.subject, "joint_properties",
              "dilates, which a lining's interface does not; give it properties of its own");

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/contact/integrable.hpp"
+#include "core/joint_laws/barton_bandis.hpp"
 #include "core/scene/accuracy_level.hpp"
 #include "core/scene/accuracy_target.hpp"
 #include "core/scene/base_scene.hpp"
@@ -28,9 +29,35 @@
 namespace voussoir {
 namespace {
 
+// Barton and Bandis' law has its own dilation, and its mobilisation needs the slip at the peak.
+void check_barton_bandis(const Subject& item, const JointProperties& p) {
+  if (!p.states_barton_bandis()) return;
+  const BartonBandis& law = p.barton_bandis;
+  if (p.friction >= largest_friction_angle)
+    refuse(item, "friction_deg",
+           "must be below 70 degrees, above which Barton and Bandis' law has no angle: it is that of the joint without "
+           "its roughness, 20 to 35 degrees usually");
+  if (p.laws.dilation != DilationLaw::none)
+    refuse(item, "dilation_law",
+           "is stated beside friction_law = \"barton_bandis\", which dilates by dilation_share of its roughness angle; "
+           "remove dilation_law");
+  if (law.mobilisation == Mobilisation::table && !(law.block_length > 0))
+    refuse(item, "block_length_m",
+           "is needed for mobilisation = \"table\": the slip at the peak strength follows from it; state the length of "
+           "the blocks along the joint, or write mobilisation = \"none\"");
+  if (law.sample_length > 0 && !(law.block_length > 0))
+    refuse(item, "sample_length_m",
+           "is stated without block_length_m, to which JRC and JCS are corrected; state both or neither");
+  if (law.sample_length > law.block_length)
+    refuse(item, "sample_length_m",
+           fmt::format("exceeds block_length_m = {:g}: the correction is that of a sample to a longer block; leave "
+                       "sample_length_m out if jrc and jcs are those of the blocks",
+                       law.block_length));
+}
+
 // A dilation above the friction would give back more energy than slip takes: its heat would be negative.
 void check_dilation(const Subject& item, const JointProperties& p) {
-  if (!p.dilates()) return;
+  if (p.laws.dilation == DilationLaw::none) return;
   if (p.laws.friction == FrictionLaw::hardening)
     refuse(item, "dilation_law",
            "friction that hardens is zero before any slip, less than any dilation, and slip would make energy; use "
@@ -55,6 +82,7 @@ void check_laws(const Subject& item, const JointProperties& p) {
     refuse(item, "tension", "a power law has no stiffness without stress; use the linear or the constant law");
   if (p.laws.normal == StiffnessLaw::hyperbolic && p.tension > 0)
     refuse(item, "tension", "a hyperbolic law has no tension; use the linear or the constant law");
+  check_barton_bandis(item, p);
   check_dilation(item, p);
   if (p.residual_cohesion > p.cohesion)
     refuse(item, "residual_cohesion",
@@ -69,6 +97,7 @@ void check_laws(const Subject& item, const JointProperties& p) {
 std::string why_by_points(const JointProperties& p) {
   if (p.constant_stiffness) return "has constant_stiffness, which is independent of the area";
   if (p.laws.bond) return "has tension or cohesion, which is lost point by point";
+  if (p.states_barton_bandis()) return "follows Barton and Bandis' law, whose friction varies over the face";
   if (p.dilates()) return "dilates, by a rise that varies over the face";
   return "has a law that depends on stress or slip, which vary over the face";
 }
@@ -105,6 +134,9 @@ std::vector<PropertiesSpec> read_properties(const Subject& scene) {
     JointProperties p;
     read_keys(*item.node, "joint_properties", p);
     read_keys(*item.node, "joint_properties", p.laws);
+    read_keys(*item.node, "joint_properties", p.barton_bandis);
+    scale_to_blocks(p.barton_bandis);
+    p.stated_friction = p.friction;
     p.laws.bond = p.tension > 0 || p.cohesion > 0;
     check_laws(item, p);
     all.push_back({item, p});

@@ -260,8 +260,18 @@ StageSpec read_stage(const Subject& table, const Settings& settings, int dimensi
   choose("fix", change.fix);
   choose("release", change.release);
   choose("remove", change.remove);
-  for (const Subject& item : children(table, "friction"))
-    read_keys(*item.node, "friction", change.friction_of.emplace_back());
+  if (change.friction && change.friction_as_stated)
+    refuse(table, "friction_as_stated",
+           "is stated together with friction_deg, another friction; remove one of the two");
+  for (const Subject& item : children(table, "friction")) {
+    FrictionPlan& plan = change.friction_of.emplace_back();
+    read_keys(*item.node, "friction", plan);
+    const bool angle = item.node->find("friction_deg") != nullptr;
+    if (angle && plan.as_stated)
+      refuse(item, "as_stated", "is stated together with friction_deg, another friction; remove one of the two");
+    if (!angle && !plan.as_stated)
+      refuse(item, "friction_deg", "is missing; write for example friction_deg = 30, or as_stated = true");
+  }
   read_chosen("move", [&](const Subject& at, const Selector& bodies) { change.move.push_back(read_move(at, bodies)); });
   read_chosen("boundary", [&](const Subject& at, const Selector& bodies) {
     change.boundary.push_back(read_boundary(at, bodies, dimension, rock_weight));

@@ -107,10 +107,18 @@ void load_boundary(Model<Dim>& model, int body, const DepthStress<Dim>& stress) 
 }
 
 void set_friction(const Change& change, std::vector<JointProperties>& properties) {
+  const auto set = [](JointProperties& p, const FrictionPlan& plan) {
+    const bool rough = p.states_barton_bandis();
+    p.friction = plan.as_stated ? p.stated_friction : plan.friction;
+    if (!rough) return;
+    p.laws.set_aside = !plan.as_stated;
+    p.laws.friction = plan.as_stated ? FrictionLaw::barton_bandis : FrictionLaw::constant;
+  };
   for (JointProperties& p : properties) {
-    if (change.friction) p.friction = *change.friction;
+    if (change.friction || change.friction_as_stated)
+      set(p, {p.name, change.friction.value_or(0), change.friction_as_stated});
     for (const FrictionPlan& plan : change.friction_of)
-      if (plan.properties == p.name) p.friction = plan.friction;
+      if (plan.properties == p.name) set(p, plan);
   }
 }
 

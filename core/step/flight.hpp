@@ -26,7 +26,7 @@ double drawn_by(const Model<Dim>& model, const BodiesState<Dim>& bodies, const C
   for (const JointRise<Dim>& rise : rises)
     if (!rise.normal.isZero(0)) highest = std::max(highest, rise.rise);
   for (const JointProperties& p : model.properties)
-    if (p.dilates()) steepest = std::max(steepest, std::tan(p.dilation));
+    steepest = std::max(steepest, steepest_dilation(p));
   if (highest < 0 || steepest == 0) return 0;
   const int first = model.parts[c.part_a].body, second = model.parts[c.part_b].body;
   const CachedPose<Dim>&a = bodies.poses[first], &b = bodies.poses[second];
@@ -46,6 +46,7 @@ Vector<Dim> drawn_along(std::span<const JointRise<Dim>> rises) {
 }
 
 // Its offset moves along with the block, by `way`, m, and its rise with the offset; `tangent`: dilation_in_force.
+// Barton and Bandis' roughness, which raises only a joint that presses, keeps the rise of the farthest offset.
 template <int Dim>
 [[gnu::noinline]] void fly(const JointProperties& properties, double tangent, const Vector<Dim>& way,
                            std::span<JointRise<Dim>> rises) {
@@ -53,7 +54,13 @@ template <int Dim>
     rise.stress = 0;
     if (!(rise.rise > 0)) continue;
     rise.offset -= way - way.dot(rise.normal) * rise.normal;  // against the slip, as a shear force is
-    rise.rise = rise_at(properties, tangent, length_of<Dim>(rise.offset));
+    const double offset = length_of<Dim>(rise.offset);
+    if (properties.states_barton_bandis()) {
+      rise.farthest = std::max(rise.farthest, offset);
+      rise.rise = rise_within(rise, offset);
+    } else {
+      rise.rise = rise_at(properties, tangent, offset);
+    }
   }
 }
 

@@ -396,7 +396,9 @@ struct Newton {
 }  // namespace
 
 bool newton_follows(const JointProperties& joint) {
-  return joint.laws.friction != FrictionLaw::softening && !joint.softens_cohesion() && !joint.dilates();
+  const bool falls = joint.laws.friction == FrictionLaw::softening ||
+                     (joint.follows_barton_bandis() && joint.mobilises());  // beyond its peak
+  return !falls && !joint.softens_cohesion() && !joint.dilates();
 }
 
 template <int Dim>

@@ -22,10 +22,10 @@
 
 namespace voussoir {
 
-// Whether Newton's method supports a joint's laws: all except softening, by which the force falls within an increment,
-// and dilation, by which an increment may end in another equilibrium than small steps (core/step/NOTES.md).
-// Bonds are followed as long as they are intact: a trial that breaks one is refused, and if no shorter step avoids
-// this, the increment is left to relaxation.
+// Whether Newton's method supports a joint's laws: all except softening and Barton and Bandis' mobilisation, by which
+// the force falls within an increment, and dilation, by which an increment may end in another equilibrium than small
+// steps (core/step/NOTES.md). Bonds are followed as long as they are intact: a trial that breaks one is refused, and if
+// no shorter step avoids this, the increment is left to relaxation.
 bool newton_follows(const JointProperties& joint);
 
 // whether it supports those of all joints; else everything is left to relaxation

@@ -130,6 +130,16 @@ friction_deg = 30
 dilation_law = "constant"
 dilation_deg = 8
 dilation_until_m = 0.004
+[[joint_properties]]
+name = "rough"
+normal_stiffness = 1e10
+shear_stiffness = 4e9
+friction_deg = 26
+friction_law = "barton_bandis"
+jrc = 10
+jcs = 50e6
+block_length_m = 0.5
+sample_length_m = 0.1
 [[blocks]]
 name = "by planes"
 planes = [{ normal = [1, 0, 0], offset = 11 }, { normal = [-2, 0, 0], offset = -20 },
@@ -228,7 +238,7 @@ water = [{ name = "lake", level = 0.2, rate = 1 }]
 release = [{ bodies = ["by planes"] }]
 remove = [{ bodies = ["by vertices"] }]
 move = [{ bodies = ["by planes"], velocity = [1, 0, 0], frequency_hz = 1 }]
-friction = [{ name = "rock", friction_deg = 35 }]
+friction = [{ name = "rock", friction_deg = 35 }, { name = "rough", friction_deg = 40 }]
 boundary = [{ bodies = ["by vertices"], stress = [1, 1, 0, 0, 0, 0], in_situ = { surface = 0.5, k0 = 0.5, k0_y = 0.6, unit_weight = 2e4 } }]
 force = [{ name = "push", bodies = ["by planes"], force = [1, 0, 0], point = [10.5, 0, 0.5] }]
 [[stage]]

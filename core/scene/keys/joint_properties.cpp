@@ -3,6 +3,11 @@
 #include "core/scene/keys/tables.hpp"
 
 namespace voussoir::keys {
+namespace {
+
+constexpr Range length_of_blocks{1e-3, 1e4};  // powers of their ratio are finite
+
+}  // namespace
 
 // clang-format off
 KeyTable joint_property_keys() {
@@ -19,7 +24,7 @@ KeyTable joint_property_keys() {
      .meaning = "shear stress per slip before sliding (N/m with constant_stiffness)", .mistake = stiffness_mistake},
     {.key = "friction_deg", .members = {degrees(&JointProperties::friction)}, .unit = "deg", .range = friction_range,
      .plausible = plausible_friction, .example = "35", .required = true,
-     .meaning = "friction angle", .repair = "give the angle, not its tangent, below 90 degrees",
+     .meaning = "friction angle; of Barton and Bandis' law that without roughness, φr, below 70 degrees", .repair = "give the angle, not its tangent, below 90 degrees",
      .mistake = friction_mistake},
     {.key = "constant_stiffness", .members = {in(&JointProperties::constant_stiffness)}, .example = "true",
      .meaning = "the stiffness is in N/m and independent of the contact area, which is not computed"},
@@ -69,11 +74,13 @@ KeyTable joint_property_keys() {
      .meaning = "exponent of the normal stress"},
     {.key = "friction_law", .members = {one_of(&JointLaws::friction,
          {{"constant", FrictionLaw::constant}, {"hardening", FrictionLaw::hardening},
-          {"softening", FrictionLaw::softening}})},
+          {"softening", FrictionLaw::softening}, {"barton_bandis", FrictionLaw::barton_bandis}})},
      .example = "\"softening\"",
      .meaning = "friction coefficient μ against accumulated plastic slip β; constant: tan(friction_deg); hardening: "
          "tan(friction_deg) (1 - exp(-β / up)), up = hardening_slip_m (σ / 1 Pa)^hardening_exponent; softening: "
-         "tan(friction_deg) - softening_drop (1 - exp(-β / softening_slip_m)); strength reduction changes friction_deg",
+         "tan(friction_deg) - softening_drop (1 - exp(-β / softening_slip_m)); barton_bandis: tan(friction_deg + i), at most 70 degrees, with "
+         "the roughness angle i = jrc log10(jcs / σ) under the normal stress σ; strength reduction changes friction_deg, and divides "
+         "Barton and Bandis' shear strength",
      .breaks = "friction that falls faster than the shear spring unloads causes snap-back, counted as snap_backs"},
     {.key = "hardening_slip_m", .members = {in(&JointProperties::hardening_slip)}, .unit = "m", .range = positive,
      .plausible = {1e-8, 1e-4}, .example = "2e-6", .required = true, .when = {"friction_law", "hardening"},
@@ -88,6 +95,32 @@ KeyTable joint_property_keys() {
     {.key = "softening_slip_m", .members = {in(&JointProperties::softening_slip)}, .unit = "m", .range = positive,
      .plausible = {2e-4, 10}, .example = "0.35", .required = true, .when = {"friction_law", "softening"},
      .meaning = "plastic slip at which 63 % of softening_drop is lost"},
+    {.key = "jrc", .members = {in(&BartonBandis::sample_jrc)}, .unit = "1", .range = {0, 40},
+     .plausible = {.low = 1, .high = 20, .or_zero = true}, .example = "10", .required = true,
+     .when = {"friction_law", "barton_bandis"},
+     .meaning = "joint roughness coefficient JRC, of the sample if sample_length_m is stated, else of the blocks"},
+    {.key = "jcs", .members = {in(&BartonBandis::sample_jcs)}, .unit = "Pa", .range = positive,
+     .plausible = {1e6, 5e8}, .example = "30e6", .required = true, .when = {"friction_law", "barton_bandis"},
+     .meaning = "compressive strength of the joint's walls JCS, of the sample if sample_length_m is stated, else of the blocks",
+     .mistake = "was it given in MPa?"},
+    {.key = "block_length_m", .members = {in(&BartonBandis::block_length)}, .unit = "m", .range = length_of_blocks,
+     .plausible = {0.02, 100}, .example = "0.5", .no_default = true, .when = {"friction_law", "barton_bandis"},
+     .meaning = "length Ln of the blocks along the joint; with sample_length_m L0 it corrects JRC to JRC (Ln/L0)^(-0.02 JRC), JCS to JCS "
+         "(Ln/L0)^(-0.03 JRC); peak strength is at a plastic slip of Ln/500 (JRC/Ln)^0.33"},
+    {.key = "sample_length_m", .members = {in(&BartonBandis::sample_length)}, .unit = "m", .range = length_of_blocks,
+     .plausible = {0.02, 2}, .example = "0.1", .no_default = true, .when = {"friction_law", "barton_bandis"},
+     .meaning = "length L0 of the sample that has jrc and jcs; without it both are those of the blocks, and are not corrected",
+     .breaks = "values of a laboratory's sample without their correction are too strong for blocks"},
+    {.key = "mobilisation", .members = {one_of(&BartonBandis::mobilisation,
+         {{"none", Mobilisation::none}, {"table", Mobilisation::table}})},
+     .example = "\"table\"", .when = {"friction_law", "barton_bandis"},
+     .meaning = "part of i that acts against accumulated plastic slip; none: all of it at any slip, the envelope of limit equilibrium; "
+         "table: that of Barton, Bandis and Bakhtar (1985), which rises to the peak and falls to friction_deg at 100 times its slip, and "
+         "needs block_length_m",
+     .breaks = "with the table a joint has no strength before any slip, and Newton's method is left to relaxation"},
+    {.key = "dilation_share", .members = {in(&BartonBandis::dilation_share)}, .unit = "1", .range = {0, 1},
+     .plausible = {.low = 0.1, .high = 1, .or_zero = true}, .example = "0.5", .when = {"friction_law", "barton_bandis"},
+     .meaning = "dilation angle over the mobilised part of i, Barton and Choubey's 1/M; 0: the joint does not dilate"},
     {.key = "dilation_law", .members = {one_of(&JointLaws::dilation,
          {{"none", DilationLaw::none}, {"constant", DilationLaw::constant}, {"falling", DilationLaw::falling}})},
      .example = "\"constant\"",

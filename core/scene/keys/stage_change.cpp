@@ -28,9 +28,13 @@ KeyTable stage_change_keys() {
          "unchanged, those of a fixed block stay fixed. Afterwards a fixed block stops, a free one keeps its velocity"},
     {.key = "friction_deg", .members = {degrees(&Change::friction)}, .unit = "deg", .range = friction_range,
      .plausible = plausible_friction, .example = "30",
-     .meaning = "friction angle of every joint from this stage on, whatever an earlier search has made it", .mistake = friction_mistake},
+     .meaning = "friction angle of every joint from this stage on, whatever an earlier search has made it; joints of Barton and Bandis' law "
+         "have Coulomb's with it, until a stage states friction_as_stated", .mistake = friction_mistake},
+    {.key = "friction_as_stated", .members = {in(&Change::friction_as_stated)}, .example = "true",
+     .meaning = "every joint has from this stage on the friction of its joint_properties again, and its own law: Barton and Bandis', which "
+         "an earlier friction_deg has replaced"},
     {.key = "friction", .type = tables, .holds = {"friction"},
-     .meaning = "friction angle of single joint properties, by name, from this stage on; it takes precedence over friction_deg"},
+     .meaning = "friction angle of single joint properties, by name, from this stage on; it takes precedence over friction_deg and friction_as_stated"},
     {.key = "bond", .members = {in(&Change::bond)}, .example = "true",
      .meaning = "bonds closed joints that state tension or cohesion, at contacts that are compressed, or are so before they open by a "
          "thousandth of the smallest inscribed radius; for joints whose properties have bonds by_stage, and those that were made or parted later"},
@@ -60,8 +64,10 @@ KeyTable stage_friction_keys() {
     {.key = "name", .members = {in(&FrictionPlan::properties, name)}, .example = "\"rock\"", .required = true,
      .meaning = "name of the joint_properties"},
     {.key = "friction_deg", .members = {degrees(&FrictionPlan::friction)}, .unit = "deg", .range = friction_range,
-     .plausible = plausible_friction, .example = "30", .required = true,
-     .meaning = "their friction angle from this stage on", .mistake = friction_mistake},
+     .plausible = plausible_friction, .example = "30", .no_default = true,
+     .meaning = "their friction angle from this stage on; needed, unless as_stated", .mistake = friction_mistake},
+    {.key = "as_stated", .members = {in(&FrictionPlan::as_stated)}, .example = "true",
+     .meaning = "they have the friction and the law of their joint_properties again, instead of an angle"},
   }};
 }
 // clang-format on

@@ -71,7 +71,8 @@ KeyTable stage_reduce_keys() {
      .range = not_negative, .plausible = {.low = 1e-4, .high = 30, .or_zero = true}, .example = "0.01",
      .when = {"kind", "reduce"},
      .meaning = "a block that has moved this far since the search began (rate, two_rates: since the reduction began) has failed; 0: a "
-         "tenth of the smallest inscribed radius of the free blocks",
+         "tenth of the smallest inscribed radius of the free blocks, or the longest slip over which the strength of a joint changes, if that is "
+         "more: softening_slip_m, cohesion_slip_m, twice the slip at the peak of Barton and Bandis' table",
      .breaks = "must exceed the elastic settlement; too large: trials take a long time", .mistake = "was it given in mm?"},
     {.key = "failure_criterion", .members = {one_of(&ReducePlan::criterion,
          {{"required_strength", FailureCriterion::required_strength}, {"displacement", FailureCriterion::displacement}})},
