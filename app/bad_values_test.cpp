@@ -132,6 +132,7 @@ constexpr std::string_view slow = "slow, as laboratory tests and creep are";
 constexpr std::string_view kept_whole = "no block is cut; a selector that then chooses none is refused";
 constexpr std::string_view other_places = "other places of the copies; those too far from the rest are refused";
 constexpr std::string_view beyond = "a domain plane bounds the box on this side";
+constexpr std::string_view hardly_any = "nearly all closure is recovered, as with 0";
 const Harmless harmless[] = {
     {"box", "max", "0", zero_place},
     {"box", "min", "0", zero_place},
@@ -170,6 +171,9 @@ const Harmless harmless[] = {
     {"motion", "velocity", "times 1e-6", slow},
     {"motion", "angular_velocity", "times 1e-3", slow},
     {"motion", "angular_velocity", "times 1e-6", slow},
+    {"joint_properties", "irrecoverable_fraction", "times 1e-3", hardly_any},
+    {"joint_properties", "irrecoverable_fraction", "times 1e-6", hardly_any},
+    {"joint_properties", "irrecoverable_fraction", "times 1e-9", hardly_any},
     {"joints", "dip_direction", "times 1e-3", "an ordinary direction"},
     {"domain.planes", "dip_direction", "times 1e-3", "an ordinary direction"},
     {"output", "history_interval_s", "times 1e-3", "a row at every step"},

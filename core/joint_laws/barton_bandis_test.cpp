@@ -228,7 +228,7 @@ struct Specimen {
   JointRise<3> rise{};
   double walls = 0;  // m, by which they have come together
 
-  JointForce<3> step(double closing, const Vector<3>& slip) {
+  LawForce<3> step(double closing, const Vector<3>& slip) {
     walls += closing;
     JointKinematics<3> k;
     k.normal = {0, 0, 1};
@@ -274,7 +274,7 @@ TEST(BartonBandis, HostilePathsNeverMakeEnergy) {
             const double size = i % 5 == 0 ? 0 : shapes::power_of_ten(random, -12, -3);
             const Vector<3> slip{(i % 2 == 0 ? 1 : -1) * size, i % 3 == 0 ? shapes::uniform(random, -1e-4, 1e-4) : 0,
                                  0};
-            const JointForce<3> f = joint.step(target - joint.walls, slip);
+            const LawForce<3> f = joint.step(target - joint.walls, slip);
             ASSERT_TRUE(f.force.allFinite());
             ASSERT_GE(f.force[2], 0);
             ASSERT_GE(f.friction + f.dilation, -1e-12 * std::abs(f.dilation));
