@@ -298,7 +298,7 @@ TEST(JointLaws, ABlockFliesFromTheLimitOfItsDilation) {
   report.record({"flight above the risen plane",
                  "m",
                  Kind::exact,
-                 "throw of a rigid block",
+                 "Newton's laws of a rigid block that is thrown",
                  height,
                  {0, 1e-2},
                  "a history of 1 ms misses the top by at most 1e-6 m; springs of 1e11 Pa/m"},
