@@ -93,7 +93,7 @@ bool keeps_place(const Contact<Dim>& c, const Pair<Dim>& pair, std::span<const J
   return rise && c.status == ContactStatus::separated && gap_along<Dim>(pair, rise->normal) <= rise->rise;
 }
 
-// Sub-contacts of which the face was divided anew, or that do not touch, are where the highest of them is.
+// Sub-contacts that do not touch, and all of them if another face was divided, take the place of the highest one.
 template <int Dim>
 void follow_cells(int divided_before, std::size_t place, ContactsState<Dim>& contacts) {
   const std::span<JointRise<Dim>> rises = rises_of(contacts, place);
@@ -101,9 +101,9 @@ void follow_cells(int divided_before, std::size_t place, ContactsState<Dim>& con
   const JointRise<Dim>* const most = highest<Dim>(rises);
   if (!most) return;
   const JointRise<Dim> risen = *most;
-  const bool anew = divided_before >= 0 && contacts.list[place].divided_face != divided_before;
+  const bool other_face = divided_before >= 0 && contacts.list[place].divided_face != divided_before;
   for (std::size_t k = 0; k < std::min(cells.size(), rises.size()); ++k) {
-    if (!anew && cells[k].area > 0) continue;
+    if (!other_face && cells[k].area > 0) continue;
     rises[k] = risen;
     rises[k].stress = 0;
   }
