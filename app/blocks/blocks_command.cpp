@@ -83,6 +83,11 @@ double one_friction(const std::vector<Joint<3>>& joints, const std::vector<Joint
   double least = 90 * degree, most = 0;
   for (const Joint<3>& joint : joints) {
     if (joint.holds) continue;
+    if (properties[joint.properties].follows_barton_bandis())
+      throw BadInput(
+          fmt::format("--kinematics: the friction of '{}' depends on the normal stress, and the zones are drawn for "
+                      "one angle: state --friction",
+                      properties[joint.properties].name));
     least = std::min(least, properties[joint.properties].friction);
     most = std::max(most, properties[joint.properties].friction);
   }

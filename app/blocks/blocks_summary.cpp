@@ -147,7 +147,11 @@ template <int Dim>
 std::string header(const Survey<Dim>& survey, const std::string& title) {
   std::vector<std::string> strengths;
   for (const JointProperties& joint : survey.assembly.model.properties)
-    strengths.push_back(fmt::format("{} {:.4g} deg{}", joint.name, to_degrees(joint.friction),
+    strengths.push_back(fmt::format("{} {:.4g} deg{}{}", joint.name, to_degrees(joint.friction),
+                                    joint.follows_barton_bandis()
+                                        ? fmt::format(" and roughness (JRC {:.3g}, JCS {:.4g} MPa)",
+                                                      joint.barton_bandis.jrc, 1e-6 * joint.barton_bandis.jcs)
+                                        : "",
                                     joint.cohesion > 0 ? fmt::format(" and {:.4g} kPa", joint.cohesion / 1000) : ""));
   bool water = false;
   for (const Load<Dim>& load : survey.assembly.water)

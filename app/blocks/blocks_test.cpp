@@ -177,6 +177,24 @@ TEST_F(Program, BlocksShowsItsVerdictsInAPage) {
   expect_one_line(run(scene + "--view --kinematics --face 70/90"), 2, "leave out one of the two");
 }
 
+// a cube of 1 m on a plane of 45 degrees: σ = ρ g h cos 45°
+TEST_F(Program, BlocksFollowTheEnvelopeOfBartonAndBandis) {
+  write("cube.toml",
+        "dimension = 3\ngravity = [7.0710678118654755, 0, -7.0710678118654755]\ndensity = 2000\n"
+        "blocks = [{ name = \"base\", box = { min = [-2, -2, -1], max = [2, 2, 0] }, fixed = true },\n"
+        "          { name = \"cube\", box = { min = [0, 0, 0], max = [1, 1, 1] } }]\n"
+        "joint_properties = [{ name = \"r\", normal_stiffness = 1e9, shear_stiffness = 1e8, friction_deg = 26, "
+        "friction_law = \"barton_bandis\", jrc = 7, jcs = 40e6 }]\n");
+  const Ended ended = run("blocks cube.toml --out out");
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  const double stress = 20000 * std::sqrt(0.5);
+  EXPECT_NEAR(results("out")["blocks"][0]["factor"].get<double>(),
+              std::tan((26 + 7 * std::log10(40e6 / stress)) * std::numbers::pi / 180), 1e-9)
+      << results("out").dump(1);
+  for (const char* part : {"roughness (JRC 7, JCS 40 MPa)", "peak envelope"})
+    EXPECT_NE(ended.out.find(part), std::string::npos) << part << "\n" << ended.out;
+}
+
 TEST_F(Program, BlocksRefusesWhatItCannotJudge) {
   expect_one_line(run("blocks " + quoted("examples/tutorial/slope.toml") + "--out out --strength-of wait"), 2,
                   "there are: weight, safety");

@@ -118,6 +118,7 @@ LimitAnalysis analyse_limit(const LoadedScene& scene, const LimitRequest& reques
     seek_factor(live_load(*request.load, analysis.model, analysed), analysis);
   else
     request.factor ? seek_factor_of_safety(request, analysis) : seek_friction(request, analysis);
+  tell_envelope(analysis);
   refuse_empty(analysis, analysis.model.gravity.isZero(0), analysed);
   if (analysis.status == LimitStatus::solver_failed)
     analysis.message = "GLPK did not solve a linear program; blocks of very different size are the usual cause";

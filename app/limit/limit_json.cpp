@@ -128,6 +128,10 @@ Json answer_json(const LimitAnswer& analysis, const char* programs) {
                       {"out_of_balance", evidence.out_of_balance},
                       {"inadmissible", evidence.inadmissible},
                       {programs, evidence.programs}};
+  if (evidence.rounds_of_tangents > 0)
+    json["evidence"]["envelope"] = {{"rounds_of_tangents", evidence.rounds_of_tangents},
+                                    {"agree", evidence.tangents_agree},
+                                    {"beyond_N", evidence.beyond_envelope}};
   return json;
 }
 

@@ -185,6 +185,7 @@ LimitAnalysisInSpace analyse_limit_in_space(const LoadedScene& scene, const Limi
     seek_factor_in_space(*live, gravity, analysis);
   else
     seek_strength_in_space(request, gravity, analysis);
+  tell_envelope(analysis);
   refuse_empty(analysis, model.gravity.isZero(0), analysed);
   if (analysis.status == LimitStatus::solver_failed)
     analysis.message =

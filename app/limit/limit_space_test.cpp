@@ -101,5 +101,22 @@ TEST_F(LimitSpace, CountsAppliedForcesAndCohesion) {
   EXPECT_NEAR(value("collapse_factor"), 20 * std::tan(35 * std::numbers::pi / 180) + 5, 1e-6);
 }
 
+// Barton and Bandis' envelope at the stress of the column, 40 kPa: F of the push is tan φ(σ) W over it
+TEST_F(LimitSpace, FollowsTheEnvelopeOfBartonAndBandis) {
+  if (!is_built_in("glpk")) GTEST_SKIP();
+  write_column();
+  const std::string text = read(folder_ / "column.toml");
+  const std::size_t end = text.find("friction_deg = 35") + std::string("friction_deg = 35").size();
+  write("column.toml",
+        text.substr(0, end) + ", friction_law = \"barton_bandis\", jrc = 5, jcs = 40e6" + text.substr(end));
+  expect_one_line(limit(""), 2, "seek the factor of safety by --factor");
+  const Ended east = limit("--load east --set blocks.column.box.max=[2,1,0.25]");
+  EXPECT_EQ(east.code, 0) << east.out << east.err;
+  EXPECT_NEAR(value("collapse_factor"), std::tan((35 + 5 * std::log10(40e6 / 5e3)) * std::numbers::pi / 180), 2e-6);
+  for (const char* part : {"peak envelope", "rounds until answers agree", "slope of their envelope"})
+    EXPECT_NE((east.out + east.err).find(part), std::string::npos) << part << east.out << east.err;
+  EXPECT_TRUE(results("out")["evidence"]["envelope"]["agree"]);
+}
+
 }  // namespace
 }  // namespace voussoir::limit_space_test

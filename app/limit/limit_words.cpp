@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/base/bad_input.hpp"
+#include "core/limit/follow_envelope.hpp"
 #include "core/model/body_title.hpp"
 #include "text/angle.hpp"
 
@@ -89,9 +90,13 @@ void warn_of_strengths(const std::vector<JointProperties>& properties, const std
           p.name, p.tension));
     if (p.dilates())
       warnings.push_back(
-          fmt::format("joint_properties '{}' dilate by {:.4g} degrees; limit analysis does not count that: its joints "
-                      "dilate by their friction angle",
-                      p.name, to_degrees(p.dilation)));
+          fmt::format("joint_properties '{}' dilate by {}; limit analysis does not count that: its joints "
+                      "dilate by {}",
+                      p.name,
+                      p.follows_barton_bandis()
+                          ? fmt::format("{:.3g} of their mobilised roughness angle", p.barton_bandis.dilation_share)
+                          : fmt::format("{:.4g} degrees", to_degrees(p.dilation)),
+                      p.follows_barton_bandis() ? "the slope of their envelope" : "their friction angle"));
     if (p.laws.friction == FrictionLaw::softening)
       warnings.push_back(
           fmt::format("joint_properties '{}' soften; limit analysis takes their friction before any slip", p.name));
@@ -136,6 +141,14 @@ void refuse_unknown_properties(const LimitRequest& request, const std::vector<Jo
     if (std::ranges::find(names, name) == names.end())
       throw BadInput(fmt::format("{} {}: no joint_properties of this name; there are: {}",
                                  request.factor ? "--joint" : "--friction", name, fmt::join(names, ", ")));
+  if (request.factor) return;
+  for (const JointProperties& p : properties)
+    if (p.follows_barton_bandis() &&
+        (request.properties.empty() || std::ranges::find(request.properties, p.name) != request.properties.end()))
+      throw BadInput(fmt::format(
+          "joint_properties '{}': Barton and Bandis' friction angle depends on the normal stress, so none is "
+          "critical; seek the factor of safety by --factor, or name other joints by --friction",
+          p.name));
 }
 
 void tell_factor_of_safety(const LimitRequest& request, const StrengthBracket& found, bool cohesive,
@@ -198,6 +211,22 @@ void tell_load_factor(LimitStatus status, double factor, const std::string& rule
     answer.message =
         "the blocks collapse under gravity alone, so no further load can be sought; leave out --load to find the "
         "friction that they need";
+}
+
+void tell_envelope(LimitAnswer& answer) {
+  const Evidence& evidence = answer.evidence;
+  if (evidence.rounds_of_tangents == 0) return;
+  const std::string envelope =
+      "joints after Barton and Bandis have their peak envelope, by its tangent at the mean normal stress of each face";
+  answer.caveats.push_back(
+      evidence.tangents_agree
+          ? fmt::format("{} ({} rounds until answers agree to {:g}; shear forces exceed it by {:.2g} N at most)",
+                        envelope, evidence.rounds_of_tangents, envelope_agreement, evidence.beyond_envelope)
+          : fmt::format("{}: {} rounds did not agree to {:g}, and shear forces exceed it by up to {:.3g} N; the blocks "
+                        "carry no more than this, and may carry less: confirm it with 'voussoir run'",
+                        envelope, evidence.rounds_of_tangents, envelope_agreement, evidence.beyond_envelope));
+  for (auto& [name, value] : answer.values)
+    if (value.error_bar) *value.error_bar += envelope_agreement * std::max(1.0, std::abs(value.value));
 }
 
 const char* const any_gravity =

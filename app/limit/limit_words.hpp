@@ -26,7 +26,8 @@ const StagePlan* stage_of_forces(const std::vector<StagePlan>& stages, const Lim
 void warn_of_changes(const std::vector<StagePlan>& stages, const StagePlan* analysed,
                      std::vector<std::string>& warnings);
 
-// Throws BadInput for a name that no properties have; `option` names them on the command line.
+// Throws BadInput for a name that no properties have, and for a critical friction of joints whose friction depends on
+// stress.
 void refuse_unknown_properties(const LimitRequest& request, const std::vector<JointProperties>& properties);
 
 // `cohesive`: the factor divides cohesion, too; `rule`: how the bracket was found
@@ -37,6 +38,9 @@ void tell_friction(const LimitRequest& request, const StrengthBracket& found, co
 // `if_any`: the reason, or the repair, if any factor is carried
 void tell_load_factor(LimitStatus status, double factor, const std::string& rule, const std::string& if_any,
                       LimitAnswer& answer);
+
+// How joints after Barton and Bandis were counted, if there are any; their agreement is part of the error bars.
+void tell_envelope(LimitAnswer& answer);
 
 // What any factor of gravity or of the applied forces is due to, and the words for these loads.
 extern const char* const any_gravity;

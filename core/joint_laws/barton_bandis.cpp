@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace voussoir {
 namespace {
@@ -57,6 +58,18 @@ double roughness_angle(const JointProperties& p, double stress) {
   if (stress >= law.jcs) return 0;
   const double angle = law.jrc * std::log10(law.jcs / std::max(stress, least_stress * law.jcs)) * degree;
   return std::min(angle, largest_friction_angle - p.friction);
+}
+
+double peak_friction(const JointProperties& p, double stress) {
+  return p.friction + roughness_angle(p, stress);
+}
+
+EnvelopeTangent envelope_tangent(const JointProperties& p, double stress) {
+  const double tangent = std::tan(peak_friction(p, stress)), jrc = p.barton_bandis.jrc * degree;
+  if (stress <= stress_at_largest_angle(p)) return {largest_friction_angle, 0};
+  if (stress >= p.barton_bandis.jcs) return {p.friction, 0};
+  const double slope = std::max(0.0, tangent - jrc / std::numbers::ln10 * (1 + tangent * tangent));
+  return {std::atan(slope), stress * (tangent - slope)};
 }
 
 double stress_at_largest_angle(const JointProperties& p) {

@@ -28,6 +28,17 @@ void scale_to_blocks(BartonBandis& law);
 // rad: the angle i of the roughness at a normal stress, Pa
 double roughness_angle(const JointProperties& properties, double stress);
 
+// rad: the friction angle of the peak envelope at a normal stress, Pa, which mobilisation reaches at peak_slip
+double peak_friction(const JointProperties& properties, double stress);
+
+// The tangent of the peak envelope τ(σ) at a normal stress, Pa: τ = cohesion + tan(friction) σ. Between the stresses of
+// the largest angle and of JCS the envelope is concave, so the tangent lies above it.
+struct EnvelopeTangent {
+  double friction = 0;  // rad, never negative
+  double cohesion = 0;  // Pa
+};
+EnvelopeTangent envelope_tangent(const JointProperties& properties, double stress);
+
 // Pa: below this normal stress the friction angle is the largest one; 0: at no stress
 double stress_at_largest_angle(const JointProperties& properties);
 

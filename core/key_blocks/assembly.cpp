@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/joint_laws/barton_bandis.hpp"
 #include "core/key_blocks/direction_cone.hpp"
 #include "core/model/water_surfaces.hpp"
 
@@ -93,7 +94,7 @@ int face_for(const Assembly<Dim>& assembly, const RockContact<Dim>& contact, con
   face.normal = normal;
   face.joint = contact.joint;
   face.properties = contact.properties;
-  face.tan_friction = std::tan(assembly.model.properties[contact.properties].friction);
+  face.set_friction(assembly.model.properties[contact.properties]);
   block.faces.push_back(face);
   block.normals.push_back(normal);
   return static_cast<int>(block.faces.size()) - 1;
@@ -126,6 +127,28 @@ void add_bodies(const Assembly<Dim>& assembly, Block<Dim>& block) {
 }
 
 }  // namespace
+
+template <int Dim>
+void RockFace<Dim>::set_friction(const JointProperties& joint) {
+  rough = joint.follows_barton_bandis() ? &joint : nullptr;
+  tan_friction = rough ? 0 : std::tan(joint.friction);
+}
+
+template <int Dim>
+double RockFace<Dim>::friction_force(double normal_force) const {
+  return normal_force * (rough ? std::tan(peak_friction(*rough, normal_force / area)) : tan_friction);
+}
+
+template <int Dim>
+double RockFace<Dim>::friction_slope(double normal_force) const {
+  return rough ? std::tan(envelope_tangent(*rough, normal_force / area).friction) : tan_friction;
+}
+
+template <int Dim>
+double RockFace<Dim>::friction_gain(double normal_force, double more) const {
+  if (!rough) return more * tan_friction;
+  return friction_force(std::max(0.0, normal_force + more)) - friction_force(normal_force);
+}
 
 template <int Dim>
 bool Block<Dim>::enclosed() const {
@@ -192,6 +215,7 @@ void gather(const Assembly<Dim>& assembly, std::span<const int> bodies, const st
 }
 
 #define VOUSSOIR_INSTANTIATE(Dim)                                                                      \
+  template struct RockFace<Dim>;                                                                       \
   template struct Block<Dim>;                                                                          \
   template Assembly<Dim> make_assembly<Dim>(Model<Dim>, const WaterValues&, const std::vector<bool>&); \
   template void gather<Dim>(const Assembly<Dim>&, std::span<const int>, const std::vector<char>&, Block<Dim>&);

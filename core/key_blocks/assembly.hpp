@@ -41,11 +41,17 @@ template <int Dim>
 struct RockFace {
   Vector<Dim> normal;  // unit, into the block
   int joint = no_joint;
-  int properties = 0;  // Model::properties
-  double area = 0;     // m²
-  double tan_friction = 0;
+  int properties = 0;                          // Model::properties
+  double area = 0;                             // m²
+  double tan_friction = 0;                     // of a friction that does not depend on stress
+  const JointProperties* rough = nullptr;      // otherwise Barton and Bandis' peak envelope, of the assembly's model
   double cohesion = 0;                         // N: of the areas of one stated joint
   Vector<Dim> centroid = Vector<Dim>::Zero();  // m, model coordinates
+
+  void set_friction(const JointProperties& joint);
+  double friction_force(double normal_force) const;              // N
+  double friction_slope(double normal_force) const;              // its derivative
+  double friction_gain(double normal_force, double more) const;  // N, by a larger normal force
 };
 
 // the force of a bolt on a block

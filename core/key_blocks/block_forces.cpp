@@ -30,7 +30,7 @@ Vector<Dim> gradient(const Block<Dim>& block, const Verdict<Dim>& verdict, doubl
     std::array<double, Dim> forces{};
     balance<Dim>(block.normals, verdict.faces, verdict.loaded, Vector<Dim>::Unit(axis), forces);
     for (int k = 0; k < verdict.loaded; ++k)
-      change[axis] += forces[k] * block.faces[verdict.faces[k]].tan_friction;
+      change[axis] += forces[k] * block.faces[verdict.faces[k]].friction_slope(verdict.forces[k]);
   }
   return change;
 }
@@ -114,8 +114,9 @@ std::optional<RequiredForce<Dim>> least_force(const Block<Dim>& block, const Bol
   const Vector<Dim> change = gradient(block, verdict, factor);
   const double needed = factor * verdict.driving() - verdict.friction - verdict.cohesion;
   const Vector<Dim> direction = change.normalized(), force = needed / change.norm() * direction;
+  const bool rough = std::ranges::any_of(block.faces, [](const RockFace<Dim>& face) { return face.rough; });
   const Verdict<Dim> after = judge(block, Vector<Dim>(bolted.load + force), gravity, false);
-  if (same_faces(verdict, after)) return RequiredForce<Dim>{force};
+  if (!rough && same_faces(verdict, after)) return RequiredForce<Dim>{force};
   const std::optional<double> size = size_along<Dim>(block, bolted.load, factor, direction, gravity);
   if (!size) return std::nullopt;
   return RequiredForce<Dim>{Vector<Dim>(*size * direction), false};

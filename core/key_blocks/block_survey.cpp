@@ -35,17 +35,6 @@ void refuse_other_models(const Model<Dim>& model) {
     throw BadInput("every block is fixed, so there is nothing to judge; choose fewer blocks in fix");
 }
 
-// the stages up to that of the strength have changed it
-void refuse_stress_dependent(const std::vector<JointProperties>& properties) {
-  for (const JointProperties& joint : properties)
-    if (joint.follows_barton_bandis())
-      throw BadInput(fmt::format(
-          "joint_properties '{}': Barton and Bandis' friction angle depends on the normal stress, of which block "
-          "theory has none before it judges; let a stage state friction_deg and name it by --strength-of, or "
-          "use 'voussoir run'",
-          joint.name));
-}
-
 int place_of_stage(const std::vector<StagePlan>& stages, const std::string& name, const char* option) {
   std::string names;
   for (std::size_t s = 0; s < stages.size(); ++s) {
@@ -112,11 +101,15 @@ std::vector<std::string> notes_on(const Prepared<Dim>& prepared, const Model<Dim
     for (const bool free : body.free_translation)
       restrained |= !free;
   }
-  bool dilates = false;
+  bool dilates = false, rough = false;
   for (const JointProperties& joint : model.properties) {
     softens |= joint.laws.friction == FrictionLaw::softening;
     dilates |= joint.dilates();
+    rough |= joint.follows_barton_bandis();
   }
+  if (rough)
+    notes.push_back(
+        "friction of Barton and Bandis is their peak envelope at the mean normal stress of each loaded face");
   if (dilates) notes.push_back("dilation of joints is not counted: blocks are judged before any slip");
   if (restrained) notes.push_back("restrained translations are not counted: such a block is judged as if it were free");
   if (softens) notes.push_back("friction that softens with slip is that before any slip");
@@ -198,7 +191,6 @@ Assembly<Dim> judged_assembly(const Prepared<Dim>& prepared, const Stages& stage
   refuse_other_models(prepared.model);
   Assembly<Dim> assembly = assembly_at(prepared, stages);
   refuse_other_models(assembly.model);
-  refuse_stress_dependent(assembly.model.properties);
   return assembly;
 }
 

@@ -100,7 +100,8 @@ std::optional<double> pressure_eccentricity(const Assembly<Dim>& assembly, const
   double size = 0;
   for (int k = 0; k < verdict.loaded; ++k) {
     const RockFace<Dim>& face = block.faces[verdict.faces[k]];
-    forces.push_back(verdict.forces[k] * (face.normal - face.tan_friction / *bolted.factor * verdict.direction()));
+    forces.push_back(verdict.forces[k] * face.normal -
+                     face.friction_force(verdict.forces[k]) / *bolted.factor * verdict.direction());
     faces.push_back(moments_of_face(assembly, block, verdict.faces[k], forces.back()));
     size = std::max(size, (face.centroid - block.centroid).norm());
   }

@@ -114,7 +114,7 @@ bool Recutter<Dim>::add_faces(int body, Block<Dim>& block) const {
     face.joint = on->joint;
     face.properties = on->properties;
     face.area = area;
-    face.tan_friction = std::tan(properties.friction);
+    face.set_friction(properties);
     face.cohesion = area * properties.cohesion;
     face.centroid = b.reference + face_centroid<Dim>(surface_.vertices, surface_.loops[f], faces_[f].normal);
     block.contact_area += area;

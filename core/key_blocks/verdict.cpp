@@ -30,7 +30,7 @@ void take_least_resistance(const Block<Dim>& block, const Vector<Dim>& load, Ver
     for (int k = 0; k < count; ++k) {
       if (forces[k] <= smallest) return;
       left += forces[k] * block.normals[faces[k]];
-      resistance += forces[k] * block.faces[faces[k]].tan_friction;
+      resistance += block.faces[faces[k]].friction_force(forces[k]);
     }
     if (left.norm() > smallest) return;
     ++carrying;
@@ -74,7 +74,7 @@ Verdict<Dim> judge(const Block<Dim>& block, const Vector<Dim>& load, const Vecto
       verdict.kind = down ? BlockKind::falls : BlockKind::lifts;
     }
     for (int k = 0; k < verdict.loaded; ++k)
-      verdict.friction += verdict.forces[k] * block.faces[verdict.faces[k]].tan_friction;
+      verdict.friction += block.faces[verdict.faces[k]].friction_force(verdict.forces[k]);
     for (const RockFace<Dim>& face : block.faces)
       if (slides_along(face, along)) verdict.cohesion += face.cohesion;
     return verdict;
@@ -124,7 +124,7 @@ BoltedVerdict<Dim> judge_bolted(const Block<Dim>& block, const Vector<Dim>& more
     double resistance = tightened.friction + tightened.cohesion - further.dot(tightened.direction());
     if (tightened.loaded > 0 && balance<Dim>(block.normals, tightened.faces, tightened.loaded, further, changes))
       for (int k = 0; k < tightened.loaded; ++k)
-        resistance += changes[k] * block.faces[tightened.faces[k]].tan_friction;
+        resistance += block.faces[tightened.faces[k]].friction_gain(tightened.forces[k], changes[k]);
     result.factor_passive = resistance / tightened.driving();
   }
   result.load = bare + bolt_capacity(block);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/joint_laws/barton_bandis.hpp"
 #include "core/key_blocks/block_forces.hpp"
 #include "core/testing/stated_block.hpp"
 #include "text/angle.hpp"
@@ -65,6 +66,41 @@ TEST(Verdict, ABlockOnAPlaneWithABolt) {
   EXPECT_NEAR(*bolted.factor_passive, 1.39558, 1e-5);
   block.bolts[0].pretension = 20e3;  // always a part of the load
   EXPECT_NEAR(*judge_bolted(block, nothing, down).factor_passive, 1.71733, 1e-5);
+}
+
+// Barton and Bandis' envelope on both faces of a wedge, each at its own normal stress
+TEST(Verdict, RoughFacesHaveTheEnvelopeAtTheirStress) {
+  JointProperties rough;
+  rough.friction = 26 * degree;
+  rough.laws.friction = FrictionLaw::barton_bandis;
+  rough.barton_bandis = {.sample_jrc = 8, .sample_jcs = 50e6};
+  scale_to_blocks(rough.barton_bandis);
+  Block<3> wedge = block_of({{above(45, 105), 40}, {above(70, 235), 90}}, 50e6);
+  for (RockFace<3>& face : wedge.faces)
+    face.set_friction(rough);
+  const auto resistance = [&](const Verdict<3>& verdict) {
+    double sum = 0;
+    for (int k = 0; k < verdict.loaded; ++k) {
+      const double stress = verdict.forces[k] / wedge.faces[verdict.faces[k]].area;
+      sum += verdict.forces[k] * std::tan((26 + 8 * std::log10(50e6 / stress)) * degree);
+    }
+    return sum;
+  };
+  const BoltedVerdict<3> bare = judge_bolted(wedge, nothing, down);
+  ASSERT_EQ(bare.verdict.loaded, 2);
+  EXPECT_NEAR(*bare.factor, resistance(bare.verdict) / bare.verdict.driving(), 1e-12);
+  const std::optional<RequiredForce<3>> bolt = least_force(wedge, bare, 3, down);
+  ASSERT_TRUE(bolt && bolt->force.norm() > 0) << *bare.factor;
+  EXPECT_FALSE(bolt->least) << "the resistance is not linear in the force";
+  EXPECT_NEAR(*judge(wedge, Vector<3>(bare.load + bolt->force), down).factor(), 3, 1e-9);
+
+  // a bolt across both faces as passive reinforcement: its force is pressure, undivided
+  wedge.bolts.push_back(
+      {0, Vector<3>(-(wedge.normals[0] + wedge.normals[1]).normalized()), Vector<3>::Zero(), 0, 10e6});
+  const BoltedVerdict<3> bolted = judge_bolted(wedge, nothing, down);
+  ASSERT_EQ(bolted.verdict.loaded, 2);
+  const double held = -bolt_capacity(wedge).dot(bare.verdict.direction());
+  EXPECT_NEAR(*bolted.factor_passive, (resistance(bolted.verdict) + held) / bare.verdict.driving(), 1e-9);
 }
 
 TEST(Verdict, LeastForceOnAPlane) {

@@ -143,7 +143,7 @@ CornerAssembly corner_assembly(const Model<3>& model, double acceleration, bool 
       }
     assembly.bodies.push_back(of);
   }
-  refuse_barton_bandis(model.properties);
+  assembly.properties = model.properties;
   const RockContacts<3> contacts = find_rock_contacts<3>(model);
   for (const RockContact<3>& contact : contacts.list) {
     if (!any_free(assembly.bodies[contact.body_a]) && !any_free(assembly.bodies[contact.body_b])) continue;

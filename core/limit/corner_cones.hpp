@@ -34,6 +34,7 @@ struct CornerFace {
 struct CornerAssembly {
   std::vector<CornerBody> bodies;
   std::vector<CornerFace> faces;
+  std::vector<JointProperties> properties;  // Model::properties, of the faces
 };
 
 // The areas by which present bodies touch (key_blocks/rock_contacts.hpp), without those between two fixed ones.

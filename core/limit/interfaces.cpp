@@ -1,12 +1,8 @@
 #include "core/limit/interfaces.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <tuple>
-
-#include "core/base/bad_input.hpp"
 
 namespace voussoir {
 namespace {
@@ -82,18 +78,7 @@ void find_between(const Model<2>& model, const PlacedPart& a, const PlacedPart& 
 
 }  // namespace
 
-void refuse_barton_bandis(const std::vector<JointProperties>& properties) {
-  for (const JointProperties& p : properties)
-    if (p.follows_barton_bandis())
-      throw BadInput(fmt::format(
-          "joint_properties '{}': Barton and Bandis' friction angle depends on the normal stress, and limit "
-          "analysis has one angle for each joint; state friction_law = \"constant\" with the angle at the "
-          "stress of the blocks, which 'voussoir check' prints, or use 'voussoir run'",
-          p.name));
-}
-
 std::vector<Interface> find_interfaces(const Model<2>& model, bool bonded) {
-  refuse_barton_bandis(model.properties);
   std::vector<PlacedPart> parts;
   for (const PartId& id : model.parts)
     if (model.bodies[id.body].present) parts.push_back(place(model, id));

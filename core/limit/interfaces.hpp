@@ -26,10 +26,6 @@ struct Interface {
 // it is longer than that. Sorted by bodies, then by position. Corners that touch a face or another corner are not
 // interfaces. They have the cohesion that their properties state where bonds are as sliced, between faces of one joint;
 // `bonded`: everywhere.
-//
-// Joints of Barton and Bandis' law, whose friction depends on the normal stress, throw BadInput.
 std::vector<Interface> find_interfaces(const Model<2>& model, bool bonded = false);
-
-void refuse_barton_bandis(const std::vector<JointProperties>& properties);
 
 }  // namespace voussoir

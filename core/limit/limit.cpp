@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "core/limit/follow_envelope.hpp"
 #include "core/limit/self_stress.hpp"
 #include "text/angle.hpp"
 
@@ -347,24 +348,8 @@ CriticalStrength find_strength(const Model<2>& model, const std::vector<Interfac
   return found;
 }
 
-}  // namespace
-
-Loads loads_of_acceleration(const Model<2>& model, const Vector<2>& acceleration) {
-  Loads loads(model.bodies.size());
-  for (std::size_t b = 0; b < loads.size(); ++b)
-    if (model.bodies[b].present) loads[b].force = model.bodies[b].mass * acceleration;
-  return loads;
-}
-
-Loads loads_of_applied_forces(const Model<2>& model) {
-  Loads loads(model.bodies.size());
-  for (const AppliedForce<2>& f : model.applied)
-    loads[f.body] += load_of<2>({f.place, f.force}, Matrix<2>::Identity());
-  return loads;
-}
-
-LoadFactor find_load_factor(const Model<2>& model, const std::vector<Interface>& interfaces, const Loads& dead,
-                            const Loads& live) {
+LoadFactor find_straight_load_factor(const Model<2>& model, const std::vector<Interface>& interfaces, const Loads& dead,
+                                     const Loads& live) {
   LoadFactor result;
   const double of_dead = acceleration_of(model, dead),
                acceleration = of_dead > 0 ? of_dead : acceleration_of(model, live);
@@ -413,6 +398,50 @@ LoadFactor find_load_factor(const Model<2>& model, const std::vector<Interface>&
   return result;
 }
 
+// The answer of `find` with each face's envelope. `number`: of the answer; `divisor`: of a face's strength there.
+template <class Find, class Number, class Divisor>
+auto with_envelopes(const Model<2>& model, const std::vector<Interface>& interfaces, const Find& find,
+                    const Number& number, const Divisor& divisor) {
+  const double gravity = model.gravity.norm();
+  const auto weight_on = [&](const Interface& face) {
+    double least = infinity;
+    for (const int body : {face.body_a, face.body_b})
+      if (!model.bodies[body].fixed) least = std::min(least, model.bodies[body].mass * gravity);
+    return least;
+  };
+  const auto force_on = [](const auto& answer, std::size_t f) {
+    const auto& [a, b] = answer.state.forces[f];
+    return FaceForce{a.normal + b.normal, std::abs(a.shear + b.shear)};
+  };
+  return follow_envelope(
+      model.properties, interfaces, find, weight_on, [](const Interface& face) { return face.length(); }, force_on,
+      number, divisor);
+}
+
+}  // namespace
+
+Loads loads_of_acceleration(const Model<2>& model, const Vector<2>& acceleration) {
+  Loads loads(model.bodies.size());
+  for (std::size_t b = 0; b < loads.size(); ++b)
+    if (model.bodies[b].present) loads[b].force = model.bodies[b].mass * acceleration;
+  return loads;
+}
+
+Loads loads_of_applied_forces(const Model<2>& model) {
+  Loads loads(model.bodies.size());
+  for (const AppliedForce<2>& f : model.applied)
+    loads[f.body] += load_of<2>({f.place, f.force}, Matrix<2>::Identity());
+  return loads;
+}
+
+LoadFactor find_load_factor(const Model<2>& model, const std::vector<Interface>& interfaces, const Loads& dead,
+                            const Loads& live) {
+  return with_envelopes(
+      model, interfaces,
+      [&](const std::vector<Interface>& straight) { return find_straight_load_factor(model, straight, dead, live); },
+      [](const LoadFactor& found) { return found.factor; }, undivided);
+}
+
 CriticalStrength find_critical_friction(const Model<2>& model, const std::vector<Interface>& interfaces,
                                         const std::vector<std::string>& properties, const Loads& besides) {
   const std::vector<bool> chosen = choose(model, properties);
@@ -420,25 +449,36 @@ CriticalStrength find_critical_friction(const Model<2>& model, const std::vector
     for (Interface& face : trial)
       if (chosen[face.properties]) face.friction = friction;
   };
-  return find_strength(model, interfaces, besides, {least_friction, largest_friction, friction_tolerance, weaken});
+  const StrengthRange range{least_friction, largest_friction, friction_tolerance, weaken};
+  return with_envelopes(
+      model, interfaces,
+      [&](const std::vector<Interface>& straight) { return find_strength(model, straight, besides, range); },
+      [](const CriticalStrength& found) { return found.stands; }, undivided);
 }
 
 CriticalStrength find_factor_of_safety(const Model<2>& model, const std::vector<Interface>& interfaces,
                                        const std::vector<std::string>& properties, const Loads& besides) {
   const std::vector<bool> chosen = choose(model, properties);
-  // the remaining fraction of the stated strength: 1/F
-  const auto weaken = [&](double fraction, std::vector<Interface>& trial) {
-    const double left = fraction / (1 - fraction);
-    for (std::size_t i = 0; i < trial.size(); ++i) {
-      if (!chosen[trial[i].properties]) continue;
-      trial[i].friction = std::atan(left * std::tan(interfaces[i].friction));
-      trial[i].cohesion = left * interfaces[i].cohesion;
-    }
+  const auto find = [&](const std::vector<Interface>& straight) {
+    // the remaining fraction of the stated strength: 1/F
+    const auto weaken = [&](double fraction, std::vector<Interface>& trial) {
+      const double left = fraction / (1 - fraction);
+      for (std::size_t i = 0; i < trial.size(); ++i) {
+        if (!chosen[trial[i].properties]) continue;
+        trial[i].friction = std::atan(left * std::tan(straight[i].friction));
+        trial[i].cohesion = left * straight[i].cohesion;
+      }
+    };
+    CriticalStrength found = find_strength(model, straight, besides, {least_left, most_left, left_tolerance, weaken});
+    for (double* end : {&found.collapses, &found.stands})
+      *end = *end > 0 ? (1 - *end) / *end : infinity;
+    return found;
   };
-  CriticalStrength found = find_strength(model, interfaces, besides, {least_left, most_left, left_tolerance, weaken});
-  for (double* end : {&found.collapses, &found.stands})
-    *end = *end > 0 ? (1 - *end) / *end : infinity;
-  return found;
+  return with_envelopes(
+      model, interfaces, find, [](const CriticalStrength& found) { return found.stands; },
+      [&](const CriticalStrength& found, std::size_t f) {
+        return chosen[interfaces[f].properties] ? found.stands : 1.0;
+      });
 }
 
 }  // namespace voussoir

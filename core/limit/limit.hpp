@@ -50,6 +50,10 @@ struct Evidence {
       0;                    // largest unbalanced force on a body, over its weight (a moment: of that times its radius)
   double inadmissible = 0;  // largest velocity that closes a joint or works against its cone, of the fastest body's
   int programs = 0;         // solved
+  // of joints after Barton and Bandis (follow_envelope.hpp)
+  int rounds_of_tangents = 0;  // 0: there are none
+  bool tangents_agree = true;  // the answers of the last two rounds
+  double beyond_envelope = 0;  // N: the largest shear force beyond their strength
 };
 
 struct LoadFactor {
@@ -67,7 +71,7 @@ Loads loads_of_applied_forces(const Model<2>& model);                           
 
 // The largest factor of the live loads that is supported together with the dead ones, with the friction and cohesion of
 // the interfaces. The gap is that of the largest ratio of live load to a body's weight, relative to the larger of 1 and
-// this ratio.
+// this ratio. Joints after Barton and Bandis have their peak envelope here and in a factor of safety.
 LoadFactor find_load_factor(const Model<2>& model, const std::vector<Interface>& interfaces, const Loads& dead,
                             const Loads& live);
 
@@ -89,8 +93,8 @@ struct CriticalStrength : StrengthBracket {
 // The friction angle at which the model's gravity is just supported, by bisection over linear programs for the least
 // force to be added, to 1e-6 degrees (for jammed blocks, self_stress, to 1 % at worst, as the bracket states: forces
 // grow without bound towards it). It applies to all interfaces with named properties, the others keep theirs; no name:
-// all. Cohesion is unchanged. `besides`: further dead loads, by body. Unknown names throw std::out_of_range with the
-// name.
+// all; joints after Barton and Bandis must not be among them. Cohesion is unchanged. `besides`: further dead loads, by
+// body. Unknown names throw std::out_of_range with the name.
 CriticalStrength find_critical_friction(const Model<2>& model, const std::vector<Interface>& interfaces,
                                         const std::vector<std::string>& properties = {}, const Loads& besides = {});
 

@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 
+#include "core/limit/follow_envelope.hpp"
 #include "text/angle.hpp"
 
 namespace voussoir {
@@ -115,20 +116,8 @@ CriticalStrengthInSpace find_strength_in_space(const CornerAssembly& assembly, c
   return result;
 }
 
-}  // namespace
-
-double acceleration_of(const Model<3>& model, const std::vector<Load<3>>& loads) {
-  double largest = 0;
-  for (std::size_t b = 0; b < loads.size(); ++b) {
-    const Body<3>& body = model.bodies[b];
-    largest =
-        std::max({largest, loads[b].force.norm() / body.mass, loads[b].moment.norm() / (body.mass * body.radius)});
-  }
-  return largest;
-}
-
-LoadFactorInSpace find_load_factor(const CornerAssembly& assembly, const std::vector<Load<3>>& dead,
-                                   const std::vector<Load<3>>& live) {
+LoadFactorInSpace find_straight_load_factor(const CornerAssembly& assembly, const std::vector<Load<3>>& dead,
+                                            const std::vector<Load<3>>& live) {
   LoadFactorInSpace result;
   if (nothing_free(assembly)) return result.status = LimitStatus::nothing_free, result;
   CornerProgram program = corner_program(assembly, dead, live);
@@ -171,24 +160,8 @@ LoadFactorInSpace find_load_factor(const CornerAssembly& assembly, const std::ve
   return result;
 }
 
-CriticalStrengthInSpace find_critical_friction(const CornerAssembly& assembly, const std::vector<Load<3>>& loads,
-                                               const std::vector<bool>& chosen) {
-  Strength strength{roughest, angle_tolerance, {}, {}};
-  strength.weaken = [&](double friction, CornerAssembly& trial) {
-    for (std::size_t f = 0; f < trial.faces.size(); ++f)
-      if (chosen[f]) trial.faces[f].friction = friction;
-  };
-  strength.slope = [&](double, const std::vector<Sensitivity>& of_faces) {
-    double sum = 0;
-    for (std::size_t f = 0; f < of_faces.size(); ++f)
-      if (chosen[f]) sum += of_faces[f].friction;
-    return sum;
-  };
-  return find_strength_in_space(assembly, loads, strength);
-}
-
-CriticalStrengthInSpace find_factor_of_safety(const CornerAssembly& assembly, const std::vector<Load<3>>& loads,
-                                              const std::vector<bool>& chosen) {
+CriticalStrengthInSpace find_straight_factor(const CornerAssembly& assembly, const std::vector<Load<3>>& loads,
+                                             const std::vector<bool>& chosen) {
   Strength strength{most_strength, strength_tolerance, {}, {}};
   strength.weaken = [&](double fraction, CornerAssembly& trial) {
     const double left = fraction / (1 - fraction);
@@ -213,6 +186,78 @@ CriticalStrengthInSpace find_factor_of_safety(const CornerAssembly& assembly, co
   for (double* end : {&found.collapses, &found.stands})
     *end = *end > 0 ? (1 - *end) / *end : std::numeric_limits<double>::infinity();
   return found;
+}
+
+// The answer of `find` with each face's envelope. `number`: of the answer; `divisor`: of a face's strength there.
+template <class Find, class Number, class Divisor>
+auto with_envelopes(const CornerAssembly& assembly, const Find& find, const Number& number, const Divisor& divisor) {
+  CornerAssembly straight = assembly;
+  const auto weight_on = [&](const CornerFace& face) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const int body : {face.body_a, face.body_b})
+      if (std::ranges::any_of(assembly.bodies[body].free, std::identity()))
+        least = std::min(least, assembly.bodies[body].weight);
+    return least;
+  };
+  const auto force_on = [&](const auto& answer, std::size_t f) {
+    Vector<3> sum = Vector<3>::Zero();
+    for (const Vector<3>& force : answer.state.forces[f])
+      sum += force;
+    const double normal = sum.dot(assembly.faces[f].normal);
+    return FaceForce{normal, (sum - normal * assembly.faces[f].normal).norm()};
+  };
+  const auto find_straight = [&](const std::vector<CornerFace>& faces) {
+    straight.faces = faces;
+    return find(straight);
+  };
+  return follow_envelope(
+      assembly.properties, assembly.faces, find_straight, weight_on, [](const CornerFace& face) { return face.area(); },
+      force_on, number, divisor);
+}
+
+}  // namespace
+
+double acceleration_of(const Model<3>& model, const std::vector<Load<3>>& loads) {
+  double largest = 0;
+  for (std::size_t b = 0; b < loads.size(); ++b) {
+    const Body<3>& body = model.bodies[b];
+    largest =
+        std::max({largest, loads[b].force.norm() / body.mass, loads[b].moment.norm() / (body.mass * body.radius)});
+  }
+  return largest;
+}
+
+LoadFactorInSpace find_load_factor(const CornerAssembly& assembly, const std::vector<Load<3>>& dead,
+                                   const std::vector<Load<3>>& live) {
+  return with_envelopes(
+      assembly, [&](const CornerAssembly& straight) { return find_straight_load_factor(straight, dead, live); },
+      [](const LoadFactorInSpace& found) { return found.factor; }, undivided);
+}
+
+CriticalStrengthInSpace find_critical_friction(const CornerAssembly& assembly, const std::vector<Load<3>>& loads,
+                                               const std::vector<bool>& chosen) {
+  Strength strength{roughest, angle_tolerance, {}, {}};
+  strength.weaken = [&](double friction, CornerAssembly& trial) {
+    for (std::size_t f = 0; f < trial.faces.size(); ++f)
+      if (chosen[f]) trial.faces[f].friction = friction;
+  };
+  strength.slope = [&](double, const std::vector<Sensitivity>& of_faces) {
+    double sum = 0;
+    for (std::size_t f = 0; f < of_faces.size(); ++f)
+      if (chosen[f]) sum += of_faces[f].friction;
+    return sum;
+  };
+  return with_envelopes(
+      assembly, [&](const CornerAssembly& straight) { return find_strength_in_space(straight, loads, strength); },
+      [](const CriticalStrengthInSpace& found) { return found.stands; }, undivided);
+}
+
+CriticalStrengthInSpace find_factor_of_safety(const CornerAssembly& assembly, const std::vector<Load<3>>& loads,
+                                              const std::vector<bool>& chosen) {
+  return with_envelopes(
+      assembly, [&](const CornerAssembly& straight) { return find_straight_factor(straight, loads, chosen); },
+      [](const CriticalStrengthInSpace& found) { return found.stands; },
+      [&](const CriticalStrengthInSpace& found, std::size_t f) { return chosen[f] ? found.stands : 1.0; });
 }
 
 }  // namespace voussoir
