@@ -130,8 +130,7 @@ Json answer_json(const LimitAnswer& analysis, const char* programs) {
                       {programs, evidence.programs}};
   if (evidence.rounds_of_tangents > 0)
     json["evidence"]["envelope"] = {{"rounds_of_tangents", evidence.rounds_of_tangents},
-                                    {"agree", evidence.tangents_agree},
-                                    {"beyond_N", evidence.beyond_envelope}};
+                                    {"agree", evidence.tangents_agree}};
   return json;
 }
 

@@ -113,7 +113,7 @@ TEST_F(LimitSpace, FollowsTheEnvelopeOfBartonAndBandis) {
   const Ended east = limit("--load east --set blocks.column.box.max=[2,1,0.25]");
   EXPECT_EQ(east.code, 0) << east.out << east.err;
   EXPECT_NEAR(value("collapse_factor"), std::tan((35 + 5 * std::log10(40e6 / 5e3)) * std::numbers::pi / 180), 2e-6);
-  for (const char* part : {"peak envelope", "rounds until answers agree", "slope of their envelope"})
+  for (const char* part : {"peak envelope", "rounds until the answers of two agree", "slope of their envelope"})
     EXPECT_NE((east.out + east.err).find(part), std::string::npos) << part << east.out << east.err;
   EXPECT_TRUE(results("out")["evidence"]["envelope"]["agree"]);
 }

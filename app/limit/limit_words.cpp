@@ -216,17 +216,24 @@ void tell_load_factor(LimitStatus status, double factor, const std::string& rule
 void tell_envelope(LimitAnswer& answer) {
   const Evidence& evidence = answer.evidence;
   if (evidence.rounds_of_tangents == 0) return;
-  const std::string envelope =
-      "joints after Barton and Bandis have their peak envelope, by its tangent at the mean normal stress of each face";
-  answer.caveats.push_back(
-      evidence.tangents_agree
-          ? fmt::format("{} ({} rounds until answers agree to {:g}; shear forces exceed it by {:.2g} N at most)",
-                        envelope, evidence.rounds_of_tangents, envelope_agreement, evidence.beyond_envelope)
-          : fmt::format("{}: {} rounds did not agree to {:g}, and shear forces exceed it by up to {:.3g} N; the blocks "
-                        "carry no more than this, and may carry less: confirm it with 'voussoir run'",
-                        envelope, evidence.rounds_of_tangents, envelope_agreement, evidence.beyond_envelope));
-  for (auto& [name, value] : answer.values)
-    if (value.error_bar) *value.error_bar += envelope_agreement * std::max(1.0, std::abs(value.value));
+  const std::string rounds = fmt::format(
+      "joints after Barton and Bandis have their peak envelope, by its tangent at the mean normal stress of each face: "
+      "{} rounds",
+      evidence.rounds_of_tangents);
+  const bool enclosed =
+      std::ranges::any_of(answer.values, [](const auto& value) { return !value.second.divides.empty(); });
+  if (evidence.tangents_agree)
+    answer.caveats.push_back(fmt::format("{} until {} agree to {:g}", rounds,
+                                         enclosed ? "the bounds from forces and from mechanisms" : "the answers of two",
+                                         envelope_agreement));
+  else if (enclosed)
+    answer.caveats.push_back(rounds +
+                             " did not close the bounds from forces and from mechanisms, which the error bar spans");
+  else
+    answer.caveats.push_back(
+        fmt::format("{} did not agree to {:g}; the blocks carry no more than this, and may carry less: confirm it with "
+                    "'voussoir run'",
+                    rounds, envelope_agreement));
 }
 
 const char* const any_gravity =

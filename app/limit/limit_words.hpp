@@ -39,7 +39,7 @@ void tell_friction(const LimitRequest& request, const StrengthBracket& found, co
 void tell_load_factor(LimitStatus status, double factor, const std::string& rule, const std::string& if_any,
                       LimitAnswer& answer);
 
-// How joints after Barton and Bandis were counted, if there are any; their agreement is part of the error bars.
+// How joints after Barton and Bandis were counted, if there are any.
 void tell_envelope(LimitAnswer& answer);
 
 // What any factor of gravity or of the applied forces is due to, and the words for these loads.

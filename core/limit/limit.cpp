@@ -398,25 +398,34 @@ LoadFactor find_straight_load_factor(const Model<2>& model, const std::vector<In
   return result;
 }
 
-// The answer of `find` with each face's envelope. `number`: of the answer; `divisor`: of a face's strength there.
-template <class Find, class Number, class Divisor>
-auto with_envelopes(const Model<2>& model, const std::vector<Interface>& interfaces, const Find& find,
-                    const Number& number, const Divisor& divisor) {
-  const double gravity = model.gravity.norm();
-  const auto weight_on = [&](const Interface& face) {
+// for FollowEnvelope
+struct RoughAssembly {
+  const Model<2>& model;
+  std::vector<Interface> faces;
+  const std::vector<JointProperties>& properties = model.properties;
+
+  double weight_on(const Interface& face) const {
     double least = infinity;
     for (const int body : {face.body_a, face.body_b})
-      if (!model.bodies[body].fixed) least = std::min(least, model.bodies[body].mass * gravity);
+      if (!model.bodies[body].fixed) least = std::min(least, model.bodies[body].mass * model.gravity.norm());
     return least;
-  };
-  const auto force_on = [](const auto& answer, std::size_t f) {
-    const auto& [a, b] = answer.state.forces[f];
-    return FaceForce{a.normal + b.normal, std::abs(a.shear + b.shear)};
-  };
-  return follow_envelope(
-      model.properties, interfaces, find, weight_on, [](const Interface& face) { return face.length(); }, force_on,
-      number, divisor);
-}
+  }
+  static double area_of(const Interface& face) { return face.length(); }
+
+  using Forces = std::vector<std::array<EndForce, 2>>;
+  static FaceForce force_on(const Forces& forces, std::size_t f) {
+    const auto& [a, b] = forces[f];
+    return {a.normal + b.normal, std::abs(a.shear) + std::abs(b.shear)};
+  }
+  static Forces mix(Forces a, const Forces& b, double share) {
+    for (std::size_t f = 0; f < a.size(); ++f)
+      for (std::size_t end = 0; end < 2; ++end) {
+        a[f][end].normal += share * (b[f][end].normal - a[f][end].normal);
+        a[f][end].shear += share * (b[f][end].shear - a[f][end].shear);
+      }
+    return a;
+  }
+};
 
 }  // namespace
 
@@ -436,10 +445,10 @@ Loads loads_of_applied_forces(const Model<2>& model) {
 
 LoadFactor find_load_factor(const Model<2>& model, const std::vector<Interface>& interfaces, const Loads& dead,
                             const Loads& live) {
-  return with_envelopes(
-      model, interfaces,
+  const RoughAssembly rough{model, interfaces};
+  return FollowEnvelope(rough).repeat(
       [&](const std::vector<Interface>& straight) { return find_straight_load_factor(model, straight, dead, live); },
-      [](const LoadFactor& found) { return found.factor; }, undivided);
+      [](const LoadFactor& found) { return found.factor; });
 }
 
 CriticalStrength find_critical_friction(const Model<2>& model, const std::vector<Interface>& interfaces,
@@ -450,10 +459,10 @@ CriticalStrength find_critical_friction(const Model<2>& model, const std::vector
       if (chosen[face.properties]) face.friction = friction;
   };
   const StrengthRange range{least_friction, largest_friction, friction_tolerance, weaken};
-  return with_envelopes(
-      model, interfaces,
+  const RoughAssembly rough{model, interfaces};
+  return FollowEnvelope(rough).repeat(
       [&](const std::vector<Interface>& straight) { return find_strength(model, straight, besides, range); },
-      [](const CriticalStrength& found) { return found.stands; }, undivided);
+      [](const CriticalStrength& found) { return found.stands; });
 }
 
 CriticalStrength find_factor_of_safety(const Model<2>& model, const std::vector<Interface>& interfaces,
@@ -474,11 +483,11 @@ CriticalStrength find_factor_of_safety(const Model<2>& model, const std::vector<
       *end = *end > 0 ? (1 - *end) / *end : infinity;
     return found;
   };
-  return with_envelopes(
-      model, interfaces, find, [](const CriticalStrength& found) { return found.stands; },
-      [&](const CriticalStrength& found, std::size_t f) {
-        return chosen[interfaces[f].properties] ? found.stands : 1.0;
-      });
+  std::vector<bool> of_faces;
+  for (const Interface& face : interfaces)
+    of_faces.push_back(chosen[face.properties]);
+  const RoughAssembly rough{model, interfaces};
+  return FollowEnvelope(rough).factor(find, of_faces);
 }
 
 }  // namespace voussoir

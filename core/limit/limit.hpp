@@ -52,8 +52,7 @@ struct Evidence {
   int programs = 0;         // solved
   // of joints after Barton and Bandis (follow_envelope.hpp)
   int rounds_of_tangents = 0;  // 0: there are none
-  bool tangents_agree = true;  // the answers of the last two rounds
-  double beyond_envelope = 0;  // N: the largest shear force beyond their strength
+  bool tangents_agree = true;  // a factor's bounds, or the answers of the last two rounds
 };
 
 struct LoadFactor {

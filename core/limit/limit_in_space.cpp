@@ -188,32 +188,46 @@ CriticalStrengthInSpace find_straight_factor(const CornerAssembly& assembly, con
   return found;
 }
 
-// The answer of `find` with each face's envelope. `number`: of the answer; `divisor`: of a face's strength there.
-template <class Find, class Number, class Divisor>
-auto with_envelopes(const CornerAssembly& assembly, const Find& find, const Number& number, const Divisor& divisor) {
-  CornerAssembly straight = assembly;
-  const auto weight_on = [&](const CornerFace& face) {
+// for FollowEnvelope
+struct RoughCorners {
+  const CornerAssembly& assembly;
+  const std::vector<CornerFace>& faces = assembly.faces;
+  const std::vector<JointProperties>& properties = assembly.properties;
+
+  double weight_on(const CornerFace& face) const {
     double least = std::numeric_limits<double>::infinity();
     for (const int body : {face.body_a, face.body_b})
-      if (std::ranges::any_of(assembly.bodies[body].free, std::identity()))
+      if (std::ranges::any_of(assembly.bodies[body].free, std::identity{}))
         least = std::min(least, assembly.bodies[body].weight);
     return least;
-  };
-  const auto force_on = [&](const auto& answer, std::size_t f) {
-    Vector<3> sum = Vector<3>::Zero();
-    for (const Vector<3>& force : answer.state.forces[f])
-      sum += force;
-    const double normal = sum.dot(assembly.faces[f].normal);
-    return FaceForce{normal, (sum - normal * assembly.faces[f].normal).norm()};
-  };
-  const auto find_straight = [&](const std::vector<CornerFace>& faces) {
-    straight.faces = faces;
-    return find(straight);
-  };
-  return follow_envelope(
-      assembly.properties, assembly.faces, find_straight, weight_on, [](const CornerFace& face) { return face.area(); },
-      force_on, number, divisor);
-}
+  }
+  static double area_of(const CornerFace& face) { return face.area(); }
+
+  FaceForce force_on(const CornerForces& forces, std::size_t f) const {
+    FaceForce sum;
+    for (const Vector<3>& force : forces[f]) {
+      const double normal = force.dot(faces[f].normal);
+      sum.normal += normal;
+      sum.shear += (force - normal * faces[f].normal).norm();
+    }
+    return sum;
+  }
+  static CornerForces mix(CornerForces a, const CornerForces& b, double share) {
+    for (std::size_t f = 0; f < a.size(); ++f)
+      for (std::size_t k = 0; k < a[f].size(); ++k)
+        a[f][k] += share * (b[f][k] - a[f][k]);
+    return a;
+  }
+
+  // `find` of an assembly, for its faces
+  auto on_faces(const auto& find) const {
+    return [this, find](const std::vector<CornerFace>& straight) {
+      CornerAssembly trial = assembly;
+      trial.faces = straight;
+      return find(trial);
+    };
+  }
+};
 
 }  // namespace
 
@@ -229,9 +243,10 @@ double acceleration_of(const Model<3>& model, const std::vector<Load<3>>& loads)
 
 LoadFactorInSpace find_load_factor(const CornerAssembly& assembly, const std::vector<Load<3>>& dead,
                                    const std::vector<Load<3>>& live) {
-  return with_envelopes(
-      assembly, [&](const CornerAssembly& straight) { return find_straight_load_factor(straight, dead, live); },
-      [](const LoadFactorInSpace& found) { return found.factor; }, undivided);
+  const RoughCorners rough{assembly};
+  return FollowEnvelope(rough).repeat(
+      rough.on_faces([&](const CornerAssembly& trial) { return find_straight_load_factor(trial, dead, live); }),
+      [](const LoadFactorInSpace& found) { return found.factor; });
 }
 
 CriticalStrengthInSpace find_critical_friction(const CornerAssembly& assembly, const std::vector<Load<3>>& loads,
@@ -247,17 +262,17 @@ CriticalStrengthInSpace find_critical_friction(const CornerAssembly& assembly, c
       if (chosen[f]) sum += of_faces[f].friction;
     return sum;
   };
-  return with_envelopes(
-      assembly, [&](const CornerAssembly& straight) { return find_strength_in_space(straight, loads, strength); },
-      [](const CriticalStrengthInSpace& found) { return found.stands; }, undivided);
+  const RoughCorners rough{assembly};
+  return FollowEnvelope(rough).repeat(
+      rough.on_faces([&](const CornerAssembly& trial) { return find_strength_in_space(trial, loads, strength); }),
+      [](const CriticalStrengthInSpace& found) { return found.stands; });
 }
 
 CriticalStrengthInSpace find_factor_of_safety(const CornerAssembly& assembly, const std::vector<Load<3>>& loads,
                                               const std::vector<bool>& chosen) {
-  return with_envelopes(
-      assembly, [&](const CornerAssembly& straight) { return find_straight_factor(straight, loads, chosen); },
-      [](const CriticalStrengthInSpace& found) { return found.stands; },
-      [&](const CriticalStrengthInSpace& found, std::size_t f) { return chosen[f] ? found.stands : 1.0; });
+  const RoughCorners rough{assembly};
+  return FollowEnvelope(rough).factor(
+      rough.on_faces([&](const CornerAssembly& trial) { return find_straight_factor(trial, loads, chosen); }), chosen);
 }
 
 }  // namespace voussoir

@@ -16,7 +16,7 @@ using Point = Vector<3>;
 
 // Blocks and faces stated by hand; the body 0 is fixed.
 struct Scene {
-  CornerAssembly assembly{{CornerBody{Point::Zero(), 1, 1, {}}}, {}};
+  CornerAssembly assembly{{CornerBody{Point::Zero(), 1, 1, {}}}, {}, {}};
   std::vector<Load<3>> dead{1}, live{1};
 
   int add(const Point& centroid, double weight, double radius, bool turns = true) {
