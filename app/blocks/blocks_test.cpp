@@ -188,9 +188,11 @@ TEST_F(Program, BlocksFollowTheEnvelopeOfBartonAndBandis) {
   const Ended ended = run("blocks cube.toml --out out");
   EXPECT_EQ(ended.code, 0) << ended.err;
   const double stress = 20000 * std::sqrt(0.5);
-  EXPECT_NEAR(results("out")["blocks"][0]["factor"].get<double>(),
-              std::tan((26 + 7 * std::log10(40e6 / stress)) * std::numbers::pi / 180), 1e-9)
-      << results("out").dump(1);
+  const double factor = std::tan((26 + 7 * std::log10(40e6 / stress)) * degree);
+  EXPECT_NEAR(std::stod(column(folder_ / "out/blocks_verdicts.csv", "factor").at(0)), factor, 1e-9);
+  const nlohmann::json face =
+      nlohmann::json::parse(read(folder_ / "out/blocks_verdicts.json"))["verdicts"][0]["faces"][0];
+  EXPECT_NEAR(face["tan_friction"].get<double>(), factor, 1e-9);  // on 45 degrees
   for (const char* part : {"roughness (JRC 7, JCS 40 MPa)", "peak envelope"})
     EXPECT_NE(ended.out.find(part), std::string::npos) << part << "\n" << ended.out;
 }

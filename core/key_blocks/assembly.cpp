@@ -135,8 +135,8 @@ void RockFace<Dim>::set_friction(const JointProperties& joint) {
 }
 
 template <int Dim>
-double RockFace<Dim>::friction_force(double normal_force) const {
-  return normal_force * (rough ? std::tan(peak_friction(*rough, normal_force / area)) : tan_friction);
+double RockFace<Dim>::tan_friction_at(double normal_force) const {
+  return rough ? std::tan(peak_friction(*rough, normal_force / area)) : tan_friction;
 }
 
 template <int Dim>

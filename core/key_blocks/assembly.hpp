@@ -49,7 +49,8 @@ struct RockFace {
   Vector<Dim> centroid = Vector<Dim>::Zero();  // m, model coordinates
 
   void set_friction(const JointProperties& joint);
-  double friction_force(double normal_force) const;              // N
+  double tan_friction_at(double normal_force) const;
+  double friction_force(double normal_force) const { return normal_force * tan_friction_at(normal_force); }  // N
   double friction_slope(double normal_force) const;              // its derivative
   double friction_gain(double normal_force, double more) const;  // N, by a larger normal force
 };

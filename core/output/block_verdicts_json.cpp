@@ -33,7 +33,7 @@ Json faces_of(const Survey<Dim>& survey, const SurveyRow<Dim>& row) {
     faces.push_back({{"joint", survey.joint_name(face)},
                      {"normal", numbers<Dim>(face.normal)},
                      {"area_m2", face.area},
-                     {"tan_friction", face.tan_friction},
+                     {"tan_friction", face.tan_friction_at(forces[f])},
                      {"cohesion_N", face.cohesion},
                      {"normal_force_N", forces[f]}});
     if (!row.removability.weights.empty()) faces.back()["weight"] = row.removability.weights[f];
@@ -154,8 +154,12 @@ std::string blocks_json(const Survey<Dim>& survey, const std::string& title, con
   json["required"] = survey.request.required;
   json["notes"] = survey.notes;
   Json friction = Json::object();
-  for (const JointProperties& joint : survey.assembly.model.properties)
+  for (const JointProperties& joint : survey.assembly.model.properties) {
     friction[joint.name] = {{"friction_deg", to_degrees(joint.friction)}, {"cohesion_Pa", joint.cohesion}};
+    if (!joint.follows_barton_bandis()) continue;
+    friction[joint.name]["jrc"] = joint.barton_bandis.jrc;
+    friction[joint.name]["jcs_Pa"] = joint.barton_bandis.jcs;
+  }
   json["joint_properties"] = friction;
   json["fixed"] = survey.fixed;
   json["counts"] = counts_of(survey);

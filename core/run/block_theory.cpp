@@ -68,10 +68,11 @@ bool slip_takes_cohesion(const JudgedSet<Dim>& set) {
   });
 }
 
+// whether this holds for the properties of any face
 template <int Dim>
-bool dilates(const JudgedSet<Dim>& set) {
+bool has(const JudgedSet<Dim>& set, bool (JointProperties::*property)() const) {
   return std::ranges::any_of(set.block.faces, [&](const RockFace<Dim>& face) {
-    return set.assembly.model.properties[face.properties].dilates();
+    return (set.assembly.model.properties[face.properties].*property)();
   });
 }
 
@@ -152,7 +153,10 @@ std::optional<BlockTheory> judge_moving(const Prepared<Dim>& prepared, int place
   theory.reasons = reasons_of(set, mechanism);
   if (!theory.brittle && slip_takes_cohesion(set))
     theory.reasons.push_back("it counts cohesion that slip takes as plastic");
-  if (dilates(set)) theory.reasons.push_back("joints dilate, which it does not count");
+  if (has(set, &JointProperties::dilates)) theory.reasons.push_back("joints dilate, which it does not count");
+  if (has(set, &JointProperties::follows_barton_bandis))
+    theory.reasons.push_back(
+        "Barton and Bandis' friction is that of a face's mean pressure here, and of each point's there");
   return theory;
 }
 
@@ -173,6 +177,7 @@ void add_block_theory(const Prepared<Dim>& prepared, Results& results) {
     theory.differs = expected && std::abs(*expected - value->value) > *value->error_bar;
     if (theory.brittle && value->value > *theory.brittle)
       theory.reasons.push_back("one joint carries what another loses");
+    if (value->covers == "bracket") theory.reasons.push_back("the bar is that of the search alone");
     if (!theory.differs) theory.reasons.clear();
     if (theory.lower > value->value - *value->error_bar) theory.lower_block = -1;
   }

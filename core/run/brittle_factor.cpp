@@ -22,7 +22,7 @@ std::optional<double> brittle_factor(const Assembly<Dim>& assembly, const Block<
     const double closing = -face.normal.dot(*displacement);
     const double pressed = std::max(0.0, joint.normal_stiffness * face.area * closing);
     const double shear = joint.shear_stiffness * face.area * (*displacement + closing * face.normal).norm();
-    first_slip = std::min(first_slip, (face.cohesion + pressed * face.tan_friction) / shear);
+    first_slip = std::min(first_slip, (face.cohesion + face.friction_force(pressed)) / shear);
     cohesion += face.cohesion;
   }
   // cohesion of a face without normal force is left to a run
