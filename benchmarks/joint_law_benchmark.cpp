@@ -1,5 +1,6 @@
 // The cost of the joint laws: plain Coulomb in the core, every other law, and a hand-written loop for plain Coulomb
-// only. With `--count <way> <calls>` it only executes the calls, for price_of_laws.sh, which counts instructions.
+// only. With `--count <way> <calls>` it only executes the calls, for price_of_laws.sh, which counts instructions; there
+// are complete steps, too, at rest and with all joints sliding.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -8,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/joint_laws/barton_bandis.hpp"
 #include "core/joint_laws/elastic_coulomb.hpp"
 #include "core/step.hpp"
 #include "core/step/joint_forces.hpp"
@@ -70,6 +72,23 @@ std::map<std::string, JointProperties> ways() {
   p.tension = 1e5;
   p.cohesion = 1e6;
   all["bonds"] = p;
+  p = plain();
+  p.laws.normal = StiffnessLaw::hyperbolic;
+  p.maximum_closure = 1e-3;
+  all["hyperbolic_closure"] = p;
+  p = plain();
+  p.laws.dilation = DilationLaw::constant;
+  p.dilation = 8 * degree;
+  p.dilation_until = 0.05;
+  all["dilation"] = p;
+  p = plain();
+  p.friction = 28 * degree;
+  p.laws.friction = FrictionLaw::barton_bandis;
+  p.barton_bandis = {.sample_jrc = 8, .sample_jcs = 50e6, .sample_length = 0.1, .block_length = 1};
+  scale_to_blocks(p.barton_bandis);
+  all["barton_bandis"] = p;
+  p.barton_bandis.mobilisation = Mobilisation::table;
+  all["mobilised_roughness"] = p;
   return all;
 }
 
@@ -136,9 +155,20 @@ void run(const std::string& way, benchmark::State& bench) {
 }
 
 int count(const std::string& way, int calls) {
-  const bool hand = way == "by_hand", whole = way == "whole_step";
-  if (!hand && !whole && !ways().contains(way)) return 2;
-  Scene scene = settled(hand || whole ? plain() : ways().at(way));
+  const std::string step_of = "step_of_", slide_of = "slide_of_";
+  const bool hand = way == "by_hand", slides = way.starts_with(slide_of), whole = slides || way.starts_with(step_of);
+  const std::string law = hand     ? "plain"
+                          : slides ? way.substr(slide_of.size())
+                          : whole  ? way.substr(step_of.size())
+                                   : way;
+  if (!ways().contains(law)) return 2;
+  Scene scene = settled(ways().at(law));
+  if (slides) {  // downhill at 80 degrees
+    const double weight = scene.model.gravity.norm();
+    scene.model.gravity = weight * Vector<3>(std::sin(80 * degree), 0, -std::cos(80 * degree));
+    for (int i = 0; i < 100; ++i)
+      step(scene.model, scene.settings, scene.state);
+  }
   for (int i = 0; i < calls; ++i)
     if (whole)
       step(scene.model, scene.settings, scene.state);

@@ -27,6 +27,7 @@ Mobilised mobilised_at(double x) {
 
 // the mean of what is mobilised between two x: exact, each row of the table by its middle
 double mean_mobilised(double from, double to) {
+  if (to <= slips.front() || from >= slips.back()) return 0;
   if (!(to > from)) return mobilised_at(to).fraction;
   double sum = 0;
   for (std::size_t k = 0; k + 1 < slips.size(); ++k) {
@@ -80,19 +81,28 @@ double stress_at_largest_angle(const JointProperties& p) {
 
 MobilisedAngle mobilised_angle(const JointProperties& p, double slip, double stress) {
   const BartonBandis& law = p.barton_bandis;
-  const double roughness = roughness_angle(p, stress);
-  if (!mobilises_roughness(law)) return {p.friction + roughness, 0};
+  if (!mobilises_roughness(law)) return {peak_friction(p, stress), 0};
   const double x = slip / law.peak_slip;
   if (x < slips.front()) return {p.friction * x / slips.front(), p.friction / slips.front() / law.peak_slip};
   const Mobilised now = mobilised_at(x);
+  const double roughness = roughness_angle(p, stress);
   return {p.friction + now.fraction * roughness, now.slope * roughness / law.peak_slip};
 }
 
-double barton_bandis_dilation(const JointProperties& p, double from, double to, double stress, double strength_factor) {
+MobilisedOver mobilised_over(const JointProperties& p, double from, double to) {
   const BartonBandis& law = p.barton_bandis;
-  const double fraction = mobilises_roughness(law) ? mean_mobilised(from / law.peak_slip, to / law.peak_slip) : 1;
-  const double tangent = std::tan(law.dilation_share * fraction * roughness_angle(p, stress));
-  return std::min(tangent, std::tan(mobilised_angle(p, 0.5 * (from + to), stress).angle) / strength_factor);
+  return {mobilises_roughness(law) ? mean_mobilised(from / law.peak_slip, to / law.peak_slip) : 1, 0.5 * (from + to)};
+}
+
+double barton_bandis_dilation(const JointProperties& p, const MobilisedOver& slip, double stress,
+                              double strength_factor) {
+  if (slip.fraction == 0) return 0;
+  const double roughness = roughness_angle(p, stress),
+               angle = p.barton_bandis.dilation_share * slip.fraction * roughness;
+  const double friction =
+      mobilises_roughness(p.barton_bandis) ? mobilised_angle(p, slip.middle, stress).angle : p.friction + roughness;
+  if (strength_factor == 1) return std::tan(std::min(angle, friction));
+  return std::min(std::tan(angle), std::tan(friction) / strength_factor);
 }
 
 double steepest_roughness(const JointProperties& p) {

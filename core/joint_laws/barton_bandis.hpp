@@ -48,9 +48,14 @@ struct MobilisedAngle {
 };
 MobilisedAngle mobilised_angle(const JointProperties& properties, double slip, double stress);
 
-// tan of the dilation over a slip from one plastic slip to another, m, under one normal stress, Pa: of the mean
-// roughness that is mobilised between the two, and never above the friction in force at their middle
-double barton_bandis_dilation(const JointProperties& properties, double from, double to, double stress,
+// the mean of the roughness that is mobilised between two plastic slips, m, and their middle
+struct MobilisedOver {
+  double fraction = 0, middle = 0;
+};
+MobilisedOver mobilised_over(const JointProperties& properties, double from, double to);
+
+// tan of the dilation over such a slip under one normal stress, Pa: never above the friction in force at its middle
+double barton_bandis_dilation(const JointProperties& properties, const MobilisedOver& slip, double stress,
                               double strength_factor);
 
 // tan of the largest dilation at any slip and stress

@@ -97,8 +97,9 @@ TEST(BartonBandis, MobilisationIsTheTable) {
     EXPECT_RELATIVE(strength(p, x[i] * peak, 1e6), shear[i] * 1e6, 1e-12);
   EXPECT_EQ(strength(p, 0, 1e6), 0);
   EXPECT_RELATIVE(strength(p, 1e3 * peak, 1e6), shear[10] * 1e6, 1e-12);
-  EXPECT_RELATIVE(to_degrees(std::atan(barton_bandis_dilation(p, peak, peak, 1e6, 1))), 7.385606273598, 1e-12);
-  EXPECT_EQ(barton_bandis_dilation(p, 0, 0.3 * peak, 1e6, 1), 0);
+  EXPECT_RELATIVE(to_degrees(std::atan(barton_bandis_dilation(p, mobilised_over(p, peak, peak), 1e6, 1))),
+                  7.385606273598, 1e-12);
+  EXPECT_EQ(barton_bandis_dilation(p, mobilised_over(p, 0, 0.3 * peak), 1e6, 1), 0);
   // its slope is that of its values
   for (const double at : {0.1, 0.4, 0.8, 1.5, 3.0, 7.0, 20.0, 60.0, 200.0}) {
     const double step = 1e-6 * peak;
@@ -118,7 +119,7 @@ TEST(BartonBandis, TheFactorDividesTheStrength) {
         const double friction = std::atan(std::tan(p.friction) / factor);  // of which the law takes no notice
         const double all = strength(p, peak, stress) / stress;
         EXPECT_RELATIVE(friction_answer(p, friction, peak, stress, factor).coefficient, all / factor, 1e-14);
-        EXPECT_NEAR(barton_bandis_dilation(p, peak, peak, stress, factor),
+        EXPECT_NEAR(barton_bandis_dilation(p, mobilised_over(p, peak, peak), stress, factor),
                     std::min(std::tan(0.5 * roughness_angle(p, stress)), all / factor), 1e-14);
       }
   }

@@ -15,8 +15,8 @@ constexpr int parts_of_return = 32;
 
 // The root between `low`, where the excess is positive, and `high`, where it is not: secants, of which the end that
 // stays is weighted down (Anderson and Bjorck 1973), else halves.
-double root_between(const std::function<double(double)>& excess, double low, double at_low, double high,
-                    double at_high) {
+double root_between(const SlipExcess& excess, double low, double at_low, double high, double at_high) {
+  if (std::abs(at_high) <= excess.noise) return high;
   constexpr int limit = 2 * std::numeric_limits<double>::digits;
   double best = high;
   int side = 0;  // the end that moved last
@@ -24,10 +24,10 @@ double root_between(const std::function<double(double)>& excess, double low, dou
     double next = low + (high - low) * (at_low / (at_low - at_high));
     if (!(next > low && next < high) || i % 4 == 3) next = 0.5 * (low + high);
     if (!(next > low && next < high)) break;
-    const double at = excess(next);
+    const double at = excess.at(next);
     const bool done = std::abs(next - best) <= std::numeric_limits<double>::epsilon() * next;
     best = next;
-    if (at == 0 || done) break;
+    if (std::abs(at) <= excess.noise || done) break;
     const auto weight = [&](double last) {
       const double left = 1 - at / last;
       return left > 0 ? left : 0.5;
@@ -50,8 +50,8 @@ double root_between(const std::function<double(double)>& excess, double low, dou
 }  // namespace
 
 double dilation_in_force(const JointProperties& p, double friction, double strength_factor) {
-  const double lost = p.laws.friction == FrictionLaw::softening ? p.softening_drop / strength_factor : 0;
-  return std::min(std::tan(p.dilation), std::max(std::tan(friction) - lost, 0.0));
+  if (p.laws.friction != FrictionLaw::softening) return std::tan(std::min(p.dilation, friction));
+  return std::min(std::tan(p.dilation), std::max(std::tan(friction) - p.softening_drop / strength_factor, 0.0));
 }
 
 double steepest_dilation(const JointProperties& p) {
@@ -67,11 +67,12 @@ double rise_at(const JointProperties& p, double tangent, double offset) {
 }
 
 double OffsetPath::length(double slip) const {
-  return across == 0 ? std::abs(along + slip) : std::hypot(along + slip, across);
+  return across == 0 ? std::abs(along + slip) : std::sqrt((along + slip) * (along + slip) + across * across);
 }
 
-double first_slip(const JointProperties& p, const OffsetPath& path, double most,
-                  const std::function<double(double)>& excess, std::span<const double> kinks) {
+double first_slip(const JointProperties& p, const OffsetPath& path, const SlipExcess& excess,
+                  std::span<const double> kinks) {
+  const double most = excess.most;
   std::array<double, 16> ends;
   std::size_t count = 0;
   const auto add = [&](double slip) {
@@ -88,9 +89,9 @@ double first_slip(const JointProperties& p, const OffsetPath& path, double most,
   ends[count++] = most;
   const std::span<double> sorted(ends.data(), count);
   std::ranges::sort(sorted);
-  double low = 0, at_low = excess(0);
+  double low = 0, at_low = excess.at_zero;
   const auto go_to = [&](double next, double& found) {
-    const double at = excess(next);
+    const double at = excess.at(next);
     if (!(at > 0)) {
       found = root_between(excess, low, at_low, next, at);
       return true;
@@ -103,7 +104,7 @@ double first_slip(const JointProperties& p, const OffsetPath& path, double most,
   const double returns_until = std::clamp(-path.along, 0.0, most);
   for (const double end : sorted) {
     if (!(end > low)) continue;
-    const int parts = low < returns_until ? parts_of_return : 1;
+    const int parts = low < returns_until && !excess.falls ? parts_of_return : 1;
     const double begin = low;
     for (int k = 1; k < parts; ++k)
       if (go_to(begin + (end - begin) * k / parts, slip)) return slip;

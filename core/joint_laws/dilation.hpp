@@ -29,11 +29,19 @@ struct OffsetPath {
   double length(double slip) const;
 };
 
-// The least slip in [0, most] at which `excess`, continuous and positive at 0, is no longer positive; it is not at
-// `most`. The rise has a kink where the offset reaches the limit of the dilation, and at its smallest, and the excess
-// at some slips of its own, `kinks`, in any order; excess may rise on the way back, where it is looked at on several
-// parts of the way: continuous slip ends at the first root.
-double first_slip(const JointProperties& properties, const OffsetPath& path, double most,
-                  const std::function<double(double)>& excess, std::span<const double> kinks = {});
+// A force that is left over after a slip: continuous, positive at 0, and not at the slip `most`.
+struct SlipExcess {
+  double most = 0;     // m
+  double at_zero = 0;  // N
+  double noise = 0;    // N: of its rounding; an excess below it is none
+  bool falls = false;  // whether it falls on the way back, too
+  std::function<double(double)> at;
+};
+
+// The least slip in [0, most] at which there is no excess left. The rise has a kink where the offset reaches the limit
+// of the dilation, and at its smallest, and the excess at some slips of its own, `kinks`, in any order. On the way back
+// it may rise, and is looked at on several parts of the way: continuous slip ends at the first root.
+double first_slip(const JointProperties& properties, const OffsetPath& path, const SlipExcess& excess,
+                  std::span<const double> kinks = {});
 
 }  // namespace voussoir

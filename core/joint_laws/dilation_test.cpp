@@ -125,7 +125,7 @@ TEST(Dilation, SlipIsTheFirstRoot) {
     };
     const double trial = over * strength(0), most = trial / stiffness;
     const auto excess = [&](double slip) { return trial - stiffness * slip - strength(slip); };
-    const double slip = first_slip(p, path, most, excess);
+    const double slip = first_slip(p, path, {most, excess(0), 0, false, excess});
     EXPECT_NEAR(excess(slip), 0, 1e-12 * trial);
     constexpr int parts = 4000;
     for (int k = 1; k < parts && most * k / parts < slip; ++k)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <span>
 
@@ -236,6 +237,13 @@ class Rising {
   // the slip at which the offset is the largest so far
   double farthest_at() const { return farthest_at_; }
 
+  // m: the slip that brings the offset back, and the largest fall of the rise with it
+  double returns_until() const { return std::max(-path_.along, 0.0); }
+  double steepest_fall() const {
+    if (!p_.follows_barton_bandis()) return tangent_;
+    return place_.rise->farthest > 0 ? place_.rise->rise_there / place_.rise->farthest : 0;
+  }
+
   // the place after the step, and what it cost; the offset has been moved
   void settle(const Risen& risen, double area, LawForce<Dim>& result) const {
     JointRise<Dim>& rise = *place_.rise;
@@ -267,8 +275,8 @@ class Rising {
   }
 
   // Barton and Bandis' rise depends on the stress, which it changes: its angle is that at the mean of the old and the
-  // new stress, so that its error is of the second order in the step. The stress after it, minus a trial of it, falls
-  // as the trial grows: one root.
+  // new stress, so that its error is of the second order in the step. A trial's stress minus the trial falls by at
+  // least as much as the trial grows: the root is between any trial and the stress that it gives.
   Risen over_asperities(double slip, bool bonded) const {
     const JointRise<Dim>& now = *place_.rise;
     if (slip == 0) return {0, normal_at(overlap_, bonded)};
@@ -277,30 +285,28 @@ class Rising {
       const double grown = rise_within(now, offset) - now.rise;
       return {grown, normal_at(overlap_ + grown, bonded)};
     }
+    const MobilisedOver over = mobilised_over(p_, plastic_slip_ + std::min(farthest_at_, slip), plastic_slip_ + slip);
     const auto at = [&](double stress) -> Risen {
-      const double tangent =
-          barton_bandis_dilation(p_, plastic_slip_ + std::min(farthest_at_, slip), plastic_slip_ + slip,
-                                 0.5 * (now.stress + stress), strength_factor_);
+      const double tangent = barton_bandis_dilation(p_, over, 0.5 * (now.stress + stress), strength_factor_);
       const double grown = now.rise_there - now.rise + tangent * further;
       return {grown, normal_at(overlap_ + grown, bonded)};
     };
-    Risen risen = at(0);
-    double low = 0, high = risen.normal.stress, stress = high;
-    double last = low, last_excess = high;  // the trial before, for secants
+    double stress = now.stress;
+    Risen risen = at(stress);
+    if (over.fraction == 0) return risen;
+    double excess = risen.normal.stress - stress;
+    double low = std::min(stress, risen.normal.stress), high = std::max(stress, risen.normal.stress);
+    double next = risen.normal.stress;
     constexpr int limit = 2 * std::numeric_limits<double>::digits;
-    for (int i = 0; i < limit && high > low; ++i) {
-      risen = at(stress);
-      const double excess = risen.normal.stress - stress;
-      (excess > 0 ? low : high) = stress;
-      double next = 0.5 * (low + high);
-      if (excess != last_excess) {
-        const double secant = stress - excess * (stress - last) / (excess - last_excess);
-        if (secant >= low && secant <= high) next = secant;
-      }
-      last = stress;
-      last_excess = excess;
+    for (int i = 0; i < limit && std::abs(excess) > 2 * std::numeric_limits<double>::epsilon() * stress; ++i) {
+      const double last = stress, last_excess = excess;
       stress = next;
-      if (std::abs(stress - last) <= 2 * std::numeric_limits<double>::epsilon() * stress) break;
+      risen = at(stress);
+      excess = risen.normal.stress - stress;
+      (excess > 0 ? low : high) = stress;
+      next = stress - excess * (stress - last) / (excess - last_excess);
+      if (!(next > low && next < high)) next = 0.5 * (low + high);
+      if (!(next > low && next < high)) break;
     }
     return risen;
   }
@@ -311,11 +317,30 @@ class Rising {
   OffsetPath path_;  // before it is turned to a direction: of an offset across it
 };
 
+// whether slip itself may lower the strength
+bool weakens(const JointProperties& p) {
+  return p.softens_cohesion() || p.laws.friction == FrictionLaw::softening ||
+         (p.follows_barton_bandis() && p.mobilises());
+}
+
+// Whether slip back towards the place where the joint was mated lowers its spring's force by more than its strength,
+// which falls with the normal stress: the strength's slope is largest at the lowest stress, the spring's at the
+// highest. `dashpot`, Pa/m: what the dashpot adds to the normal spring over a step.
+template <int Dim>
+bool falls_on_the_way_back(const JointProperties& p, const Rising<Dim>& rising, const Risen& begin, double most,
+                           double per_area, double coefficient, double dashpot) {
+  const double back = std::min(rising.returns_until(), most);
+  if (back == 0) return true;
+  if (weakens(p)) return false;
+  if (p.follows_barton_bandis()) coefficient = std::tan(peak_friction(p, rising.after(back, false).normal.stress));
+  return per_area > coefficient * (begin.normal.stiffness + dashpot) * rising.steepest_fall();
+}
+
 // The plastic slip of a joint whose rise or whose friction has kinks: the first at which the rest of the trial's force
 // is no more than the strength.
 template <int Dim, class StrengthAfter>
 SlipReturn return_by_first_slip(const JointProperties& p, const Rising<Dim>& rising, double plastic_slip, double trial,
-                                double stiffness, const StrengthAfter& strength_after) {
+                                double stiffness, double limit, bool falls, const StrengthAfter& strength_after) {
   std::array<double, mobilisation_kinks + 1> kinks{};
   std::size_t count = 0;
   if (p.follows_barton_bandis()) {
@@ -324,9 +349,11 @@ SlipReturn return_by_first_slip(const JointProperties& p, const Rising<Dim>& ris
     kinks[count++] = rising.farthest_at();
   }
   const auto excess = [&](double slip) { return trial - stiffness * slip - strength_after(slip); };
+  const double noise = std::numeric_limits<double>::epsilon() * trial;
   SlipReturn back;
-  back.slip = first_slip(p, rising.path(), trial / stiffness, excess, std::span(kinks).first(count));
-  back.snap_back = strength_after(0) - strength_after(0.5 * back.slip) > 0.5 * stiffness * back.slip;
+  back.slip = first_slip(p, rising.path(), {trial / stiffness, trial - limit, noise, falls, std::cref(excess)},
+                         std::span(kinks).first(count));
+  back.snap_back = (weakens(p) || !falls) && limit - strength_after(0.5 * back.slip) > 0.5 * stiffness * back.slip;
   return back;
 }
 
@@ -369,11 +396,14 @@ LawForce<Dim> joint_law(const JointProperties& p, double friction, double dashpo
   const Vector<Dim> old_shear = shear;
   shear -= stiffness * kinematics.slip;
   const double trial = length_of<Dim>(shear);
+  const double constant = p.laws.friction == FrictionLaw::constant ? std::tan(friction) : 0;
+  const auto coefficient_after = [&](double slip, double stress) {
+    if (p.laws.friction == FrictionLaw::constant) return constant;
+    return friction_answer(p, friction, history.plastic_slip + slip, stress, strength_factor).coefficient;
+  };
   const auto strength = [&] {
-    const double coefficient =
-        friction_answer(p, friction, history.plastic_slip, risen.normal.stress, strength_factor).coefficient;
     const double cohesion = cohesion_answer(p, history.bond, history.bond_slip, strength_factor).stress;
-    return std::max(cohesion * area + coefficient * normal_force(), 0.0);
+    return std::max(cohesion * area + coefficient_after(0, risen.normal.stress) * normal_force(), 0.0);
   };
   if (trial > strength()) {
     if (history.bond == Bond::whole) {
@@ -393,11 +423,11 @@ LawForce<Dim> joint_law(const JointProperties& p, double friction, double dashpo
           const Risen then = rising.after(slip, false);
           const double pressed = std::max(then.normal.stress * area + damping_of(then), 0.0);
           return area * cohesion_answer(p, history.bond, history.bond_slip + slip, strength_factor).stress +
-                 friction_answer(p, friction, history.plastic_slip + slip, then.normal.stress, strength_factor)
-                         .coefficient *
-                     pressed;
+                 coefficient_after(slip, then.normal.stress) * pressed;
         };
-        back = return_by_first_slip(p, rising, history.plastic_slip, trial, stiffness, strength_after);
+        const bool falls = falls_on_the_way_back(p, rising, risen, trial / stiffness, per_area, constant,
+                                                 place.seconds > 0 ? dashpot / (place.seconds * area) : 0);
+        back = return_by_first_slip(p, rising, history.plastic_slip, trial, stiffness, limit, falls, strength_after);
         risen = rising.after(back.slip, false);
         if (rising.changes()) place.rise->offset += back.slip * (shear / trial);
       } else {
