@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <numbers>
 #include <numeric>
 #include <random>
 
@@ -139,6 +141,29 @@ fails = { below = -2e-4 }
 keys = [{ key = "joint_properties.rock.normal_stiffness", law = "lognormal", mean = 1e8, deviation = 3e7, unit = "Pa/m" },
         { key = "density", law = "uniform", least = 1800, most = 2200 }]
 )";
+
+// roughness as a sampled key: each row has the factor of its own envelope, on 45 degrees
+TEST_F(StudySample, DrawsRoughness) {
+  write("cube.toml",
+        "dimension = 3\ngravity = [7.0710678118654755, 0, -7.0710678118654755]\ndensity = 2000\n"
+        "blocks = [{ name = \"base\", box = { min = [-2, -2, -1], max = [2, 2, 0] }, fixed = true },\n"
+        "          { name = \"cube\", box = { min = [0, 0, 0], max = [1, 1, 1] } }]\n"
+        "joint_properties = [{ name = \"r\", normal_stiffness = 1e9, shear_stiffness = 1e8, friction_deg = 26, "
+        "friction_law = \"barton_bandis\", jrc = 7, jcs = 40e6 }]\n");
+  write("study.toml",
+        "scene = \"cube.toml\"\nblocks = {}\nquantity = \"least_factor\"\n[[sample]]\nname = \"rough\"\nrows = 12\n"
+        "keys = [{ key = \"joint_properties.r.jrc\", law = \"uniform\", least = 4, most = 12 }]\n");
+  const Ended ended = run("study study.toml --out out");
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  const std::vector<std::string> rows = table("out/sample_1.csv");
+  ASSERT_EQ(rows.size(), 13u);
+  for (std::size_t k = 1; k < rows.size(); ++k) {
+    double row = 0, jrc = 0, factor = 0;
+    ASSERT_EQ(std::sscanf(rows[k].c_str(), "%lf,%lf,%lf", &row, &jrc, &factor), 3) << rows[k];
+    EXPECT_NEAR(factor, std::tan((26 + jrc * std::log10(40e6 / (20000 * std::sqrt(0.5)))) * std::numbers::pi / 180),
+                1e-9 * factor);
+  }
+}
 
 TEST_F(StudySample, IsTheSameInAnyOrderAndChunk) {
   write("study.toml", sample);

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "cases/case_tools.hpp"
+#include "core/joint_laws/joint_path.hpp"
+#include "core/scene/scene.hpp"
 #include "reference/small/rough_joint.hpp"
 #include "text/angle.hpp"
 
@@ -91,6 +93,62 @@ TEST(RoughJoints, ABlockBetweenSpringsAfterBartonAndBandis) {
   }
 }
 
+JointProperties properties_of(const std::vector<std::string>& keys) {
+  return read_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / "springs.toml", rock(keys))
+      .properties.front()
+      .properties;
+}
+
+// the law alone between springs, in more and more steps
+TEST(RoughJoints, AreOfTheSecondOrderInTheStep) {
+  CaseReport report("jointlaws");
+  std::vector<std::vector<double>> errors(3), paths(9);
+  for (const bool mobilises : {false, true}) {
+    std::vector<std::string> keys = rough;
+    keys.insert(keys.end(), {"block_length_m=0.1", mobilises ? "mobilisation=table" : "mobilisation=none"});
+    const JointProperties p = properties_of(keys);
+    const reference::RoughJoint joint = mobilises ? reference::of_block(sample, 0.1, 0.1) : sample;
+    JointPath path;
+    path.normal_stress = 1e6;
+    path.surroundings = 2e9;
+    path.slip = 6e-3;
+    const auto expected_at = [&](double slip) {
+      return reference::shear_between_springs(joint, path.normal_stress, springs, p.shear_stiffness, slip);
+    };
+    const double expected = expected_at(path.slip).normal_stress;
+    std::vector<double> error;
+    for (path.steps = 25; path.steps <= 1600; path.steps *= 2) {
+      error.push_back(std::abs(follow(p, path).back().normal_stress / expected - 1));
+      if (!mobilises) errors[0].push_back(path.steps);
+      errors[mobilises ? 2 : 1].push_back(error.back());
+    }
+    path.steps = 120;
+    for (const JointPathPoint& at : follow(p, path)) {
+      if (at.slip == 0) continue;
+      const reference::ShearedJoint closed = expected_at(at.slip);
+      const double row[] = {1e3 * at.slip, 1e-6 * at.shear_stress, 1e-6 * closed.shear_stress, 1e-6 * at.normal_stress,
+                            1e-6 * closed.normal_stress};
+      for (int k = mobilises ? 1 : 0; k < 5; ++k)
+        paths[k + (mobilises ? 4 : 0)].push_back(row[k]);
+    }
+    report.record(
+        {std::string("order of the step, ") + (mobilises ? "mobilised roughness" : "peak envelope"),
+         "1",
+         Kind::exact,
+         "convergence",
+         2,
+         {mobilises ? 1.0 : 0.2, 0},
+         mobilises ? "mean of six halvings; where a kink of the table lies within a step differs from one to the next"
+                   : "mean of six halvings"},
+        std::log2(error.front() / error.back()) / 6);
+  }
+  write_csv("jointlaws", "order.csv", {"steps", "envelope", "mobilised"}, errors);
+  write_csv("jointlaws", "rough.csv",
+            {"slip_mm", "envelope_shear", "envelope_shear_exact", "envelope_normal", "envelope_normal_exact",
+             "mobilised_shear", "mobilised_shear_exact", "mobilised_normal", "mobilised_normal_exact"},
+            paths);
+}
+
 // The slip s along the plate grows with the cube of the time since its begin: the angle of that, from two slips since
 // 32 degrees, when the jolt by which the plate slowed down has died away.
 double angle_of_slip(const SceneRun& run, double size) {
@@ -142,12 +200,14 @@ TEST(RoughJoints, ASearchLetsASlipMobiliseTheRoughness) {
   CaseReport report("jointlaws");
   const reference::RoughJoint joint = reference::of_block(sample, 0.1, 1);
   const double stress = 2600 * 9.81 * 0.02 * std::cos(35 * degree);
+  const double expected = std::tan(reference::friction_at(joint, joint.peak_slip, stress)) / std::tan(35 * degree);
+  report.reference("factor_of_safety", expected, "1");
   const SceneRun done = run("mobilised.toml");
   report.record({"factor of safety of a slab that mobilises its roughness",
                  "1",
                  Kind::exact,
                  "equilibrium at the peak of Barton's strength",
-                 std::tan(reference::friction_at(joint, joint.peak_slip, stress)) / std::tan(35 * degree),
+                 expected,
                  {0.002, 0},
                  "bracket 0.0005"},
                 value(done, "factor_of_safety"));

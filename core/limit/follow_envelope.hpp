@@ -14,12 +14,12 @@
 #include <vector>
 
 #include "core/joint_laws/barton_bandis.hpp"
-#include "core/limit/limit.hpp"
+#include "core/limit/evidence.hpp"
 
 namespace voussoir {
 
 // Of a face, N: the sum of its normal forces, and of the sizes of its shear forces
-struct FaceForce {
+struct FaceResultant {
   double normal = 0, shear = 0;
 };
 
@@ -141,7 +141,7 @@ class FollowEnvelope {
     double least = std::numeric_limits<double>::max();
     for (std::size_t f = 0; f < straight_.size(); ++f) {
       if (!chosen[f]) continue;
-      const FaceForce force = problem_.force_on(forces, f);
+      const FaceResultant force = problem_.force_on(forces, f);
       if (force.shear > 0) least = std::min(least, strength(f, force.normal) / force.shear);
     }
     return least;

@@ -413,7 +413,7 @@ struct RoughAssembly {
   static double area_of(const Interface& face) { return face.length(); }
 
   using Forces = std::vector<std::array<EndForce, 2>>;
-  static FaceForce force_on(const Forces& forces, std::size_t f) {
+  static FaceResultant force_on(const Forces& forces, std::size_t f) {
     const auto& [a, b] = forces[f];
     return {a.normal + b.normal, std::abs(a.shear) + std::abs(b.shear)};
   }

@@ -203,8 +203,8 @@ struct RoughCorners {
   }
   static double area_of(const CornerFace& face) { return face.area(); }
 
-  FaceForce force_on(const CornerForces& forces, std::size_t f) const {
-    FaceForce sum;
+  FaceResultant force_on(const CornerForces& forces, std::size_t f) const {
+    FaceResultant sum;
     for (const Vector<3>& force : forces[f]) {
       const double normal = force.dot(faces[f].normal);
       sum.normal += normal;

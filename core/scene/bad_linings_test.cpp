@@ -20,7 +20,9 @@ density = 2500
 domain = { box = { min = [-9, -9], max = [9, 9] } }
 joint_properties = [{ name = "bed", normal_stiffness = 1e9, shear_stiffness = 5e8, friction_deg = 40 },
                     { name = "by force", normal_stiffness = 1e9, shear_stiffness = 5e8, friction_deg = 40, constant_stiffness = true },
-                    { name = "by stress", normal_stiffness = 1e9, shear_stiffness = 5e8, friction_deg = 40, normal_law = "linear", normal_growth = 1e4 }]
+                    { name = "by stress", normal_stiffness = 1e9, shear_stiffness = 5e8, friction_deg = 40, normal_law = "linear", normal_growth = 1e4 },
+                    { name = "dilating", normal_stiffness = 1e9, shear_stiffness = 5e8, friction_deg = 40, dilation_law = "constant", dilation_deg = 5, dilation_until_m = 0.01 },
+                    { name = "by roughness", normal_stiffness = 1e9, shear_stiffness = 5e8, friction_deg = 30, friction_law = "barton_bandis", jrc = 8, jcs = 50e6 }]
 joints = [{ name = "bed", dip = 0, point = [0, 2], properties = "bed" }]
 fix = [{ side = ["bottom"] }]
 [[excavations]]
@@ -58,6 +60,8 @@ TEST(BadLinings, AreRefusedWithAReasonAndARepair) {
       {lining(section, "tunnel", "bad") + dig, "joint_properties", "no joint_properties of this name"},
       {lining(section, "tunnel", "by force") + dig, "joint_properties", "stiffness per area"},
       {lining(section, "tunnel", "by stress") + dig, "joint_properties", "depends on stress"},
+      {lining(section, "tunnel", "dilating") + dig, "joint_properties", "dilates"},
+      {lining(section, "tunnel", "by roughness") + dig, "joint_properties", "has Barton and Bandis' friction"},
       {lining("thickness = 0.3\nyoung_modulus = 25e9\n") + dig, "nodes", "missing"},
       {lining("nodes = 48\nyoung_modulus = 25e9\n") + dig, "thickness", "missing"},
       {lining("nodes = 48\nthickness = 0.3\n") + dig, "young_modulus", "missing"},

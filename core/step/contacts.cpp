@@ -203,7 +203,7 @@ void resolve(const Model<Dim>& model, const Settings& settings, const BodiesStat
 
 // the contacts of one group
 template <int Dim, bool Places>
-void find_contacts_of(const Model<Dim>& model, const Settings& settings, double seconds, const BodiesState<Dim>& bodies,
+void find_contacts_of(const Model<Dim>& model, const Settings& settings, double climb, const BodiesState<Dim>& bodies,
                       QueryLevel level, double gap, int group, const FoundContacts<Dim>& found,
                       ContactsState<Dim>& contacts, Tally& tally) {
   static thread_local PendingPairs<Dim> pending;
@@ -217,7 +217,7 @@ void find_contacts_of(const Model<Dim>& model, const Settings& settings, double 
     Contact<Dim>& c = contacts.list[i];
     contacts.loads[i].second = -1;
     double drawn = 0;
-    if constexpr (Places) drawn = drawn_by<Dim>(model, bodies, c, rises_of(contacts, i), seconds);
+    if constexpr (Places) drawn = drawn_by<Dim>(model, bodies, c, rises_of(contacts, i), climb);
     if (!(drawn > 0 ? is_near_risen(model, bodies, drawn, c) : is_near(model, bodies, gap, c))) {
       if constexpr (Places) forget_place(contacts, i);
       if (c.bond_due && bonds_of(contacts, i).held() > 0) c.bond_due = false;  // broken, not to be made again
@@ -271,9 +271,12 @@ void find_contacts(const Model<Dim>& model, const Settings& settings, double sec
   std::vector<Tally>& tallies = own;  // of this thread, filled by all
   tallies.assign(groups_of(contacts.list.size()), {});
   const bool places = !contacts.rises.empty();
+  const double climb = places ? steepest_climb(model, seconds) : 0;
   on_threads(settings.threads, static_cast<int>(tallies.size()), [&](int group) {
-    (places ? find_contacts_of<Dim, true> : find_contacts_of<Dim, false>)(model, settings, seconds, bodies, level, gap,
-                                                                          group, found, contacts, tallies[group]);
+    if (places)
+      find_contacts_of<Dim, true>(model, settings, climb, bodies, level, gap, group, found, contacts, tallies[group]);
+    else
+      find_contacts_of<Dim, false>(model, settings, 0, bodies, level, gap, group, found, contacts, tallies[group]);
   });
   for (const Tally& tally : tallies)
     add(counters, tally);

@@ -15,24 +15,37 @@
 
 namespace voussoir {
 
-// m: by this a pair is drawn together before its contact is found, along the last normal of the joint: its highest
-// rise, and a bound of what the slip of the last step, of `seconds`, may add to it. Without that a block that slips
-// farther in a step than its overlap over the dilation would lose its contact; the law subtracts what is too much. 0:
-// the joint has never touched, or none of the model remembers its place.
+// m per m/s of slip: how much a joint of the model may rise at most over a step, s
 template <int Dim>
-double drawn_by(const Model<Dim>& model, const BodiesState<Dim>& bodies, const Contact<Dim>& c,
-                std::span<const JointRise<Dim>> rises, double seconds) {
-  double highest = -1, steepest = 0;
-  for (const JointRise<Dim>& rise : rises)
-    if (!rise.normal.isZero(0)) highest = std::max(highest, rise.rise);
+double steepest_climb(const Model<Dim>& model, double seconds) {
+  double steepest = 0;
   for (const JointProperties& p : model.properties)
     steepest = std::max(steepest, steepest_dilation(p));
-  if (highest < 0 || steepest == 0) return 0;
+  return steepest * seconds;
+}
+
+// m: by this a pair is drawn together before its contact is found, along the last normal of the joint: its highest
+// rise, and a bound of what the slip of the last step may add to it, with `climb` of steepest_climb. Without that a
+// block that slips farther in a step than its overlap over the dilation would lose its contact; closure_of subtracts
+// what is too much. 0: the joint has never touched, or none of the model remembers its place.
+template <int Dim>
+double drawn_by(const Model<Dim>& model, const BodiesState<Dim>& bodies, const Contact<Dim>& c,
+                std::span<const JointRise<Dim>> rises, double climb) {
+  double highest = -1;
+  for (const JointRise<Dim>& rise : rises)
+    if (!rise.normal.isZero(0)) highest = std::max(highest, rise.rise);
+  if (highest < 0 || climb == 0) return 0;
   const int first = model.parts[c.part_a].body, second = model.parts[c.part_b].body;
   const CachedPose<Dim>&a = bodies.poses[first], &b = bodies.poses[second];
   const double speed = (b.velocity - a.velocity).norm() + a.spin.norm() * model.bodies[first].radius +
                        b.spin.norm() * model.bodies[second].radius;
-  return highest + steepest * speed * seconds;
+  return highest + climb * speed;
+}
+
+// m: of the joint's spring, by the overlap that was found of the drawn pair
+template <int Dim>
+double closure_of(double overlap, double drawn, const JointRise<Dim>& rise) {
+  return overlap - (drawn - rise.rise);
 }
 
 // the direction in which it is

@@ -244,7 +244,7 @@ template <int Dim>
 template <int Dim, bool Places>
 [[gnu::always_inline]] inline void answer(const Model<Dim>& model, const Settings& settings,
                                           const std::vector<Friction>& frictions, const JointStep& step,
-                                          const BodiesState<Dim>& bodies, std::size_t place,
+                                          const BodiesState<Dim>& bodies, std::size_t place, double climb,
                                           ContactsState<Dim>& contacts, JointSums& sums) {
   Contact<Dim>& c = contacts.list[place];
   if (!c.touching()) {
@@ -275,7 +275,7 @@ template <int Dim, bool Places>
   double drawn = 0;  // m: by this the pair was drawn together
   if constexpr (Places) {
     rises = rises_of(contacts, place);
-    drawn = drawn_by<Dim>(model, bodies, c, rises, step.length);
+    drawn = drawn_by<Dim>(model, bodies, c, rises, climb);
   }
   if (c.cells == 0) {
     Bearing<Dim> at{c.geometry.point, c.geometry.normal, c.geometry.overlap, c.geometry.area};
@@ -284,7 +284,7 @@ template <int Dim, bool Places>
       at.stiffness_factor = c.geometry.stiffness_factor;
     }
     JointRise<Dim>* const rise = Places ? rises.data() : nullptr;
-    if (drawn > 0) at.overlap -= drawn - rise->rise;
+    if (drawn > 0) at.overlap = closure_of<Dim>(at.overlap, drawn, *rise);
     c.force = joint_force<Dim>(properties, step, motion, at, friction, c.history, rise, sums);
     note_load<Dim>(c, {}, model.parts[c.part_b].body, motion.between, contacts.loads[place]);
     return;
@@ -302,7 +302,7 @@ template <int Dim, bool Places>
   for (SubContact<Dim>& s : subs_of(contacts, place)) {
     if (!(s.area > 0)) continue;
     JointRise<Dim>* const rise = Places ? &rises[&s - subs_of(contacts, place).data()] : nullptr;
-    const double overlap = drawn > 0 ? s.overlap - (drawn - rise->rise) : s.overlap;
+    const double overlap = drawn > 0 ? closure_of<Dim>(s.overlap, drawn, *rise) : s.overlap;
     const double area = properties.constant_stiffness ? s.area / whole : s.area;
     const Bond before = s.history.bond;
     s.force = joint_force<Dim>(properties, step, motion,
@@ -370,7 +370,7 @@ PairWrench<Dim> joint_wrench(const Model<Dim>& model, const Schedule& schedule, 
       at.area = 1;
       at.stiffness_factor = c.geometry.stiffness_factor;
     }
-    if (drawn > 0) at.overlap -= drawn - rises[0].rise;
+    if (drawn > 0) at.overlap = closure_of<Dim>(at.overlap, drawn, rises[0]);
     add(at, history, 0);
     return wrench;
   }
@@ -381,7 +381,7 @@ PairWrench<Dim> joint_wrench(const Model<Dim>& model, const Schedule& schedule, 
     const SubContact<Dim>& s = subs[i];
     if (!(s.area > 0)) continue;
     const double area = properties.constant_stiffness ? s.area / whole : s.area;
-    const double overlap = drawn > 0 ? s.overlap - (drawn - rises[i].rise) : s.overlap;
+    const double overlap = drawn > 0 ? closure_of<Dim>(s.overlap, drawn, rises[i]) : s.overlap;
     add({s.point, c.geometry.normal, overlap, area, s.overlap_variance, s.area / whole}, sub_histories[i], i);
   }
   return wrench;
@@ -396,10 +396,12 @@ void find_joint_forces(const Model<Dim>& model, const Settings& settings, const 
   sums.assign(groups_of(contacts.list.size()), {});
   const std::vector<Friction>& frictions = frictions_of(schedule);
   const auto find = [&](auto places) {
+    const double climb = places ? steepest_climb(model, step.length) : 0;
     const auto answer_found = [&](int group, std::span<Contact<Dim>* const> found) {
       for (const Contact<Dim>* c : found)
         answer<Dim, decltype(places)::value>(model, settings, frictions, step, bodies,
-                                             static_cast<std::size_t>(c - contacts.list.data()), contacts, sums[group]);
+                                             static_cast<std::size_t>(c - contacts.list.data()), climb, contacts,
+                                             sums[group]);
     };
     find_contacts<Dim>(model, settings, step.length, bodies, contacts, counters, std::ref(answer_found));
   };
@@ -414,8 +416,9 @@ void apply_joint_laws(const Model<Dim>& model, const Settings& settings, const S
   contacts.loads.resize(contacts.list.size());
   const std::vector<Friction>& frictions = frictions_of(schedule);
   const auto work = [&](auto places) {
+    const double climb = places ? steepest_climb(model, step.length) : 0;
     return sums_in_groups<JointSums>(settings.threads, contacts.list.size(), [&](int i, JointSums& sum) {
-      answer<Dim, decltype(places)::value>(model, settings, frictions, step, bodies, static_cast<std::size_t>(i),
+      answer<Dim, decltype(places)::value>(model, settings, frictions, step, bodies, static_cast<std::size_t>(i), climb,
                                            contacts, sum);
     });
   };

@@ -231,7 +231,7 @@ double closed_gap(const Model<Dim>& model) {
 template <int Dim>
 bool is_near_risen(const Model<Dim>& model, const BodiesState<Dim>& bodies, double rise, Contact<Dim>& c) {
   c.near_until = 0;
-  return meet(bounds(model, bodies, c.part_a, rise), bounds(model, bodies, c.part_b, rise));
+  return c.touching() || meet(bounds(model, bodies, c.part_a, rise), bounds(model, bodies, c.part_b, rise));
 }
 
 template <int Dim>

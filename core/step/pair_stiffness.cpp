@@ -109,7 +109,7 @@ struct MovedContacts {
   std::vector<std::size_t> of_kernel;  // indices in `contacts`
 
   void find(const Model<Dim>& model, const Settings& settings, const BodiesState<Dim>& bodies,
-            const ContactsState<Dim>& candidates, const JointHistories<Dim>& histories, double seconds,
+            const ContactsState<Dim>& candidates, const JointHistories<Dim>& histories, double climb,
             std::span<const PairStiffness<Dim>> batch, KernelCounters& counters) {
     pairs.clear();
     asked.clear();
@@ -120,7 +120,7 @@ struct MovedContacts {
     for (const PairStiffness<Dim>& p : batch) {
       const std::span<const JointRise<Dim>> rises = rises_of(histories, p.contact);
       const Contact<Dim>& c = candidates.list[p.contact];
-      move(model, settings, bodies, c, drawn_by<Dim>(model, bodies, c, rises, seconds), drawn_along<Dim>(rises), p);
+      move(model, settings, bodies, c, drawn_by<Dim>(model, bodies, c, rises, climb), drawn_along<Dim>(rises), p);
     }
     for (const std::size_t k : of_kernel)
       places.push_back(&contacts[k]);
@@ -165,7 +165,8 @@ void difference(const Model<Dim>& model, const Settings& settings, const Schedul
   static thread_local std::vector<SubContact<Dim>> cells;
   static thread_local IntegratedContact<Dim> pressed;
   static thread_local HalfSpaces<Dim> planes;
-  after.find(model, settings, bodies, contacts, histories, joint_step.length, batch, counters);
+  const double climb = steepest_climb(model, joint_step.length);
+  after.find(model, settings, bodies, contacts, histories, climb, batch, counters);
 
   cells.resize(sub_stride(contacts));
   for (std::size_t i = 0; i < batch.size(); ++i) {
@@ -174,7 +175,7 @@ void difference(const Model<Dim>& model, const Settings& settings, const Schedul
     const JointState<Dim>& history = histories.contacts[p.contact].history;
     const std::span<const JointState<Dim>> sub_histories = subs_of(histories, p.contact);
     const std::span<const JointRise<Dim>> rises = rises_of(histories, p.contact);
-    const double drawn = drawn_by<Dim>(model, bodies, c, rises, joint_step.length);
+    const double drawn = drawn_by<Dim>(model, bodies, c, rises, climb);
     const CachedPose<Dim>&a = bodies.poses[p.body_a], &b = bodies.poses[p.body_b];
     const bool whole = is_integrated(settings.contact, model.properties[c.properties]);
     const int along = model.properties[c.properties].sub_contacts, count = whole ? 0 : sub_contact_count<Dim>(along);
