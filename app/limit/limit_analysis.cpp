@@ -97,6 +97,10 @@ void seek_factor(const LiveLoad& live, LimitAnalysis& analysis) {
 LimitAnalysis analyse_limit(const LoadedScene& scene, const LimitRequest& request) {
   const Prepared<2>& prepared = std::get<Prepared<2>>(scene.prepared);
   refuse_what_limit_leaves_out(prepared);
+  if (request.without_dilation)
+    throw BadInput(
+        "--without-dilation: the scene has dimension = 2, and only analysis in space answers for joints that do not "
+        "dilate; state dimension = 3, or use 'voussoir run'");
   LimitAnalysis analysis;
   analysis.caveats = {associated_flow_caveat};
   analysis.title = scene.title;

@@ -17,6 +17,7 @@ struct LimitRequest {
   std::vector<std::string> properties;  // whose friction is sought, or whose strength is divided; none: all
   bool factor = false;                  // the factor of safety is sought instead
   bool cohesion = false;                // also joints that only a stage bonds have their cohesion
+  bool without_dilation = false;        // of a load in space: also the factor of joints that do not dilate
 };
 
 struct LimitAnswer {

@@ -25,6 +25,7 @@ struct LimitArguments {
   bool factor = false;                  // the factor of safety is sought
   std::vector<std::string> joints;      // of whose joint_properties; none: of all
   bool cohesion = false;                // joints have the cohesion that their properties state
+  bool without_dilation = false;        // also the factor of joints that do not dilate
   bool overwrite = false;
   bool quiet = false;
 };
@@ -44,6 +45,7 @@ LimitRequest request_of(const LimitArguments& arguments) {
   request.properties = arguments.factor ? arguments.joints : arguments.properties;
   request.factor = arguments.factor;
   request.cohesion = arguments.cohesion;
+  request.without_dilation = arguments.without_dilation;
   const auto load = std::ranges::find(limit_loads, arguments.load);
   if (load != limit_loads.end()) request.load = static_cast<LimitLoad>(load - limit_loads.begin());
   return request;
@@ -220,6 +222,10 @@ void add_limit(CLI::App& program, Action& action) {
                     "include the cohesion of all joint_properties, also of those that only a stage bonds (those with "
                     "bonds = \"as_sliced\" "
                     "always have theirs); it is plastic, and tension is left out");
+  command
+      ->add_flag("--without-dilation", arguments.without_dilation,
+                 "in space: also the factor of the load for joints that slip without opening, some 200 programs")
+      ->needs(load);
   add_overwrite(command, arguments.overwrite);
   command->add_flag("--quiet", arguments.quiet, "no warnings and no summary");
 }

@@ -6,6 +6,7 @@
 
 #include "app/limit/limit_words.hpp"
 #include "core/base/bad_input.hpp"
+#include "core/limit/without_dilation.hpp"
 #include "core/model/water_surfaces.hpp"
 
 namespace voussoir {
@@ -78,6 +79,49 @@ void seek_factor_in_space(const LiveLoadInSpace& live, const LoadsInSpace& gravi
   analysis.evidence = found.evidence;
   tell_load_factor(found.status, found.factor, "cone program", live.if_any, analysis);
   if (found.status == LimitStatus::carries_any && live.beside_gravity) analysis.caveats.push_back(pressed_caveat);
+}
+
+// of the same load: what forces that agree with a mechanism without dilation carry
+void seek_factor_without_dilation(const LiveLoadInSpace& live, const LoadsInSpace& gravity,
+                                  LimitAnalysisInSpace& analysis) {
+  for (const JointProperties& p : analysis.model.properties)
+    if (p.follows_barton_bandis())
+      throw BadInput(
+          fmt::format("--without-dilation: joint_properties '{}' follow Barton and Bandis' envelope, which is followed "
+                      "with dilation only; leave out --without-dilation",
+                      p.name));
+  const FactorWithoutDilation found = find_factor_without_dilation(
+      analysis.assembly, live.beside_gravity ? gravity : LoadsInSpace(gravity.size()), live.loads);
+  analysis.evidence.programs += found.programs;
+  if (found.status == LimitStatus::carries_any)
+    return analysis.caveats.push_back("without dilation: normal forces alone, without friction, carry any factor");
+  if (found.status != LimitStatus::found)
+    return analysis.caveats.push_back("without dilation: no mechanism was found, as forces grow without bound");
+  constexpr double numerical = 1e-6;  // of 1 or of the factor: closed forms are met to 1e-7
+  const auto add = [&](const char* name, double factor) {
+    std::optional<double> bar;
+    if (found.settled) bar = numerical * std::max(1.0, std::abs(factor));
+    analysis.values.emplace_back(name, Value{factor, "1", bar, "joints that slip without opening"});
+  };
+  add("collapse_factor_least", found.least);
+  if (!found.unbounded) add("collapse_factor_largest", found.largest);
+  analysis.caveats.push_back(fmt::format(
+      "without dilation: of the lowest mechanism that was found, in {} rounds from loose joints; nothing proves that "
+      "there is no lower one{}",
+      found.rounds, found.settled ? "" : ", and its slips did not settle: take the numbers as estimates"));
+  if (found.unbounded)
+    analysis.caveats.push_back(
+        "without dilation: no factor is the largest, as normal forces between blocks that the loads do not ask for may "
+        "hold any load");
+  else if (found.largest - found.least > numerical * std::max(1.0, std::abs(found.least)))
+    analysis.caveats.push_back(
+        "without dilation: from the least to the largest factor blocks are held by forces that the loads do not ask "
+        "for. Of columns held by their sides the least was right, of toppling slopes the largest; confirm it with "
+        "'voussoir run'");
+  if (found.least < 0)
+    analysis.caveats.push_back(
+        "without dilation: a negative factor means that gravity alone brings blocks down, unless such forces hold "
+        "them");
 }
 
 void seek_strength_in_space(const LimitRequest& request, const LoadsInSpace& gravity, LimitAnalysisInSpace& analysis) {
@@ -185,6 +229,8 @@ LimitAnalysisInSpace analyse_limit_in_space(const LoadedScene& scene, const Limi
     seek_factor_in_space(*live, gravity, analysis);
   else
     seek_strength_in_space(request, gravity, analysis);
+  const bool empty = analysis.status == LimitStatus::nothing_free || analysis.status == LimitStatus::no_load;
+  if (request.without_dilation && !empty) seek_factor_without_dilation(*live, gravity, analysis);
   tell_envelope(analysis);
   refuse_empty(analysis, model.gravity.isZero(0), analysed);
   if (analysis.status == LimitStatus::solver_failed)

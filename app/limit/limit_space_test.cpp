@@ -101,6 +101,40 @@ TEST_F(LimitSpace, CountsAppliedForcesAndCohesion) {
   EXPECT_NEAR(value("collapse_factor"), 20 * std::tan(35 * std::numbers::pi / 180) + 5, 1e-6);
 }
 
+// the column alone topples; between walls that slip only, forces that nothing asks for may hold it
+TEST_F(LimitSpace, AnswersForJointsThatDoNotDilate) {
+  if (!is_built_in("glpk")) GTEST_SKIP();
+  write_column();
+  const Ended alone = limit("--load east --without-dilation");
+  EXPECT_EQ(alone.code, 0) << alone.out << alone.err;
+  EXPECT_NEAR(value("collapse_factor_least"), 0.25, 2e-7);
+  EXPECT_NEAR(value("collapse_factor_largest"), 0.25, 1e-6);
+  EXPECT_EQ(results("out")["values"]["collapse_factor_least"]["error_bar"], 1e-6);
+  for (const char* part : {"lowest mechanism that was found", "rounds from loose joints"})
+    EXPECT_NE(alone.out.find(part), std::string::npos) << part << "\n" << alone.out;
+  EXPECT_EQ(alone.out.find("do not ask for"), std::string::npos) << alone.out;
+
+  std::string text = read(folder_ / "column.toml");
+  const std::string place = "{ name = \"column\"";
+  text.insert(text.find(place),
+              "{ name = \"south\", box = { min = [-0.75, -1, 0], max = [1.25, 0, 2] } },\n"
+              "          { name = \"north\", box = { min = [-0.75, 1, 0], max = [1.25, 2, 2] } },\n          ");
+  write("column.toml", text);
+  const Ended between = limit("--load east --without-dilation");
+  EXPECT_EQ(between.code, 0) << between.out << between.err;
+  EXPECT_NEAR(value("collapse_factor_least"), 0.25, 2e-7);
+  EXPECT_GT(value("collapse_factor_largest"), 0.5);
+  EXPECT_LE(value("collapse_factor_largest"), value("collapse_factor") + 1e-8);
+  EXPECT_NE(between.out.find("held by forces that the loads do not ask for"), std::string::npos) << between.out;
+
+  expect_one_line(limit("--without-dilation"), 2, "--load");
+  expect_one_line(run("limit " + squares_ + "--load left --without-dilation --out flat"), 2, "dimension = 2");
+  const std::size_t end = text.find("friction_deg = 35") + std::string("friction_deg = 35").size();
+  write("column.toml",
+        text.substr(0, end) + ", friction_law = \"barton_bandis\", jrc = 5, jcs = 40e6" + text.substr(end));
+  expect_one_line(limit("--load east --without-dilation"), 2, "followed with dilation only");
+}
+
 // Barton and Bandis' envelope at the stress of the column, 40 kPa: F of the push is tan φ(σ) W over it
 TEST_F(LimitSpace, FollowsTheEnvelopeOfBartonAndBandis) {
   if (!is_built_in("glpk")) GTEST_SKIP();

@@ -179,6 +179,15 @@ CornerProgram corner_program(const CornerAssembly& assembly, const std::vector<L
   return program;
 }
 
+std::vector<double> sines_of_cones(const CornerAssembly& assembly) {
+  std::vector<double> sines;
+  for_corners(assembly, [&](int f, int, double) {
+    sines.push_back(std::sin(assembly.faces[f].friction));
+    if (assembly.faces[f].cohesion > 0) sines.push_back(0);
+  });
+  return sines;
+}
+
 void add_missing_forces(const CornerAssembly& assembly, CornerProgram& program) {
   const std::vector<int> rows = rows_of(assembly);
   for (std::size_t b = 0; b < rows.size(); ++b)

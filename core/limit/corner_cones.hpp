@@ -56,6 +56,9 @@ using CornerProgram = ConeProgram<6, 3>;
 CornerProgram corner_program(const CornerAssembly& assembly, const std::vector<Load<3>>& dead,
                              const std::vector<Load<3>>& live = {});
 
+// sin φ of every cone of friction, in the program's order; 0 of those of cohesion
+std::vector<double> sines_of_cones(const CornerAssembly& assembly);
+
 // Adds forces on every free body, in units of its weight, whose sum is to be least.
 void add_missing_forces(const CornerAssembly& assembly, CornerProgram& program);
 

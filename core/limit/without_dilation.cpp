@@ -1,0 +1,222 @@
+#include "core/limit/without_dilation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+
+namespace voussoir {
+namespace {
+
+// In the program's units a block that moves alone slips by about 1, whatever its size.
+constexpr double loose = 5;          // slip of all corners at the start
+constexpr double closing = 0.3;      // part of the way to the mechanism's slips in a round
+constexpr int most_rounds = 200;     // of a fixed point
+constexpr int standing_rounds = 10;  // in which the factor must not change
+constexpr double standing = 1e-6;    // of the factor
+constexpr int most_polishing = 40;
+constexpr double slips_equal = 1e-9;                        // of the largest
+constexpr double slips_agree = 1e-4;                        // of the largest
+constexpr double first_excess = 0.01, last_excess = 0.001;  // ε
+constexpr double same_mechanism = 1e-4;                     // of the factor: a lower one belongs to another
+constexpr double first_aside = 1e-3, last_aside = 1e-4;     // of the slips, for the ends of the interval
+
+bool is_frictional(const ForceCone<6, 3>& cone) {
+  return cone.head == 0;
+}
+
+class FixedPoints {
+ public:
+  FixedPoints(const CornerAssembly& assembly, const std::vector<Load<3>>& dead, const std::vector<Load<3>>& live)
+      : assembly_(assembly), program_(corner_program(assembly, dead, live)) {
+    scale_ = program_.live.cwiseAbs().maxCoeff();
+    if (scale_ > 0) program_.live /= scale_;
+  }
+
+  bool has_load() const { return scale_ > 0; }
+  int rounds() const { return rounds_; }
+  int programs() const { return programs_; }
+
+  void loosen() {
+    slips_ = sines_of_cones(assembly_);
+    for (double& slip : slips_)
+      slip *= loose;
+  }
+
+  // with s = (1 + excess)|u_T|; none: no round of it was bounded
+  struct Settled {
+    bool settled = false;
+    double factor = 0;
+  };
+  std::optional<Settled> settle(double excess) {
+    std::optional<Settled> last;
+    int stood = 0;
+    for (int round = 0; round < most_rounds && stood < standing_rounds; ++round) {
+      const std::optional<Round> found = next(excess, closing);
+      if (!found) continue;  // unbounded: joints stay as loose as they are
+      const bool stands =
+          last && std::abs(found->factor - last->factor) <= standing * std::max(1.0, std::abs(found->factor));
+      stood = stands && (stood > 0 || found->change <= slips_agree) ? stood + 1 : 0;
+      last = Settled{false, found->factor};
+    }
+    if (!last || stood < standing_rounds) return last;
+    last->settled = true;
+    // the whole way in each round, as long as slips come nearer to the mechanism's
+    double change = slips_agree;
+    for (int round = 0; round < most_polishing && change > slips_equal; ++round) {
+      const std::vector<double> before = slips_;
+      const std::optional<Round> found = next(excess, 1);
+      if (!found || found->change >= change) {
+        slips_ = before;
+        break;
+      }
+      change = found->change;
+      last->factor = found->factor;
+    }
+    return last;
+  }
+
+  // with the slips of a mechanism times `part`
+  ConeProgramAnswer end_of_interval(double part) { return solve_with(part, slips_); }
+
+  double scale() const { return scale_; }
+
+  // an upper bound of every mechanism's factor; none: forces without bound
+  std::optional<double> associated() {
+    const ConeProgramAnswer answer = solve_with(0, slips_);
+    return answer.status == ConeStatus::optimal ? std::optional(answer.factor / scale_) : std::nullopt;
+  }
+
+ private:
+  struct Round {
+    double factor = 0, change = 0;  // of the slips, over the largest
+  };
+  // slips move by `part` of the way to those of the mechanism that they give; none: it is not bounded
+  std::optional<Round> next(double excess, double part) {
+    ++rounds_;
+    const ConeProgramAnswer answer = solve_with(1, slips_);
+    if (answer.status != ConeStatus::optimal) return {};
+    double largest = 0, change = 0;
+    for (std::size_t k = 0; k < slips_.size(); ++k) {
+      if (!is_frictional(program_.cones[k])) continue;
+      const double slip = (1 + excess) * slip_of(program_.cones[k], answer.y);
+      largest = std::max(largest, slip);
+      change = std::max(change, std::abs(slip - slips_[k]));
+      slips_[k] += part * (slip - slips_[k]);
+    }
+    return Round{answer.factor / scale_, largest > 0 ? change / largest : 0};
+  }
+
+  static double slip_of(const ForceCone<6, 3>& cone, const Eigen::VectorXd& y) {
+    Vector<3> speed = Vector<3>::Zero();
+    if (cone.body_a >= 0) speed += cone.on_a.transpose() * y.segment<6>(6 * cone.body_a);
+    if (cone.body_b >= 0) speed += cone.on_b.transpose() * y.segment<6>(6 * cone.body_b);
+    return speed.tail<2>().norm();
+  }
+
+  ConeProgramAnswer solve_with(double part, const std::vector<double>& slips) {
+    for (std::size_t k = 0; k < slips.size(); ++k)
+      if (is_frictional(program_.cones[k])) program_.cones[k].cost = part * slips[k];
+    ++programs_;
+    return solve(program_);
+  }
+
+  const CornerAssembly& assembly_;
+  CornerProgram program_;
+  std::vector<double> slips_;  // by cone: sin φ |u_T|, as the cone's numbers have it
+  double scale_ = 0;
+  int rounds_ = 0, programs_ = 0;
+};
+
+// The least and the largest factor of a mechanism, by slips a little larger and smaller than its own, both ends taken
+// to the slips themselves.
+struct Interval {
+  bool settled = false, unbounded = false;
+  double least = 0, largest = 0;
+  ConeProgramAnswer at_least;
+};
+
+double to_zero(double at_first, double at_last, double first, double last) {
+  return (first * at_last - last * at_first) / (first - last);
+}
+
+std::optional<Interval> interval_at(double excess, FixedPoints& points) {
+  const auto settled = points.settle(excess);
+  if (!settled) return {};
+  Interval found{.settled = settled->settled, .least = settled->factor, .largest = settled->factor};
+  const auto end = [&](double sign) -> std::optional<double> {
+    double at[2];
+    for (int k = 0; k < 2; ++k) {
+      const double aside = k == 0 ? first_aside : last_aside;
+      ConeProgramAnswer answer = points.end_of_interval((1 + sign * aside) / (1 + excess));
+      if (answer.status != ConeStatus::optimal) return {};
+      at[k] = answer.factor / points.scale();
+      if (sign > 0 && k == 1) found.at_least = std::move(answer);
+    }
+    return to_zero(at[0], at[1], first_aside, last_aside);
+  };
+  if (const std::optional<double> least = end(1)) found.least = *least;
+  const std::optional<double> largest = end(-1);
+  found.unbounded = !largest;
+  found.largest = std::max(found.least, largest.value_or(found.least));
+  return found;
+}
+
+// slips of which a part vanishes as ε does
+std::optional<Interval> loosened(FixedPoints& points) {
+  points.loosen();
+  const std::optional<Interval> first = interval_at(first_excess, points);
+  if (!first) return {};
+  std::optional<Interval> last = interval_at(last_excess, points);
+  if (!last) return {};
+  last->least = to_zero(first->least, last->least, first_excess, last_excess);
+  last->largest = std::max(last->least, to_zero(first->largest, last->largest, first_excess, last_excess));
+  last->settled = last->settled && first->settled;
+  return last;
+}
+
+std::optional<Interval> closed(FixedPoints& points) {
+  points.loosen();
+  return interval_at(0, points);
+}
+
+}  // namespace
+
+FactorWithoutDilation find_factor_without_dilation(const CornerAssembly& assembly, const std::vector<Load<3>>& dead,
+                                                   const std::vector<Load<3>>& live) {
+  FactorWithoutDilation result;
+  const auto is_free = [](const CornerBody& body) { return std::ranges::any_of(body.free, std::identity()); };
+  if (std::ranges::none_of(assembly.bodies, is_free)) return result.status = LimitStatus::nothing_free, result;
+  FixedPoints points(assembly, dead, live);
+  if (!points.has_load()) return result.status = LimitStatus::no_load, result;
+
+  CornerAssembly smooth = assembly;
+  for (CornerFace& face : smooth.faces)
+    face.friction = face.cohesion = 0;
+  const bool pressed = solve(corner_program(smooth, dead, live)).status == ConeStatus::unbounded;
+  if (pressed) return result.status = LimitStatus::carries_any, result.programs = 1, result;
+
+  // the second has no part that vanishes with ε, but may end at forces that the loads do not ask for
+  std::optional<Interval> lowest = closed(points), other = loosened(points);
+  if (other && (!lowest || other->least < lowest->least - same_mechanism * std::max(1.0, std::abs(lowest->least))))
+    lowest = std::move(other);
+  result.rounds = points.rounds();
+  result.programs = 1 + points.programs();
+  if (!lowest) return result.status = LimitStatus::solver_failed, result;
+  result.settled = lowest->settled;
+  result.least = lowest->least;
+  result.largest = lowest->largest;
+  result.unbounded = lowest->unbounded;
+  if (const std::optional<double> associated = points.associated()) {
+    result.largest = std::max(result.least, std::min(result.largest, *associated));
+    ++result.programs;
+  }
+  if (lowest->at_least.status == ConeStatus::optimal) {
+    result.state.forces = corner_forces(assembly, lowest->at_least.x);
+    result.state.velocities = mechanism_of(assembly, lowest->at_least.y);
+  }
+  result.state.velocities.resize(assembly.bodies.size());
+  return result;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,27 @@
+// Limit analysis in space of joints that slip without opening. With the gap of every corner shifted by its slip s,
+// the associated program has the extra cost tan φ s N; at a fixed point s = |u_T| its mechanism obeys Coulomb's law
+// without dilation (Acary, Cadoux, Lemaréchal & Malick 2011). There a force on a slipping corner costs exactly what it
+// gains, so that the factor is not one number: normal forces which the loads do not ask for may add to it. The fixed
+// point is reached from loose joints, s large, and with s = (1 + ε)|u_T|, so that such forces vanish. It is the lowest
+// mechanism that was found; nothing proves that there is no lower one.
+#pragma once
+
+#include "core/limit/limit_in_space.hpp"
+
+namespace voussoir {
+
+struct FactorWithoutDilation {
+  LimitStatus status = LimitStatus::found;
+  bool settled = false;           // the slips agree with the mechanism
+  double least = 0, largest = 0;  // of forces that agree with the mechanism; equal to 1e-6 if it is one number
+  bool unbounded = false;         // there is no largest: self-stress may hold any load
+  int rounds = 0, programs = 0;   // of the fixed points; solved
+  LimitStateInSpace state;        // forces of the least factor, and the mechanism
+};
+
+// Of the live loads, in addition to the dead ones, as find_load_factor; a negative factor: the dead loads alone are not
+// carried. Some 100 to 400 programs.
+FactorWithoutDilation find_factor_without_dilation(const CornerAssembly& assembly, const std::vector<Load<3>>& dead,
+                                                   const std::vector<Load<3>>& live);
+
+}  // namespace voussoir

@@ -1,0 +1,98 @@
+// Factors of joints that slip without opening, against closed forms and moments by hand.
+#include "core/limit/without_dilation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <tuple>
+
+#include "core/testing/corner_scenes.hpp"
+
+namespace voussoir::without_dilation_test {
+namespace {
+
+using namespace corner_scenes;
+
+void expect_interval(const Scene& scene, double least, double largest, double error = 1e-7) {
+  const FactorWithoutDilation found = find_factor_without_dilation(scene.assembly, scene.dead, scene.live);
+  ASSERT_EQ(found.status, LimitStatus::found);
+  EXPECT_TRUE(found.settled);
+  EXPECT_FALSE(found.unbounded);
+  EXPECT_NEAR(found.least, least, error);
+  EXPECT_NEAR(found.largest, largest, 1e-6);
+  EXPECT_GE(found.largest, found.least);
+  EXPECT_LE(found.largest, scene.factor().status == LimitStatus::found ? scene.factor().factor + 1e-8 : 1e9);
+  EXPECT_FALSE(found.state.forces.empty());
+}
+
+// Rigid wedges pushed along their line: the closed form of limit equilibrium. With dilation the first carries 0.2907,
+// the second any push.
+TEST(WithoutDilation, WedgesHaveTheirClosedForm) {
+  const auto steep = symmetric(38, 45), shallow = symmetric(25, 30);
+  expect_interval(wedge(steep[0], steep[1], Plane{70, 0}.normal(), 35, true), 0.117811228, 0.117811228);
+  expect_interval(wedge(shallow[0], shallow[1], Plane{60, 0}.normal(), 35, true), 0.565089958, 0.565089958);
+}
+
+// A column of 0.5 x 0.5 x 2 m between two blocks that touch its sides: it topples at b/h, unless normal forces on its
+// sides, which slip, add friction.
+TEST(WithoutDilation, AColumnTopplesBetweenItsNeighbours) {
+  Scene scene;
+  const auto box = [&](double x, double y, double lx, double ly, double lz) {
+    const Point centroid(x + lx / 2, y + ly / 2, lz / 2);
+    const double weight = lx * ly * lz;
+    const int body = scene.add(centroid, weight, 0.5 * Point(lx, ly, lz).norm());
+    scene.touch(0, body, {{x, y, 0}, {x + lx, y, 0}, {x + lx, y + ly, 0}, {x, y + ly, 0}}, {0, 0, 1}, 35);
+    scene.push(body, {weight, 0, 0}, centroid);
+    return body;
+  };
+  const int left = box(0, 0, 2, 1, 2), column = box(0.75, 1, 0.5, 0.5, 2), right = box(0, 1.5, 2, 1, 2);
+  for (const auto& [a, b, y] : {std::tuple{left, column, 1.0}, {column, right, 1.5}})
+    scene.touch(a, b, {{0.75, y, 0}, {1.25, y, 0}, {1.25, y, 2}, {0.75, y, 2}}, {0, 1, 0}, 35);
+  expect_interval(scene, 0.25, 0.699264);
+}
+
+// The largest is that of joints that dilate; the least that of moments about the corner bricks' toes.
+TEST(WithoutDilation, Walls) {
+  expect_interval(wall(4, 3, 1, 0.5, 0.4, 35, {1, 0, 0}), 7.0 / 11, 0.663710961);
+  expect_interval(wall(6, 4, 0.5, 0.25, 0.3, 35, {1, 0, 0}), 11.0 / 19, 0.615635676);
+}
+
+TEST(WithoutDilation, ASquareBlock) {
+  Scene scene;
+  const int block = scene.add({0, 0, 0.5}, 1, 0.87);
+  scene.touch(0, block, rectangle(1, 1), {0, 0, 1}, 30);
+  // pushed across its diagonal it turns about one of four corners, of which one diagonal may carry all
+  scene.push(block, Point(1, -1, 0).normalized(), {0.5, 0.5, 0});
+  expect_interval(scene, std::tan(30 * degree) / 2, std::tan(30 * degree) / std::numbers::sqrt2);
+  scene.push(block, {1, 0, 0}, {0, 0, 0});
+  expect_interval(scene, std::tan(30 * degree), std::tan(30 * degree));
+  scene.push(block, {0, 0, -1}, {0, 0, 0});
+  EXPECT_EQ(find_factor_without_dilation(scene.assembly, scene.dead, scene.live).status, LimitStatus::carries_any);
+}
+
+// nothing presses the walls of a drawer: it falls, or is held by any force between them
+TEST(WithoutDilation, ADrawerFalls) {
+  Scene scene;
+  const int block = scene.add(Point::Zero(), 1, 0.87);
+  const auto side = [](double x) {
+    return std::vector<Point>{{x, -0.5, -0.5}, {x, 0.5, -0.5}, {x, 0.5, 0.5}, {x, -0.5, 0.5}};
+  };
+  scene.touch(0, block, side(-0.5), {1, 0, 0}, 35);
+  scene.touch(block, 0, side(0.5), {1, 0, 0}, 35);
+  scene.push(block, {0, 0, -1}, Point::Zero());
+  const FactorWithoutDilation found = find_factor_without_dilation(scene.assembly, scene.dead, scene.live);
+  EXPECT_TRUE(found.settled);
+  EXPECT_TRUE(found.unbounded);
+  EXPECT_NEAR(found.least, -1, 1e-6);
+}
+
+TEST(WithoutDilation, HasNothingToFind) {
+  Scene scene;
+  EXPECT_EQ(find_factor_without_dilation(scene.assembly, scene.dead, scene.live).status, LimitStatus::nothing_free);
+  scene.add({0, 0, 0.5}, 1, 0.87);
+  EXPECT_EQ(find_factor_without_dilation(scene.assembly, scene.dead, scene.live).status, LimitStatus::no_load);
+}
+
+}  // namespace
+}  // namespace voussoir::without_dilation_test
