@@ -224,7 +224,7 @@ void add_limit(CLI::App& program, Action& action) {
                     "always have theirs); it is plastic, and tension is left out");
   command
       ->add_flag("--without-dilation", arguments.without_dilation,
-                 "in space: also the factor of the load for joints that slip without opening, some 200 programs")
+                 "in space: also the factor of the load for joints that slip without opening, some hundred programs")
       ->needs(load);
   add_overwrite(command, arguments.overwrite);
   command->add_flag("--quiet", arguments.quiet, "no warnings and no summary");

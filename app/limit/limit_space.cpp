@@ -97,11 +97,9 @@ void seek_factor_without_dilation(const LiveLoadInSpace& live, const LoadsInSpac
     return analysis.caveats.push_back("without dilation: normal forces alone, without friction, carry any factor");
   if (found.status != LimitStatus::found)
     return analysis.caveats.push_back("without dilation: no mechanism was found, as forces grow without bound");
-  constexpr double numerical = 1e-6;  // of 1 or of the factor: closed forms are met to 1e-7
-  const auto add = [&](const char* name, double factor) {
-    std::optional<double> bar;
-    if (found.settled) bar = numerical * std::max(1.0, std::abs(factor));
-    analysis.values.emplace_back(name, Value{factor, "1", bar, "joints that slip without opening"});
+  const auto add = [&](const char* name, const EndOfFactor& end) {
+    const std::optional<double> bar = found.settled ? std::optional(end.error) : std::nullopt;
+    analysis.values.emplace_back(name, Value{end.factor, "1", bar, "joints that slip without opening"});
   };
   add("collapse_factor_least", found.least);
   if (!found.unbounded) add("collapse_factor_largest", found.largest);
@@ -113,12 +111,12 @@ void seek_factor_without_dilation(const LiveLoadInSpace& live, const LoadsInSpac
     analysis.caveats.push_back(
         "without dilation: no factor is the largest, as normal forces between blocks that the loads do not ask for may "
         "hold any load");
-  else if (found.largest - found.least > numerical * std::max(1.0, std::abs(found.least)))
+  else if (found.largest.factor - found.least.factor > found.largest.error + found.least.error)
     analysis.caveats.push_back(
         "without dilation: from the least to the largest factor blocks are held by forces that the loads do not ask "
         "for. Of columns held by their sides the least was right, of toppling slopes the largest; confirm it with "
         "'voussoir run'");
-  if (found.least < 0)
+  if (found.least.factor < 0)
     analysis.caveats.push_back(
         "without dilation: a negative factor means that gravity alone brings blocks down, unless such forces hold "
         "them");

@@ -109,7 +109,7 @@ TEST_F(LimitSpace, AnswersForJointsThatDoNotDilate) {
   EXPECT_EQ(alone.code, 0) << alone.out << alone.err;
   EXPECT_NEAR(value("collapse_factor_least"), 0.25, 2e-7);
   EXPECT_NEAR(value("collapse_factor_largest"), 0.25, 1e-6);
-  EXPECT_EQ(results("out")["values"]["collapse_factor_least"]["error_bar"], 1e-6);
+  EXPECT_GE(results("out")["values"]["collapse_factor_least"]["error_bar"], 1e-6);
   for (const char* part : {"lowest mechanism that was found", "rounds from loose joints"})
     EXPECT_NE(alone.out.find(part), std::string::npos) << part << "\n" << alone.out;
   EXPECT_EQ(alone.out.find("do not ask for"), std::string::npos) << alone.out;

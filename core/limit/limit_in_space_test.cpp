@@ -15,7 +15,7 @@ namespace {
 
 using namespace corner_scenes;
 
-void expect_factor(const Scene& scene, double expected) {
+void expect_factor(const CornerScene& scene, double expected) {
   const LoadFactorInSpace found = scene.factor();
   ASSERT_EQ(found.status, LimitStatus::found);
   EXPECT_NEAR(found.factor, expected, 2e-9);
@@ -26,7 +26,7 @@ void expect_factor(const Scene& scene, double expected) {
 
 // ---- wedges --------------------------------------------------------------------------------------------------------
 
-void expect_friction(const Scene& scene, double expected) {
+void expect_friction(const CornerScene& scene, double expected) {
   const CriticalStrengthInSpace found = scene.friction();
   ASSERT_EQ(found.status, LimitStatus::found);
   EXPECT_NEAR(to_degrees(found.stands), expected, 3e-6);
@@ -92,7 +92,7 @@ TEST(LimitInSpace, PushesABlockOnAnInclineInAnyDirection) {
                         {1, 1, 2, 10, 40, 180, 0.741719567},
                         {1, 0.8, 1.2, 15, 45, 135, 1.100585212}}) {
     SCOPED_TRACE(p.factor);
-    Scene scene;  // in axes of the plane: down the dip, along the strike, out of it
+    CornerScene scene;  // in axes of the plane: down the dip, along the strike, out of it
     const Point centroid(0, 0, p.height / 2);
     const int block = scene.add(centroid, 1, 0.5 * Point(p.along, p.across, p.height).norm());
     const double dip = p.dip * degree, direction = p.direction * degree;
@@ -105,7 +105,7 @@ TEST(LimitInSpace, PushesABlockOnAnInclineInAnyDirection) {
 }
 
 TEST(LimitInSpace, TwistsASquareBlock) {
-  Scene scene;
+  CornerScene scene;
   const int block = scene.add({0, 0, 0.5}, 1, 0.87);
   scene.touch(0, block, rectangle(1, 1), {0, 0, 1}, 30);
   scene.live[block].moment = {0, 0, 1};
@@ -120,7 +120,7 @@ TEST(LimitInSpace, TwistsASquareBlock) {
 
 // Cohesion resists sliding by c A, a trapezoid too: its shares keep the resultant at the centroid.
 TEST(LimitInSpace, CountsCohesion) {
-  Scene scene;
+  CornerScene scene;
   const std::vector<Point> trapezoid{{0, 0, 0}, {2, 0, 0}, {1.5, 1, 0}, {0, 1, 0}};
   const double area = 1.75;
   const Point middle((1.5 * 1 * 0.75 + 0.25 * (1.5 + 0.5 / 3)) / area, (1.5 * 0.5 + 0.25 / 3) / area, 0);
@@ -161,7 +161,7 @@ TEST(LimitInSpace, BringsAnArchDown) {
   constexpr int count = 15;
   constexpr double thick = 0.15, deep = 0.7;
   for (const double degrees : {40.0, 60.0}) {
-    Scene scene;
+    CornerScene scene;
     const auto at = [&](int joint, double radius, double y) {
       const double angle = std::numbers::pi * joint / count;
       return Point(-radius * std::cos(angle), y, radius * std::sin(angle));
@@ -193,7 +193,7 @@ TEST(LimitInSpace, BringsAnArchDown) {
 
 // a block between two parallel walls: any friction above zero holds it, by forces that grow without bound
 TEST(LimitInSpace, KnowsADrawer) {
-  Scene scene;
+  CornerScene scene;
   const int block = scene.add(Point::Zero(), 1, 0.87);
   const auto side = [](double x) {
     return std::vector<Point>{{x, -0.5, -0.5}, {x, 0.5, -0.5}, {x, 0.5, 0.5}, {x, -0.5, 0.5}};
@@ -208,7 +208,7 @@ TEST(LimitInSpace, KnowsADrawer) {
 // A wedge that can fall straight out of a roof: from sin φ = 1/|V⁻¹ (1, 1, 1)'| on its joints clamp it.
 TEST(LimitInSpace, HoldsARoofWedgeBySelfStress) {
   for (const double degrees : {29.9, 30.1}) {
-    Scene scene;
+    CornerScene scene;
     std::array<Point, 3> normals;  // into the wedge
     for (int k = 0; k < 3; ++k)
       normals[k] = -Plane{60, 30.0 + 120 * k}.normal();
@@ -227,7 +227,7 @@ TEST(LimitInSpace, HoldsARoofWedgeBySelfStress) {
 }
 
 TEST(LimitInSpace, HasNothingToFind) {
-  Scene scene;
+  CornerScene scene;
   EXPECT_EQ(scene.factor().status, LimitStatus::nothing_free);
   EXPECT_EQ(scene.friction().status, LimitStatus::nothing_free);
   const int block = scene.add({0, 0, 0.5}, 1, 0.87);

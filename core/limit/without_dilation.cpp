@@ -18,6 +18,7 @@ constexpr int most_polishing = 40;
 constexpr double slips_equal = 1e-9;                        // of the largest
 constexpr double slips_agree = 1e-4;                        // of the largest
 constexpr double first_excess = 0.01, last_excess = 0.001;  // ε
+constexpr double numerical = 1e-6;                          // of 1 or of a factor: closed forms are met to 1e-7
 constexpr double same_mechanism = 1e-4;                     // of the factor: a lower one belongs to another
 constexpr double first_aside = 1e-3, last_aside = 1e-4;     // of the slips, for the ends of the interval
 
@@ -132,19 +133,22 @@ class FixedPoints {
 // to the slips themselves.
 struct Interval {
   bool settled = false, unbounded = false;
-  double least = 0, largest = 0;
+  EndOfFactor least, largest;
   ConeProgramAnswer at_least;
 };
 
-double to_zero(double at_first, double at_last, double first, double last) {
-  return (first * at_last - last * at_first) / (first - last);
+// where a number that is at `first` and at `last` of something small goes as it vanishes; it may be off by as much as
+// the last was
+EndOfFactor to_zero(double at_first, double at_last, double first, double last) {
+  const double at_zero = (first * at_last - last * at_first) / (first - last);
+  return {at_zero, std::max(numerical * std::max(1.0, std::abs(at_zero)), std::abs(at_zero - at_last))};
 }
 
 std::optional<Interval> interval_at(double excess, FixedPoints& points) {
   const auto settled = points.settle(excess);
   if (!settled) return {};
-  Interval found{.settled = settled->settled, .least = settled->factor, .largest = settled->factor};
-  const auto end = [&](double sign) -> std::optional<double> {
+  Interval found{.settled = settled->settled};
+  const auto end = [&](double sign) -> std::optional<EndOfFactor> {
     double at[2];
     for (int k = 0; k < 2; ++k) {
       const double aside = k == 0 ? first_aside : last_aside;
@@ -155,10 +159,10 @@ std::optional<Interval> interval_at(double excess, FixedPoints& points) {
     }
     return to_zero(at[0], at[1], first_aside, last_aside);
   };
-  if (const std::optional<double> least = end(1)) found.least = *least;
-  const std::optional<double> largest = end(-1);
+  found.least = end(1).value_or(EndOfFactor{settled->factor, numerical * std::max(1.0, std::abs(settled->factor))});
+  const std::optional<EndOfFactor> largest = end(-1);
   found.unbounded = !largest;
-  found.largest = std::max(found.least, largest.value_or(found.least));
+  found.largest = largest.value_or(found.least);
   return found;
 }
 
@@ -169,8 +173,14 @@ std::optional<Interval> loosened(FixedPoints& points) {
   if (!first) return {};
   std::optional<Interval> last = interval_at(last_excess, points);
   if (!last) return {};
-  last->least = to_zero(first->least, last->least, first_excess, last_excess);
-  last->largest = std::max(last->least, to_zero(first->largest, last->largest, first_excess, last_excess));
+  const auto of_both = [](const EndOfFactor& at_first, const EndOfFactor& at_last) {
+    EndOfFactor end = to_zero(at_first.factor, at_last.factor, first_excess, last_excess);
+    end.error = std::max(end.error, at_last.error);
+    return end;
+  };
+  last->least = of_both(first->least, last->least);
+  last->largest = of_both(first->largest, last->largest);
+  last->unbounded = last->unbounded || first->unbounded;
   last->settled = last->settled && first->settled;
   return last;
 }
@@ -198,8 +208,10 @@ FactorWithoutDilation find_factor_without_dilation(const CornerAssembly& assembl
 
   // the second has no part that vanishes with ε, but may end at forces that the loads do not ask for
   std::optional<Interval> lowest = closed(points), other = loosened(points);
-  if (other && (!lowest || other->least < lowest->least - same_mechanism * std::max(1.0, std::abs(lowest->least))))
-    lowest = std::move(other);
+  const auto is_lower = [](const Interval& a, const Interval& b) {
+    return a.least.factor < b.least.factor - same_mechanism * std::max(1.0, std::abs(b.least.factor));
+  };
+  if (other && (!lowest || is_lower(*other, *lowest))) lowest = std::move(other);
   result.rounds = points.rounds();
   result.programs = 1 + points.programs();
   if (!lowest) return result.status = LimitStatus::solver_failed, result;
@@ -208,9 +220,10 @@ FactorWithoutDilation find_factor_without_dilation(const CornerAssembly& assembl
   result.largest = lowest->largest;
   result.unbounded = lowest->unbounded;
   if (const std::optional<double> associated = points.associated()) {
-    result.largest = std::max(result.least, std::min(result.largest, *associated));
+    result.largest.factor = std::min(result.largest.factor, *associated);
     ++result.programs;
   }
+  result.largest.factor = std::max(result.largest.factor, result.least.factor);
   if (lowest->at_least.status == ConeStatus::optimal) {
     result.state.forces = corner_forces(assembly, lowest->at_least.x);
     result.state.velocities = mechanism_of(assembly, lowest->at_least.y);

@@ -10,13 +10,17 @@
 
 namespace voussoir {
 
+struct EndOfFactor {
+  double factor = 0, error = 0;
+};
+
 struct FactorWithoutDilation {
   LimitStatus status = LimitStatus::found;
-  bool settled = false;           // the slips agree with the mechanism
-  double least = 0, largest = 0;  // of forces that agree with the mechanism; equal to 1e-6 if it is one number
-  bool unbounded = false;         // there is no largest: self-stress may hold any load
-  int rounds = 0, programs = 0;   // of the fixed points; solved
-  LimitStateInSpace state;        // forces of the least factor, and the mechanism
+  bool settled = false;          // the slips agree with the mechanism
+  EndOfFactor least, largest;    // of forces that agree with the mechanism
+  bool unbounded = false;        // there is no largest: self-stress may hold any load
+  int rounds = 0, programs = 0;  // of the fixed points; solved
+  LimitStateInSpace state;       // forces of the least factor, and the mechanism
 };
 
 // Of the live loads, in addition to the dead ones, as find_load_factor; a negative factor: the dead loads alone are not

@@ -13,7 +13,7 @@ namespace voussoir::corner_scenes {
 using Point = Vector<3>;
 
 // Blocks and faces stated by hand; the body 0 is fixed.
-struct Scene {
+struct CornerScene {
   CornerAssembly assembly{{CornerBody{Point::Zero(), 1, 1, {}}}, {}, {}};
   std::vector<Load<3>> dead{1}, live{1};
 
@@ -50,14 +50,14 @@ inline Point meet(const Point& a, double at_a, const Point& b, double at_b, cons
 
 // The tetrahedron between two joints, a level top and a slope face; the line of the joints daylights 1 m below the
 // crest.
-inline Scene wedge(const Point& a, const Point& b, const Point& face, double degrees, bool turns) {
+inline CornerScene wedge(const Point& a, const Point& b, const Point& face, double degrees, bool turns) {
   const Point low(0, 0, -1), up(0, 0, 1),
       far = meet(a, a.dot(low), b, b.dot(low), up, 0), on_a = meet(a, a.dot(low), face, face.dot(low), up, 0),
       on_b = meet(b, b.dot(low), face, face.dot(low), up, 0), centroid = (low + far + on_a + on_b) / 4;
   double radius = 0;
   for (const Point& corner : {low, far, on_a, on_b})
     radius = std::max(radius, (corner - centroid).norm());
-  Scene scene;
+  CornerScene scene;
   const int block = scene.add(centroid, 1, radius, turns);
   scene.touch(0, block, {low, far, on_a}, a, degrees);
   scene.touch(0, block, {low, far, on_b}, b, degrees);
@@ -78,13 +78,13 @@ inline std::vector<Point> rectangle(double x, double y) {
 }
 
 // running bond on a rigid floor, pushed in its plane or across
-inline Scene wall(int courses, int bricks, double length, double height, double thickness, double degrees,
-                  const Point& push) {
+inline CornerScene wall(int courses, int bricks, double length, double height, double thickness, double degrees,
+                        const Point& push) {
   struct Brick {
     double begin, end;
     int body;
   };
-  Scene scene;
+  CornerScene scene;
   std::vector<Brick> below{{0, bricks * length, 0}};
   const auto upright = [&](double x, double z) {
     return std::vector<Point>{{x, 0, z}, {x, thickness, z}, {x, thickness, z + height}, {x, 0, z + height}};
