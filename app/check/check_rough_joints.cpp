@@ -62,9 +62,7 @@ std::string rough_joint_angles(const Model<Dim>& model, int properties) {
   }
   if (stresses.empty()) return {};
   std::ranges::sort(stresses);
-  const auto angle = [&](double stress) {
-    return to_degrees(peak_friction(model.properties[properties], stress));
-  };
+  const auto angle = [&](double stress) { return to_degrees(peak_friction(model.properties[properties], stress)); };
   const double least = stresses.front(), median = stresses[stresses.size() / 2], most = stresses.back();
   return fmt::format(
       "peak angle {:.3g}, {:.3g}, {:.3g} deg at {}, {}, {}: least, median and largest stress of a face "

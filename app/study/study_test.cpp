@@ -180,8 +180,7 @@ set = ["damping.local=0.6"]
 )");
   const Ended ended = run("study study.toml --out out");
   EXPECT_EQ(ended.code, 1);
-  EXPECT_NE(ended.out.find("(patience: stage.settle.step_limit = 5): incomplete: stage settle"),
-            std::string::npos)
+  EXPECT_NE(ended.out.find("(patience: stage.settle.step_limit = 5): incomplete: stage settle"), std::string::npos)
       << ended.out;
   ASSERT_EQ(rows().size(), 4u);
   EXPECT_NE(rows()[2].find("top_displacement_z,,,,"), std::string::npos) << rows()[2];

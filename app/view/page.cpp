@@ -66,9 +66,10 @@ std::string view_bytes(const std::filesystem::path& file) {
   }
   const ViewExtent whole = view_extent(bytes, std::numeric_limits<int>::max());
   if (whole.frames == 0)
-    throw BadInput(fmt::format(
-        "'{}' is no file of a run for the viewer, or is damaged or of an earlier version: run the scene again with 'voussoir run … --view'",
-        file.string()));
+    throw BadInput(
+        fmt::format("'{}' is no file of a run for the viewer, or is damaged or of an earlier version: run the scene "
+                    "again with 'voussoir run … --view'",
+                    file.string()));
   bytes.resize(whole.bytes);
   return bytes;
 }
