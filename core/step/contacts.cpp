@@ -203,9 +203,9 @@ void resolve(const Model<Dim>& model, const Settings& settings, const BodiesStat
 
 // the contacts of one group
 template <int Dim, bool Places>
-void find_contacts_of(const Model<Dim>& model, const Settings& settings, double climb, const BodiesState<Dim>& bodies,
-                      QueryLevel level, double gap, int group, const FoundContacts<Dim>& found,
-                      ContactsState<Dim>& contacts, Tally& tally) {
+void find_contacts_of(const Model<Dim>& model, const Settings& settings, const Climb& climb,
+                      const BodiesState<Dim>& bodies, QueryLevel level, double gap, int group,
+                      const FoundContacts<Dim>& found, ContactsState<Dim>& contacts, Tally& tally) {
   static thread_local PendingPairs<Dim> pending;
   const auto resolve_waiting = [&] {
     resolve<Dim, Places>(model, settings, bodies, gap, pending, contacts, tally);
@@ -271,12 +271,12 @@ void find_contacts(const Model<Dim>& model, const Settings& settings, double sec
   std::vector<Tally>& tallies = own;  // of this thread, filled by all
   tallies.assign(groups_of(contacts.list.size()), {});
   const bool places = !contacts.rises.empty();
-  const double climb = places ? steepest_climb(model, seconds) : 0;
+  const Climb climb = places ? climb_over(model, seconds) : Climb{};
   on_threads(settings.threads, static_cast<int>(tallies.size()), [&](int group) {
     if (places)
       find_contacts_of<Dim, true>(model, settings, climb, bodies, level, gap, group, found, contacts, tallies[group]);
     else
-      find_contacts_of<Dim, false>(model, settings, 0, bodies, level, gap, group, found, contacts, tallies[group]);
+      find_contacts_of<Dim, false>(model, settings, climb, bodies, level, gap, group, found, contacts, tallies[group]);
   });
   for (const Tally& tally : tallies)
     add(counters, tally);

@@ -15,31 +15,36 @@
 
 namespace voussoir {
 
-// m per m/s of slip: how much a joint of the model may rise at most over a step, s
+// How much a joint of the model may rise at most over a step: m per m of slip, and the step's length, s; 0: nothing
+// moves.
+struct Climb {
+  double steepest = 0, seconds = 0;
+};
+
 template <int Dim>
-double steepest_climb(const Model<Dim>& model, double seconds) {
-  double steepest = 0;
+Climb climb_over(const Model<Dim>& model, double seconds) {
+  Climb climb{0, seconds};
   for (const JointProperties& p : model.properties)
-    steepest = std::max(steepest, steepest_dilation(p));
-  return steepest * seconds;
+    climb.steepest = std::max(climb.steepest, steepest_dilation(p));
+  return climb;
 }
 
 // m: by this a pair is drawn together before its contact is found, along the last normal of the joint: its highest
-// rise, and a bound of what the slip of the last step may add to it, with `climb` of steepest_climb. Without that a
+// rise, and a bound of what the slip of the last step may add to it, with `climb` of climb_over. Without that a
 // block that slips farther in a step than its overlap over the dilation would lose its contact; closure_of subtracts
 // what is too much. 0: the joint has never touched, or none of the model remembers its place.
 template <int Dim>
 double drawn_by(const Model<Dim>& model, const BodiesState<Dim>& bodies, const Contact<Dim>& c,
-                std::span<const JointRise<Dim>> rises, double climb) {
+                std::span<const JointRise<Dim>> rises, const Climb& climb) {
   double highest = -1;
   for (const JointRise<Dim>& rise : rises)
     if (!rise.normal.isZero(0)) highest = std::max(highest, rise.rise);
-  if (highest < 0 || climb == 0) return 0;
+  if (highest < 0 || climb.steepest == 0) return 0;
   const int first = model.parts[c.part_a].body, second = model.parts[c.part_b].body;
   const CachedPose<Dim>&a = bodies.poses[first], &b = bodies.poses[second];
   const double speed = (b.velocity - a.velocity).norm() + a.spin.norm() * model.bodies[first].radius +
                        b.spin.norm() * model.bodies[second].radius;
-  return highest + climb * speed;
+  return highest + climb.steepest * speed * climb.seconds;
 }
 
 // m: of the joint's spring, by the overlap that was found of the drawn pair

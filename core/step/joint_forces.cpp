@@ -244,7 +244,7 @@ template <int Dim>
 template <int Dim, bool Places>
 [[gnu::always_inline]] inline void answer(const Model<Dim>& model, const Settings& settings,
                                           const std::vector<Friction>& frictions, const JointStep& step,
-                                          const BodiesState<Dim>& bodies, std::size_t place, double climb,
+                                          const BodiesState<Dim>& bodies, std::size_t place, const Climb& climb,
                                           ContactsState<Dim>& contacts, JointSums& sums) {
   Contact<Dim>& c = contacts.list[place];
   if (!c.touching()) {
@@ -396,7 +396,7 @@ void find_joint_forces(const Model<Dim>& model, const Settings& settings, const 
   sums.assign(groups_of(contacts.list.size()), {});
   const std::vector<Friction>& frictions = frictions_of(schedule);
   const auto find = [&](auto places) {
-    const double climb = places ? steepest_climb(model, step.length) : 0;
+    const Climb climb = places ? climb_over(model, step.length) : Climb{};
     const auto answer_found = [&](int group, std::span<Contact<Dim>* const> found) {
       for (const Contact<Dim>* c : found)
         answer<Dim, decltype(places)::value>(model, settings, frictions, step, bodies,
@@ -416,7 +416,7 @@ void apply_joint_laws(const Model<Dim>& model, const Settings& settings, const S
   contacts.loads.resize(contacts.list.size());
   const std::vector<Friction>& frictions = frictions_of(schedule);
   const auto work = [&](auto places) {
-    const double climb = places ? steepest_climb(model, step.length) : 0;
+    const Climb climb = places ? climb_over(model, step.length) : Climb{};
     return sums_in_groups<JointSums>(settings.threads, contacts.list.size(), [&](int i, JointSums& sum) {
       answer<Dim, decltype(places)::value>(model, settings, frictions, step, bodies, static_cast<std::size_t>(i), climb,
                                            contacts, sum);

@@ -109,7 +109,7 @@ struct MovedContacts {
   std::vector<std::size_t> of_kernel;  // indices in `contacts`
 
   void find(const Model<Dim>& model, const Settings& settings, const BodiesState<Dim>& bodies,
-            const ContactsState<Dim>& candidates, const JointHistories<Dim>& histories, double climb,
+            const ContactsState<Dim>& candidates, const JointHistories<Dim>& histories, const Climb& climb,
             std::span<const PairStiffness<Dim>> batch, KernelCounters& counters) {
     pairs.clear();
     asked.clear();
@@ -165,7 +165,7 @@ void difference(const Model<Dim>& model, const Settings& settings, const Schedul
   static thread_local std::vector<SubContact<Dim>> cells;
   static thread_local IntegratedContact<Dim> pressed;
   static thread_local HalfSpaces<Dim> planes;
-  const double climb = steepest_climb(model, joint_step.length);
+  const Climb climb = climb_over(model, joint_step.length);
   after.find(model, settings, bodies, contacts, histories, climb, batch, counters);
 
   cells.resize(sub_stride(contacts));
