@@ -81,15 +81,18 @@ void seek_factor_in_space(const LiveLoadInSpace& live, const LoadsInSpace& gravi
   if (found.status == LimitStatus::carries_any && live.beside_gravity) analysis.caveats.push_back(pressed_caveat);
 }
 
-// of the same load: what forces that agree with a mechanism without dilation carry
-void seek_factor_without_dilation(const LiveLoadInSpace& live, const LoadsInSpace& gravity,
-                                  LimitAnalysisInSpace& analysis) {
-  for (const JointProperties& p : analysis.model.properties)
+void refuse_envelopes(const Model<3>& model) {
+  for (const JointProperties& p : model.properties)
     if (p.follows_barton_bandis())
       throw BadInput(
           fmt::format("--without-dilation: joint_properties '{}' follow Barton and Bandis' envelope, which is followed "
                       "with dilation only; leave out --without-dilation",
                       p.name));
+}
+
+// of the same load: what forces that agree with a mechanism without dilation carry
+void seek_factor_without_dilation(const LiveLoadInSpace& live, const LoadsInSpace& gravity,
+                                  LimitAnalysisInSpace& analysis) {
   const FactorWithoutDilation found = find_factor_without_dilation(
       analysis.assembly, live.beside_gravity ? gravity : LoadsInSpace(gravity.size()), live.loads);
   analysis.evidence.programs += found.programs;
@@ -196,6 +199,7 @@ LimitAnalysisInSpace analyse_limit_in_space(const LoadedScene& scene, const Limi
   analysis.input_hash = scene.hash;
   analysis.model = prepared.model;
   const Model<3>& model = analysis.model;
+  if (request.without_dilation) refuse_envelopes(model);
   const StagePlan* analysed = stage_of_forces(prepared.stages, request);
 
   // water grows with the factor of gravity, as in a run

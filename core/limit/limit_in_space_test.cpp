@@ -193,14 +193,7 @@ TEST(LimitInSpace, BringsAnArchDown) {
 
 // a block between two parallel walls: any friction above zero holds it, by forces that grow without bound
 TEST(LimitInSpace, KnowsADrawer) {
-  CornerScene scene;
-  const int block = scene.add(Point::Zero(), 1, 0.87);
-  const auto side = [](double x) {
-    return std::vector<Point>{{x, -0.5, -0.5}, {x, 0.5, -0.5}, {x, 0.5, 0.5}, {x, -0.5, 0.5}};
-  };
-  scene.touch(0, block, side(-0.5), {1, 0, 0}, 35);
-  scene.touch(block, 0, side(0.5), {1, 0, 0}, 35);
-  scene.push(block, {0, 0, -1}, Point::Zero());
+  const CornerScene scene = drawer();
   EXPECT_EQ(scene.factor().status, LimitStatus::carries_any);
   EXPECT_EQ(scene.friction().status, LimitStatus::not_attained);
 }

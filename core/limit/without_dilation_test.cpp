@@ -75,14 +75,7 @@ TEST(WithoutDilation, ASquareBlock) {
 
 // nothing presses the walls of a drawer: it falls, or is held by any force between them
 TEST(WithoutDilation, ADrawerFalls) {
-  CornerScene scene;
-  const int block = scene.add(Point::Zero(), 1, 0.87);
-  const auto side = [](double x) {
-    return std::vector<Point>{{x, -0.5, -0.5}, {x, 0.5, -0.5}, {x, 0.5, 0.5}, {x, -0.5, 0.5}};
-  };
-  scene.touch(0, block, side(-0.5), {1, 0, 0}, 35);
-  scene.touch(block, 0, side(0.5), {1, 0, 0}, 35);
-  scene.push(block, {0, 0, -1}, Point::Zero());
+  const CornerScene scene = drawer();
   const FactorWithoutDilation found = find_factor_without_dilation(scene.assembly, scene.dead, scene.live);
   EXPECT_TRUE(found.settled);
   EXPECT_TRUE(found.unbounded);

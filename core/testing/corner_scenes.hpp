@@ -115,4 +115,17 @@ inline CornerScene wall(int courses, int bricks, double length, double height, d
   return scene;
 }
 
+// a cube between two parallel walls, pushed down by its weight
+inline CornerScene drawer() {
+  CornerScene scene;
+  const int block = scene.add(Point::Zero(), 1, 0.87);
+  const auto side = [](double x) {
+    return std::vector<Point>{{x, -0.5, -0.5}, {x, 0.5, -0.5}, {x, 0.5, 0.5}, {x, -0.5, 0.5}};
+  };
+  scene.touch(0, block, side(-0.5), {1, 0, 0}, 35);
+  scene.touch(block, 0, side(0.5), {1, 0, 0}, 35);
+  scene.push(block, {0, 0, -1}, Point::Zero());
+  return scene;
+}
+
 }  // namespace voussoir::corner_scenes
