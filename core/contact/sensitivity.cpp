@@ -1,6 +1,5 @@
 #include "core/contact/sensitivity.hpp"
 
-#include <array>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -13,47 +12,60 @@
 namespace voussoir {
 namespace {
 
-// One motion of the second body, in the first one's frame, and the changes of the contact so far.
+// Sums over planes of one part: of w a aᵀ, and of w a times a length.
 template <int Dim>
-struct Moved {
-  Vector<Dim> way;  // displacement of the second centroid
-  Spin<Dim> turn;
-  Vector<Dim> point, normal;  // of the contact
-
-  Vector<Dim> turning(const Vector<Dim>& v) const { return cross(turn, v); }
+struct PartSums {
+  Matrix<Dim> spread = Matrix<Dim>::Zero();
+  Vector<Dim> along = Vector<Dim>::Zero();
 };
 
-// An edge of the section of two blocks through the contact's point; no motion changes on which plane it lies.
-struct SectionEdge {
-  int plane;
-  Vector<3> middle;                 // m, seen from the point
-  double along_normal, in_section;  // the plane's normal, along the contact's and across it
-  double length;                    // m
-};
-
+// All motions at once: what depends on the planes is summed over them first, and is the same for every motion.
 template <int Dim>
 struct Finder {
+  static constexpr int F = freedoms<Dim>, S = spin_freedoms<Dim>;
+  using Vectors = FixedMatrix<Dim, F>;  // of every motion one
+  using Numbers = FixedMatrix<1, F>;
+
   const Pair<Dim>& pair;
   const HalfSpaces<Dim>& planes;  // seen from the contact point: offsets are slacks
   const Contact<Dim>& contact;
-  double size, radius;  // m: the smaller inscribed radius; of the potential particles
+  double radius;  // m: of the potential particles
   std::span<const double> weights;
   int faces_a = static_cast<int>(pair.a->faces.size());
-  Vector<Dim> lever = contact.proof.point - pair.offset;  // of the point about the second centroid
   const Vector<Dim>& n = contact.proof.axis;
+  FixedMatrix<S, S> turns = turns_of(pair);  // columns: of the motions that are turns
+  // of the second body's matter at the contact's point; of that point itself, of the normal
+  Vectors way = ways(), point{}, normal{};
 
   bool of_second(int plane) const { return plane >= faces_a; }
 
-  Vector<Dim> normal_change(int plane, const Moved<Dim>& m) const {
-    return of_second(plane) ? m.turning(planes[plane].normal) : Vector<Dim>(Vector<Dim>::Zero());
+  static FixedMatrix<S, S> turns_of(const Pair<Dim>& pair) {
+    if constexpr (Dim == 3)
+      return pair.axes.transpose();
+    else
+      return FixedMatrix<1, 1>::Ones();
   }
-  // at a fixed place
-  double slack_change_at_rest(int plane, const Moved<Dim>& m) const {
-    return of_second(plane) ? planes[plane].normal.dot(m.way + m.turning(lever)) : 0;
+
+  // of every motion, the change of a vector that turns with the second body
+  Vectors turned(const Vector<Dim>& v) const {
+    Vectors change = Vectors::Zero();
+    for (int s = 0; s < S; ++s)
+      change.col(Dim + s) = cross(Spin<Dim>(turns.col(s)), v);
+    return change;
+  }
+  Vectors ways() const {
+    Vectors all = turned(contact.proof.point - pair.offset);
+    all.template leftCols<Dim>() = pair.axes.transpose();
+    return all;
+  }
+
+  Vectors normal_change(int plane) const {
+    return of_second(plane) ? turned(planes[plane].normal) : Vectors(Vectors::Zero());
   }
   // at the contact's point, which moves
-  double slack_change(int plane, const Moved<Dim>& m) const {
-    return slack_change_at_rest(plane, m) - planes[plane].normal.dot(m.point);
+  Numbers slack_change(int plane) const {
+    const auto a = planes[plane].normal.transpose();
+    return of_second(plane) ? Numbers(a.lazyProduct(way - point)) : Numbers(-a.lazyProduct(point));
   }
 
   // ---- point --------------------------------------------------------------------------------------------------------
@@ -67,138 +79,151 @@ struct Finder {
     return t;
   }
 
-  bool find_point(const Matrix<Dim>& t, const Matrix<Dim>& hessian, Moved<Dim>& m) const {
-    Vector<Dim> right = Vector<Dim>::Zero();
-    for (int i = faces_a; i < static_cast<int>(planes.size()); ++i) {
-      const double slack = planes[i].offset;
-      right += weight_of(weights, i) *
-               (t.transpose() * (slack_change_at_rest(i, m) / slack * planes[i].normal - m.turning(planes[i].normal)) /
-                slack);
+  // of planes [first, last): rows in the axes t, over their slacks; false: the point is not within
+  bool add_barrier(const Matrix<Dim>& t, int first, int last, PartSums<Dim>& sums) const {
+    for (int i = first; i < last; ++i) {
+      const HalfSpace<Dim>& p = planes[i];
+      if (!(p.offset > 0)) return false;
+      const double weight = weight_of(weights, i);
+      const Vector<Dim> row = t.transpose().lazyProduct(p.normal) / p.offset;
+      sums.spread += weight * row.lazyProduct(row.transpose());
+      sums.along += weight / p.offset * p.normal;
     }
-    if (!solve_symmetric<Dim>(hessian, right)) return false;
-    m.point = t * right;
+    return true;
+  }
+
+  bool find_point() {
+    const Matrix<Dim> t = axes();
+    PartSums<Dim> of_a, of_b;
+    if (!add_barrier(t, 0, faces_a, of_a) || !add_barrier(t, faces_a, static_cast<int>(planes.size()), of_b))
+      return false;
+    const Vectors along_t = t.transpose().lazyProduct(way), turned_t = t.transpose().lazyProduct(turned(of_b.along));
+    Vectors right = of_b.spread.lazyProduct(along_t) - turned_t;
+    if (!solve_symmetric<Dim, F>(of_a.spread + of_b.spread, right)) return false;
+    point = t.lazyProduct(right);
     return true;
   }
 
   // ---- normal -------------------------------------------------------------------------------------------------------
 
   // one part's unit gradient and its change
-  void potential_change(int first, int last, const Moved<Dim>& m, Vector<Dim>& direction, Vector<Dim>& change) const {
-    Vector<Dim> gradient = Vector<Dim>::Zero(), gradient_change = Vector<Dim>::Zero();
+  void find_direction(int first, int last, Vector<Dim>& direction, Vectors& change) const {
+    PartSums<Dim> near;  // of the planes within the particle's radius
     double nearest = std::numeric_limits<double>::infinity();
     int face = first;
     for (int i = first; i < last; ++i) {
       const double slack = planes[i].offset;
       if (slack < radius) {
         const double weight = weight_of(weights, i);
-        gradient += weight * (radius - slack) * planes[i].normal;
-        gradient_change += weight * ((radius - slack) * normal_change(i, m) - slack_change(i, m) * planes[i].normal);
+        near.along += weight * (radius - slack) * planes[i].normal;
+        near.spread += weight * planes[i].normal.lazyProduct(planes[i].normal.transpose());
       }
       if (slack < nearest) {
         nearest = slack;
         face = i;
       }
     }
-    const double length = gradient.norm();
-    if (length > parallel_gradients * radius) {
-      direction = gradient / length;
-      change = (gradient_change - direction.dot(gradient_change) * direction) / length;
-    } else {
+    const double length = near.along.norm();
+    if (!(length > parallel_gradients * radius)) {
       direction = planes[face].normal;
-      change = normal_change(face, m);
+      change = normal_change(face);
+      return;
     }
+    direction = near.along / length;
+    const Vectors of_gradient = of_second(first) ? Vectors(turned(near.along) - near.spread.lazyProduct(way - point))
+                                                 : Vectors(near.spread.lazyProduct(point));
+    change = (of_gradient - direction.lazyProduct(direction.transpose().lazyProduct(of_gradient))) / length;
   }
 
-  void find_normal(Moved<Dim>& m) const {
-    Vector<Dim> of_a, of_b, change_a, change_b;
-    potential_change(0, faces_a, m, of_a, change_a);
-    potential_change(faces_a, static_cast<int>(planes.size()), m, of_b, change_b);
-    const Vector<Dim> change = change_a - change_b;
-    m.normal = (change - n.dot(change) * n) / (of_a - of_b).norm();
+  void find_normal() {
+    Vector<Dim> of_a, of_b;
+    Vectors change_a, change_b;
+    find_direction(0, faces_a, of_a, change_a);
+    find_direction(faces_a, static_cast<int>(planes.size()), of_b, change_b);
+    const Vectors change = change_a - change_b;
+    normal = (change - n.lazyProduct(n.transpose().lazyProduct(change))) / (of_a - of_b).norm();
   }
 
   // ---- overlap and area ---------------------------------------------------------------------------------------------
 
   // of the distance slack/(a·along) to a plane along a direction that changes
-  double distance_change(int plane, const Vector<Dim>& along, const Vector<Dim>& along_change,
-                         const Moved<Dim>& m) const {
+  Numbers distance_change(int plane, const Vector<Dim>& along, const Vectors& along_change) const {
     const Vector<Dim>& a = planes[plane].normal;
-    const double slope = a.dot(along), slope_change = normal_change(plane, m).dot(along) + a.dot(along_change);
-    return (slack_change(plane, m) - planes[plane].offset / slope * slope_change) / slope;
+    const double slope = a.dot(along);
+    const Numbers slope_change =
+        along.transpose().lazyProduct(normal_change(plane)) + a.transpose().lazyProduct(along_change);
+    return (slack_change(plane) - planes[plane].offset / slope * slope_change) / slope;
   }
 
-  double overlap_change(const Moved<Dim>& m) const {
-    return distance_change(contact.geometry.face_a, n, m.normal, m) +
-           distance_change(faces_a + contact.geometry.face_b, -n, -m.normal, m);
+  Numbers overlap_change() const {
+    return distance_change(contact.geometry.face_a, n, normal) +
+           distance_change(faces_a + contact.geometry.face_b, -n, -normal);
   }
 
-  // The plane of a place of the section's boundary, by the distance within the section.
-  int plane_at(const Vector<Dim>& place) const {
+  // The plane of a place of the section's boundary, by the distance within the section; `steep`: of every plane the
+  // length of its normal within it.
+  int plane_at(const Vector<Dim>& place, const std::vector<double>& steep) const {
     double least = std::numeric_limits<double>::infinity();
     int nearest = 0;
     for (int i = 0; i < static_cast<int>(planes.size()); ++i) {
-      const double along = planes[i].normal.dot(n), steep = std::sqrt(std::max(1 - along * along, 0.0));
       const double distance = std::abs(signed_distance(planes[i], place));
-      if (!(steep > 0 && distance < least * steep)) continue;  // one across the normal bounds no section
-      least = distance / steep;
+      if (!(steep[i] > 0 && distance < least * steep[i])) continue;  // one across the normal bounds no section
+      least = distance / steep[i];
       nearest = i;
     }
     return nearest;
   }
-
-  // The planes of the section's ends, its high one first.
-  std::array<int, 2> edges_of(const Segment& section) const {
-    const Vector<2> along = perpendicular(n);
-    return {plane_at(section.high * along), plane_at(section.low * along)};
+  const std::vector<double>& steepness() const {
+    static thread_local std::vector<double> steep;
+    steep.clear();
+    for (const HalfSpace<Dim>& p : planes) {
+      const double along = p.normal.dot(n);
+      steep.push_back(std::sqrt(std::max(1 - along * along, 0.0)));
+    }
+    return steep;
   }
 
-  double area_change(const Moved<Dim>& m, const std::array<int, 2>& ends) const {
+  Numbers area_change(const Segment& section) const {
     static_assert(Dim == 2);
-    const Vector<2> along = perpendicular(n), along_change = perpendicular(m.normal);
-    return distance_change(ends[0], along, along_change, m) + distance_change(ends[1], -along, -along_change, m);
+    const std::vector<double>& steep = steepness();
+    const Vector<2> along = perpendicular(n);
+    Vectors along_change;
+    for (int f = 0; f < F; ++f)
+      along_change.col(f) = perpendicular(Vector<2>(normal.col(f)));
+    return distance_change(plane_at(section.high * along, steep), along, along_change) +
+           distance_change(plane_at(section.low * along, steep), -along, -along_change);
   }
 
-  std::vector<SectionEdge> edges_of(const std::vector<Vector<2>>& section) const {
+  // Every edge moves outwards in the section's plane, linearly along itself: by its middle times its length. The
+  // section's axes turn with its normal and by nothing else.
+  Numbers area_change(const std::vector<Vector<2>>& section) const {
     static_assert(Dim == 3);
+    const std::vector<double>& steep = steepness();
     FixedMatrix<3, 2> t;
     t.col(0) = perpendicular(n);
     t.col(1) = n.cross(Vector<3>(t.col(0)));
-    std::vector<SectionEdge> edges;
-    edges.reserve(section.size());
+    // of edges of either part: of their planes' normals; of their middles, by the normal's turn and by the body's
+    Vector<3> of_a = Vector<3>::Zero(), of_b = of_a, by_normal = of_a, by_turn = of_a;
     for (std::size_t k = 0; k < section.size(); ++k) {
       const Vector<2>&here = section[k], &next = section[(k + 1) % section.size()];
-      const Vector<3> middle = t * (0.5 * (here + next));
-      const int plane = plane_at(middle);
+      const Vector<3> middle = t.lazyProduct(0.5 * (here + next));
+      const int plane = plane_at(middle, steep);
       const Vector<3>& a = planes[plane].normal;
-      edges.push_back({plane, middle, a.dot(n), Vector<2>(t.transpose() * a).norm(), (next - here).norm()});
+      const double weight = (next - here).norm() / Vector<2>(t.transpose().lazyProduct(a)).norm();
+      by_normal += weight * a.dot(n) * middle;
+      if (of_second(plane)) {
+        of_b += weight * a;
+        by_turn += weight * a.cross(middle);
+      } else {
+        of_a += weight * a;
+      }
     }
-    return edges;
-  }
-
-  // Every edge moves outwards in the section's plane, linearly along itself: by its middle times its length.
-  double area_change(const Moved<Dim>& m, const std::vector<SectionEdge>& edges) const {
-    double sum = 0;
-    for (const SectionEdge& e : edges) {
-      // the section's axes turn with its normal and by nothing else
-      const double growth =
-          slack_change(e.plane, m) - normal_change(e.plane, m).dot(e.middle) + e.along_normal * m.normal.dot(e.middle);
-      sum += growth / e.in_section * e.length;
-    }
-    return sum;
+    Numbers change = of_b.transpose().lazyProduct(way - point) - of_a.transpose().lazyProduct(point) +
+                     by_normal.transpose().lazyProduct(normal);
+    change.template rightCols<3>() -= by_turn.transpose().lazyProduct(turns);
+    return change;
   }
 };
-
-template <int Dim>
-auto section_of(const HalfSpaces<Dim>& planes, const Vector<Dim>& normal, double reach) {
-  const Vector<Dim> here = Vector<Dim>::Zero();
-  if constexpr (Dim == 2) {
-    return section_segment(planes, here, normal, reach);
-  } else {
-    std::vector<Vector<2>> polygon;
-    section_polygon(planes, here, normal, reach, polygon);
-    return polygon;
-  }
-}
 
 }  // namespace
 
@@ -215,35 +240,20 @@ bool find_sensitivity(const Pair<Dim>& pair, const ContactSettings& settings, co
   assemble<Dim>(pair, contact.proof.point, planes);
   assemble_weights(pair, weights);
   const double size = std::min(pair.a->inscribed_radius, pair.b->inscribed_radius);
-  const Finder<Dim> finder{pair, planes, contact, size, settings.potential_radius * size, weights};
-
-  const Matrix<Dim> t = finder.axes();
-  Matrix<Dim> hessian = Matrix<Dim>::Zero();
-  for (std::size_t i = 0; i < planes.size(); ++i) {
-    const HalfSpace<Dim>& p = planes[i];
-    if (!(p.offset > 0)) return false;
-    const Vector<Dim> row = t.transpose() * p.normal / p.offset;
-    hessian += weight_of(weights, i) * (row * row.transpose());
-  }
-  const auto edges =
-      finder.edges_of(section_of<Dim>(planes, contact.proof.axis, 4 * std::min(pair.a->radius, pair.b->radius)));
-
-  for (int f = 0; f < freedoms<Dim>; ++f) {
-    Moved<Dim> m;
-    m.way.setZero();
-    m.turn.setZero();
-    if (f < Dim)
-      m.way = pair.axes.row(f).transpose();
-    else if constexpr (Dim == 3)
-      m.turn = pair.axes.row(f - Dim).transpose();
-    else
-      m.turn[0] = 1;
-    if (!finder.find_point(t, hessian, m)) return false;
-    finder.find_normal(m);
-    sensitivity.point.col(f) = m.point;
-    sensitivity.normal.col(f) = m.normal;
-    sensitivity.overlap[f] = finder.overlap_change(m);
-    sensitivity.area[f] = finder.area_change(m, edges);
+  Finder<Dim> finder{pair, planes, contact, settings.potential_radius * size, weights};
+  if (!finder.find_point()) return false;
+  finder.find_normal();
+  sensitivity.point = finder.point;
+  sensitivity.normal = finder.normal;
+  sensitivity.overlap = finder.overlap_change();
+  const double reach = 4 * std::min(pair.a->radius, pair.b->radius);
+  const Vector<Dim> here = Vector<Dim>::Zero();
+  if constexpr (Dim == 2) {
+    sensitivity.area = finder.area_change(section_segment(planes, here, contact.proof.axis, reach));
+  } else {
+    static thread_local std::vector<Vector<2>> section;
+    section_polygon(planes, here, contact.proof.axis, reach, section);
+    sensitivity.area = finder.area_change(section);
   }
   return sensitivity.point.allFinite() && sensitivity.normal.allFinite() && sensitivity.overlap.allFinite() &&
          sensitivity.area.allFinite();

@@ -250,8 +250,9 @@ void visit_fields(Just<StaticProgress> auto& p, auto&& visit) {
 }
 
 void visit_fields(Either<StaticSystem> auto& s, auto&& visit) {
-  auto& [stiffness, closed, of_water] = s;
+  auto& [stiffness, closed, of_water, work] = s;
   visit(Saved{}, stiffness, closed, of_water);
+  visit(Found{}, work);
 }
 
 void visit_fields(Either<StaticIncrement> auto& n, auto&& visit) {

@@ -10,6 +10,7 @@
 #include "core/model/ledger.hpp"
 #include "core/model/loads_state.hpp"
 #include "core/model/supports_state.hpp"
+#include "core/solvers/block_solver.hpp"
 
 namespace voussoir {
 
@@ -74,6 +75,7 @@ template <int Dim>
 struct StaticSystem {
   std::vector<PairStiffness<Dim>> stiffness, closed;  // of the contacts that touch; of those that touch without force
   std::vector<typename PairStiffness<Dim>::Block> of_water;  // by body; none without water
+  LinearWork<freedoms<Dim>> work;                            // of the last system
 };
 
 // The static solver (step/static_solver.hpp): the data that an increment keeps from one evaluation to the next.

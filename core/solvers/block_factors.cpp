@@ -89,7 +89,7 @@ void BlockFactors<Size>::factorise() {
 }
 
 template <int Size>
-Eigen::VectorXd BlockFactors<Size>::solve(const Eigen::VectorXd& b) const {
+void BlockFactors<Size>::solve(const Eigen::VectorXd& b, Eigen::VectorXd& answer) const {
   using Segment = FixedMatrix<Size, 1>;
   const std::vector<typename BlockMatrix<Size>::Block>& blocks = factors.blocks;
   Eigen::VectorXd x(b.size());
@@ -105,10 +105,9 @@ Eigen::VectorXd BlockFactors<Size>::solve(const Eigen::VectorXd& b) const {
       sum.noalias() -= blocks[p] * x.segment<Size>(Size * factors.column[p]);
     x.segment<Size>(Size * i).noalias() = blocks[factors.diagonal[i]] * sum;
   }
-  Eigen::VectorXd answer(x.size());
+  answer.resize(x.size());
   for (int i = 0; i < factors.rows(); ++i)
     answer.segment<Size>(Size * order[i]) = x.segment<Size>(Size * i);
-  return answer;
 }
 
 template class BlockFactors<3>;

@@ -16,7 +16,7 @@ class BlockFactors {
   // no pivot block is singular
   bool regular() const { return is_regular; }
 
-  Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
+  void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) const;
 
  private:
   // unit lower blocks, upper blocks and inverted diagonal blocks

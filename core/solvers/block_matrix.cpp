@@ -37,15 +37,14 @@ void BlockMatrix<Size>::add_diagonal(const Eigen::VectorXd& more) {
 }
 
 template <int Size>
-Eigen::VectorXd BlockMatrix<Size>::times(int threads, const Eigen::VectorXd& x) const {
-  Eigen::VectorXd y(x.size());
+void BlockMatrix<Size>::times(int threads, const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
+  y.resize(x.size());
   each_on_threads(threads, diagonal.size(), [&](int i) {
     RowSum<Size, double> sum = RowSum<Size, double>::zero();
     for (int p = first[i]; p < first[i + 1]; ++p)
       sum.add(blocks[p].data(), x.data() + Size * column[p]);
     sum.keep(y.data() + Size * i);
   });
-  return y;
 }
 
 template struct BlockMatrix<3>;

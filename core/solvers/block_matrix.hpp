@@ -13,7 +13,8 @@ template <int Size>
 struct BlockMatrix {
   using Block = FixedMatrix<Size, Size>;
 
-  // Blocks of zero in these columns of each row, which may be repeated and in any order, and on the diagonal.
+  // Blocks of zero in these columns of each row, which may be repeated and in any order, and on the diagonal, in the
+  // storage of before.
   void lay_out(std::vector<std::vector<int>> columns);
 
   // of a row and a column that it has
@@ -22,7 +23,7 @@ struct BlockMatrix {
   // adds to the diagonal, as many numbers as the matrix has rows
   void add_diagonal(const Eigen::VectorXd& more);
 
-  Eigen::VectorXd times(int threads, const Eigen::VectorXd& x) const;
+  void times(int threads, const Eigen::VectorXd& x, Eigen::VectorXd& y) const;  // y = A x
 
   int rows() const { return static_cast<int>(diagonal.size()); }
 

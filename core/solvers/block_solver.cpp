@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "core/solvers/block_factors.hpp"
-#include "core/solvers/incomplete_factors.hpp"
 
 namespace voussoir {
 namespace {
@@ -63,18 +62,25 @@ struct Rotated {
 // Preconditioned from the right: the residual is the true one. The preconditioned vectors are kept, because factors in
 // single precision do not act alike on a sum and on its parts.
 template <int Size, class Factors>
-LinearAnswer gmres(const BlockMatrix<Size>& matrix, const Factors& factors, const Eigen::VectorXd& b, double tolerance,
+LinearAnswer gmres(LinearWork<Size>& work, const Factors& factors, const Eigen::VectorXd& b, double tolerance,
                    int iteration_limit, int threads) {
   const double whole = b.norm();
   LinearAnswer answer{Eigen::VectorXd::Zero(b.size()), 0, 1};
   if (!factors.regular()) return answer.residual = std::numeric_limits<double>::infinity(), answer;
-  std::vector<Eigen::VectorXd> basis{b / whole}, directions;
+  std::vector<Eigen::VectorXd>&basis = work.basis, &directions = work.directions;
+  const auto at = [](std::vector<Eigen::VectorXd>& list, int i) -> Eigen::VectorXd& {
+    if (i == static_cast<int>(list.size())) list.emplace_back();
+    return list[i];
+  };
+  at(basis, 0) = b / whole;
   Rotated rotated(whole);
   while (answer.iterations < iteration_limit && answer.residual > tolerance) {
-    const Eigen::Index known = std::ssize(basis);
-    directions.push_back(factors.solve(basis.back()));
-    Eigen::VectorXd next = matrix.times(threads, directions.back()), column(known + 1);
-    for (Eigen::Index i = 0; i < known; ++i) {
+    const int known = answer.iterations + 1;
+    factors.solve(basis[known - 1], at(directions, known - 1));
+    Eigen::VectorXd& next = at(basis, known);
+    work.matrix.times(threads, directions[known - 1], next);
+    Eigen::VectorXd column(known + 1);
+    for (int i = 0; i < known; ++i) {
       column[i] = product(basis[i], next);
       next -= column[i] * basis[i];
     }
@@ -84,7 +90,7 @@ LinearAnswer gmres(const BlockMatrix<Size>& matrix, const Factors& factors, cons
     ++answer.iterations;
     answer.residual = std::abs(rotated.right.back()) / whole;
     if (!(length > 0)) break;  // the answer is exact
-    basis.push_back(next / length);
+    next /= length;
   }
   const std::vector<double> y = rotated.solution();
   for (std::size_t i = 0; i < y.size(); ++i)
@@ -95,17 +101,18 @@ LinearAnswer gmres(const BlockMatrix<Size>& matrix, const Factors& factors, cons
 }  // namespace
 
 template <int Size>
-LinearAnswer solve_blocks(const BlockMatrix<Size>& matrix, const std::vector<int>& order, const Eigen::VectorXd& b,
+LinearAnswer solve_blocks(LinearWork<Size>& work, const std::vector<int>& order, const Eigen::VectorXd& b,
                           double tolerance, int iteration_limit, int threads) {
   if (!(b.norm() > 0)) return {Eigen::VectorXd::Zero(b.size()), 0, 0};
-  if (const BlockFactors<Size> factors(matrix); factors.complete())
-    return gmres(matrix, factors, b, tolerance, iteration_limit, threads);
-  return gmres(matrix, IncompleteFactors<Size>(matrix, order), b, tolerance, iteration_limit, threads);
+  if (const BlockFactors<Size> factors(work.matrix); factors.complete())
+    return gmres(work, factors, b, tolerance, iteration_limit, threads);
+  work.factors.factorise(work.matrix, order);
+  return gmres(work, work.factors, b, tolerance, iteration_limit, threads);
 }
 
-template LinearAnswer solve_blocks<3>(const BlockMatrix<3>&, const std::vector<int>&, const Eigen::VectorXd&, double,
-                                      int, int);
-template LinearAnswer solve_blocks<6>(const BlockMatrix<6>&, const std::vector<int>&, const Eigen::VectorXd&, double,
-                                      int, int);
+template LinearAnswer solve_blocks<3>(LinearWork<3>&, const std::vector<int>&, const Eigen::VectorXd&, double, int,
+                                      int);
+template LinearAnswer solve_blocks<6>(LinearWork<6>&, const std::vector<int>&, const Eigen::VectorXd&, double, int,
+                                      int);
 
 }  // namespace voussoir

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/solvers/block_matrix.hpp"
+#include "core/solvers/incomplete_factors.hpp"
 
 namespace voussoir {
 
@@ -12,11 +13,19 @@ struct LinearAnswer {
   double residual = 0;  // |b - A x| / |b|; infinite when a pivot block is singular
 };
 
+// A linear system and what is made to solve it; the storage serves the next system, too.
+template <int Size>
+struct LinearWork {
+  BlockMatrix<Size> matrix;  // A
+  IncompleteFactors<Size> factors;
+  std::vector<Eigen::VectorXd> basis, directions;  // of the Krylov space; those of the last system
+};
+
 // Solves A x = b until |b - A x| <= tolerance |b|, or returns the best x found within the limit. `order`: the rows in
 // the order in which incomplete factors eliminate them; the fewer iterations, the better it follows how the blocks rest
 // on one another.
 template <int Size>
-LinearAnswer solve_blocks(const BlockMatrix<Size>& matrix, const std::vector<int>& order, const Eigen::VectorXd& b,
+LinearAnswer solve_blocks(LinearWork<Size>& work, const std::vector<int>& order, const Eigen::VectorXd& b,
                           double tolerance, int iteration_limit, int threads);
 
 }  // namespace voussoir

@@ -10,13 +10,15 @@
 namespace voussoir {
 
 template <int Size>
-IncompleteFactors<Size>::IncompleteFactors(const BlockMatrix<Size>& matrix, const std::vector<int>& eliminated)
-    : order(eliminated),
-      place(eliminated.size()),
-      first(1, 0),
-      diagonal(eliminated.size()),
-      scale(Size * matrix.rows()) {
+void IncompleteFactors<Size>::factorise(const BlockMatrix<Size>& matrix, const std::vector<int>& eliminated) {
   const int count = matrix.rows();
+  is_regular = true;
+  order = eliminated;
+  place.resize(order.size());
+  first.assign(1, 0);
+  column.clear();
+  diagonal.resize(order.size());
+  scale.resize(Size * count);
   for (int i = 0; i < count; ++i) {
     place[order[i]] = i;
     const auto here = matrix.blocks[matrix.diagonal[i]].diagonal();
@@ -90,13 +92,14 @@ bool IncompleteFactors<Size>::invert(int at) {
 }
 
 template <int Size>
-Eigen::VectorXd IncompleteFactors<Size>::solve(const Eigen::VectorXd& b) const {
+void IncompleteFactors<Size>::solve(const Eigen::VectorXd& b, Eigen::VectorXd& answer) const {
   using Sum = RowSum<Size, float>;
   static thread_local std::vector<float> x;
   x.resize(static_cast<std::size_t>(b.size()));
   float part[Size];
   const double largest = scale.cwiseProduct(b).cwiseAbs().maxCoeff();
-  if (!(largest > 0)) return Eigen::VectorXd::Zero(b.size());
+  answer.setZero(b.size());
+  if (!(largest > 0)) return;
   const int count = static_cast<int>(order.size());
   for (int i = 0; i < count; ++i) {
     for (int k = 0; k < Size; ++k)
@@ -106,7 +109,6 @@ Eigen::VectorXd IncompleteFactors<Size>::solve(const Eigen::VectorXd& b) const {
       sum.subtract(block(p), &x[Size * column[p]]);
     sum.keep(&x[Size * i]);
   }
-  Eigen::VectorXd answer(b.size());
   for (int i = count; i-- > 0;) {
     Sum sum = Sum::of(&x[Size * i]);
     for (int p = diagonal[i] + 1; p < first[i + 1]; ++p)
@@ -118,7 +120,6 @@ Eigen::VectorXd IncompleteFactors<Size>::solve(const Eigen::VectorXd& b) const {
     for (int k = 0; k < Size; ++k)
       answer[Size * order[i] + k] = scale[Size * order[i] + k] * largest * x[Size * i + k];
   }
-  return answer;
 }
 
 template class IncompleteFactors<3>;

@@ -10,13 +10,13 @@ namespace voussoir {
 template <int Size>
 class IncompleteFactors {
  public:
-  // `order`: the matrix's rows in the order of elimination
-  IncompleteFactors(const BlockMatrix<Size>& matrix, const std::vector<int>& order);
+  // `order`: the matrix's rows in the order of elimination. Storage of the factors before is used again.
+  void factorise(const BlockMatrix<Size>& matrix, const std::vector<int>& order);
 
   // no pivot block is singular
   bool regular() const { return is_regular; }
 
-  Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
+  void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) const;
 
  private:
   static constexpr int numbers = Size * Size;  // of a block
@@ -27,7 +27,7 @@ class IncompleteFactors {
   void copy_row(const BlockMatrix<Size>& matrix, int row);
   bool invert(int place);
 
-  const std::vector<int>& order;
+  std::vector<int> order;
   std::vector<int> place;                    // by row of the matrix: where it is in the order
   std::vector<int> first, column, diagonal;  // as in BlockMatrix, in the order
   Eigen::VectorXd scale;                     // by row of numbers: one over the root of the matrix's diagonal

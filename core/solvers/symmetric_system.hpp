@@ -5,23 +5,23 @@
 
 namespace voussoir {
 
-// Solves H y = g by LDLᵀ without pivoting, y in place of g; false when H is not positive definite. Only H's lower half
-// is read. The order of operations is explicit: the same bits for every instruction set.
-template <int Size>
-bool solve_symmetric(FixedMatrix<Size, Size> h, FixedMatrix<Size, 1>& g) {
+// Solves H y = g by LDLᵀ without pivoting for every column of g, y in its place; false when H is not positive definite.
+// Only H's lower half is read. The order of operations is explicit: the same bits for every instruction set.
+template <int Size, int Columns = 1>
+bool solve_symmetric(FixedMatrix<Size, Size> h, FixedMatrix<Size, Columns>& g) {
   for (int k = 0; k < Size; ++k) {
     if (!(h(k, k) > 0)) return false;
     for (int i = k + 1; i < Size; ++i) {
       const double factor = h(i, k) / h(k, k);
       for (int j = k + 1; j <= i; ++j)
         h(i, j) -= factor * h(j, k);
-      g[i] -= factor * g[k];
+      g.row(i) -= factor * g.row(k);
     }
   }
   for (int k = Size - 1; k >= 0; --k) {
     for (int i = k + 1; i < Size; ++i)
-      g[k] -= h(i, k) * g[i];
-    g[k] /= h(k, k);
+      g.row(k) -= h(i, k) * g.row(i);
+    g.row(k) /= h(k, k);
   }
   return true;
 }

@@ -41,9 +41,8 @@ Eigen::VectorXd loads_without_joints(const LoadsState<Dim>& loads, const Unknown
 
 // The tangent at the state, whose bodies stand still. Pairs in the order of the contacts, then those of supports.
 template <int Dim>
-BlockMatrix<freedoms<Dim>> elastic_tangent(const Model<Dim>& model, const Settings& settings,
-                                           const Unknowns<Dim>& unknowns, const StaticBase<Dim>& base,
-                                           State<Dim>& state) {
+void find_elastic_tangent(const Model<Dim>& model, const Settings& settings, const Unknowns<Dim>& unknowns,
+                          const StaticBase<Dim>& base, State<Dim>& state, BlockMatrix<freedoms<Dim>>& k) {
   std::vector<PairStiffness<Dim>> pairs;
   find_pair_stiffness(model, settings, state.schedule, joint_step(settings, state.time_step, state.relaxation),
                       state.bodies, state.contacts, base.histories, state.counters, pairs);
@@ -52,10 +51,9 @@ BlockMatrix<freedoms<Dim>> elastic_tangent(const Model<Dim>& model, const Settin
   std::vector<const PairStiffness<Dim>*> all;
   for (const PairStiffness<Dim>& pair : pairs)
     all.push_back(&pair);
-  BlockMatrix<freedoms<Dim>> k = tangent_of<Dim>(settings.threads, all, {}, unknowns.place, unknowns.free);
+  find_tangent<Dim>(settings.threads, all, {}, unknowns.place, unknowns.free, k);
   const Eigen::VectorXd held = Eigen::VectorXd::Ones(unknowns.free.size()) - unknowns.free;
   k.add_diagonal(tie_of_loose_bodies * unknowns.scale.cwiseProduct(unknowns.free) + unknowns.scale.cwiseProduct(held));
-  return k;
 }
 
 }  // namespace
@@ -71,8 +69,9 @@ std::vector<double> elastic_displacements(const Model<Dim>& model, const Setting
   const StaticBase<Dim> base = base_of(state);
   set_trial(model, unknowns, base, Eigen::VectorXd(Eigen::VectorXd::Zero(unknowns.free.size())), state.bodies,
             state.contacts, state.supports, state.ledger, state.time_step);
-  const BlockMatrix<freedoms<Dim>> k = elastic_tangent(model, settings, unknowns, base, state);
-  const LinearAnswer solved = solve_blocks(k, unknowns.upwards, loads_without_joints(state.loads, unknowns),
+  LinearWork<freedoms<Dim>> work;
+  find_elastic_tangent(model, settings, unknowns, base, state, work.matrix);
+  const LinearAnswer solved = solve_blocks(work, unknowns.upwards, loads_without_joints(state.loads, unknowns),
                                            elastic_tolerance, elastic_iterations, settings.threads);
   for (std::size_t i = 0; i < unknowns.count(); ++i)
     displacements[unknowns.bodies[i]] = solved.x.template segment<Dim>(freedoms<Dim> * i).norm();

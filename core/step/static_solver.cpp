@@ -141,35 +141,34 @@ struct Newton {
     return blocks;
   }
 
-  BlockMatrix<F> tangent(double regularisation) const {
+  void find_matrix(double regularisation) {
     std::vector<const PairStiffness<Dim>*> pairs;
     for (const PairStiffness<Dim>& p : system.stiffness)
       pairs.push_back(&p);
     for (const PairStiffness<Dim>& p : system.closed)
       if (!state.contacts.list[p.contact].touching()) pairs.push_back(&p);
     const Eigen::VectorXd& free = unknowns.free;
-    BlockMatrix<F> k = tangent_of<Dim>(settings.threads, pairs, stiffness_of_loads(), unknowns.place, free);
+    BlockMatrix<F>& k = system.work.matrix;
+    find_tangent<Dim>(settings.threads, pairs, stiffness_of_loads(), unknowns.place, free, k);
     // restrained directions do not move
     k.add_diagonal(regularisation * unknowns.scale.cwiseProduct(free) +
                    unknowns.scale.cwiseProduct(Eigen::VectorXd::Ones(free.size()) - free));
-    return k;
   }
 
   void find_stiffness() {
-    std::vector<PairStiffness<Dim>> pairs;
     find_pair_stiffness(model, settings, state.schedule, joint_step(settings, state.time_step, state.relaxation),
-                        state.bodies, state.contacts, base.histories, state.counters, pairs);
+                        state.bodies, state.contacts, base.histories, state.counters, system.stiffness);
     for (const StepSupport<Dim>& row : step_supports<Dim>)
-      row.add_pairs(model, settings, state, pairs);
-    system.stiffness = std::move(pairs);
+      row.add_pairs(model, settings, state, system.stiffness);
     find_water_stiffness(model, settings, state.schedule, state.bodies, system.of_water);
   }
 
   // A step along which the residual does positive work; if the tangent gives none, more regularisation.
   Eigen::VectorXd next_step(const Eigen::VectorXd& residual) {
     for (int tries = 0; tries < most_tries; ++tries) {
-      const LinearAnswer answer = solve_blocks(tangent(progress.regularisation), unknowns.upwards, residual,
-                                               linear_tolerance, linear_limit, settings.threads);
+      find_matrix(progress.regularisation);
+      const LinearAnswer answer =
+          solve_blocks(system.work, unknowns.upwards, residual, linear_tolerance, linear_limit, settings.threads);
       ++state.counters.linear_systems;
       state.counters.linear_iterations += answer.iterations;
       if (answer.residual <= most_unsolved && residual.dot(answer.x) > 0) return answer.x;

@@ -19,6 +19,8 @@ Unknowns<Dim>::Unknowns(const Model<Dim>& model) : place(model.bodies.size(), -1
   std::iota(upwards.begin(), upwards.end(), 0);
   std::ranges::stable_sort(upwards, std::ranges::greater{},
                            [&](int i) { return model.gravity.dot(model.bodies[bodies[i]].reference); });
+  for (const Body<Dim>& body : model.bodies)
+    radius.push_back(inscribed_radius(body));
   double stiffest = 0;
   for (const JointProperties& p : model.properties)
     stiffest = std::max(stiffest, p.normal_stiffness);

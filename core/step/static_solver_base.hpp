@@ -14,6 +14,7 @@ struct Unknowns {
   static constexpr int F = freedoms<Dim>, S = spin_freedoms<Dim>;
   std::vector<int> bodies, place;  // the free ones; by body: index among them, or -1
   std::vector<int> upwards;        // indices of the free ones, the lowest first
+  std::vector<double> radius;      // m, by body: the inscribed one
   Eigen::VectorXd scale, free;     // by degree of freedom: D, N/m and N m; 1, or 0 if it is restrained
 
   // D: the stiffest joint times the body's largest face

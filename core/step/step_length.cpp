@@ -30,9 +30,8 @@ std::vector<double> excess_by_body(const Model<Dim>& model, const Unknowns<Dim>&
   const auto add_pair = [&](int ba, int bb) {
     const int a = unknowns.place[ba], b = unknowns.place[bb];
     if (a < 0 && b < 0) return;
-    const double size = a < 0   ? inscribed_radius(model.bodies[bb])
-                        : b < 0 ? inscribed_radius(model.bodies[ba])
-                                : std::min(inscribed_radius(model.bodies[ba]), inscribed_radius(model.bodies[bb]));
+    const std::vector<double>& radius = unknowns.radius;
+    const double size = a < 0 ? radius[bb] : b < 0 ? radius[ba] : std::min(radius[ba], radius[bb]);
     const double over = (way_of<Dim>(dq, b) - way_of<Dim>(dq, a)).norm() / (longest_step * size);
     const int mover = way_of<Dim>(dq, a).norm() > way_of<Dim>(dq, b).norm() ? a : b;
     if (mover >= 0) excess[mover] = std::max(excess[mover], over);
@@ -47,7 +46,7 @@ std::vector<double> excess_by_body(const Model<Dim>& model, const Unknowns<Dim>&
     const Body<Dim>& body = model.bodies[unknowns.bodies[i]];
     const double turning = body.radius * dq.segment<spin_freedoms<Dim>>(freedoms<Dim> * i + Dim).norm();
     const double own = turning + (alone[i] ? way_of<Dim>(dq, static_cast<int>(i)).norm() : 0);
-    excess[i] = std::max(excess[i], own / (longest_step * inscribed_radius(body)));
+    excess[i] = std::max(excess[i], own / (longest_step * unknowns.radius[unknowns.bodies[i]]));
   }
   return excess;
 }

@@ -73,9 +73,8 @@ struct PairBlocks {
 }  // namespace
 
 template <int Dim>
-BlockMatrix<freedoms<Dim>> tangent_of(int threads, const std::vector<const PairStiffness<Dim>*>& pairs,
-                                      const std::vector<Block<Dim>>& own, const std::vector<int>& place,
-                                      const Eigen::VectorXd& free) {
+void find_tangent(int threads, const std::vector<const PairStiffness<Dim>*>& pairs, const std::vector<Block<Dim>>& own,
+                  const std::vector<int>& place, const Eigen::VectorXd& free, BlockMatrix<freedoms<Dim>>& k) {
   constexpr int F = freedoms<Dim>;
   const std::size_t count = free.size() / F;
   std::vector<std::vector<int>> pairs_of(count), columns(count);
@@ -87,7 +86,6 @@ BlockMatrix<freedoms<Dim>> tangent_of(int threads, const std::vector<const PairS
     columns[a].push_back(b);
     columns[b].push_back(a);
   }
-  BlockMatrix<F> k;
   k.lay_out(std::move(columns));
   const bool all_free = free.size() > 0 && free.minCoeff() > 0;
   // each row by itself: no two threads write to one block, and sums are in the order of the pairs
@@ -115,14 +113,11 @@ BlockMatrix<freedoms<Dim>> tangent_of(int threads, const std::vector<const PairS
   for (std::size_t b = 0; b < own.size(); ++b)
     if (const int i = place[b]; i >= 0)
       k.at(i, i) += free.segment<F>(F * i).asDiagonal() * own[b] * free.segment<F>(F * i).asDiagonal();
-  return k;
 }
 
-template BlockMatrix<freedoms<2>> tangent_of<2>(int, const std::vector<const PairStiffness<2>*>&,
-                                                const std::vector<Block<2>>&, const std::vector<int>&,
-                                                const Eigen::VectorXd&);
-template BlockMatrix<freedoms<3>> tangent_of<3>(int, const std::vector<const PairStiffness<3>*>&,
-                                                const std::vector<Block<3>>&, const std::vector<int>&,
-                                                const Eigen::VectorXd&);
+template void find_tangent<2>(int, const std::vector<const PairStiffness<2>*>&, const std::vector<Block<2>>&,
+                              const std::vector<int>&, const Eigen::VectorXd&, BlockMatrix<freedoms<2>>&);
+template void find_tangent<3>(int, const std::vector<const PairStiffness<3>*>&, const std::vector<Block<3>>&,
+                              const std::vector<int>&, const Eigen::VectorXd&, BlockMatrix<freedoms<3>>&);
 
 }  // namespace voussoir

@@ -13,8 +13,8 @@ namespace voussoir {
 // (`own`, by body; may be empty). `place`: index of a body among the free ones, or -1; `free`: 1, or 0 for a restrained
 // direction, by degree of freedom of the free bodies.
 template <int Dim>
-BlockMatrix<freedoms<Dim>> tangent_of(int threads, const std::vector<const PairStiffness<Dim>*>& pairs,
-                                      const std::vector<typename PairStiffness<Dim>::Block>& own,
-                                      const std::vector<int>& place, const Eigen::VectorXd& free);
+void find_tangent(int threads, const std::vector<const PairStiffness<Dim>*>& pairs,
+                  const std::vector<typename PairStiffness<Dim>::Block>& own, const std::vector<int>& place,
+                  const Eigen::VectorXd& free, BlockMatrix<freedoms<Dim>>& k);
 
 }  // namespace voussoir
