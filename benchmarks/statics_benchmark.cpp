@@ -138,7 +138,7 @@ std::vector<Share> shares_of(const Prepared<3>& scene, const Progress<3>& done, 
   const JointStep law_step = joint_step(settings, state.time_step, state.relaxation);
   std::vector<PairStiffness<3>> pairs;
   find_pair_stiffness(model, settings, state.schedule, law_step, state.bodies, state.contacts, base.histories,
-                      state.counters, pairs);
+                      unknowns.place, state.counters, pairs);
   std::vector<const PairStiffness<3>*> all;
   for (const PairStiffness<3>& pair : pairs)
     all.push_back(&pair);
@@ -157,7 +157,8 @@ std::vector<Share> shares_of(const Prepared<3>& scene, const Progress<3>& done, 
                                             }))},
           {"stiffness of pairs", times(c.static_iterations, seconds_of([&] {
                                          find_pair_stiffness(model, settings, state.schedule, law_step, state.bodies,
-                                                             state.contacts, base.histories, state.counters, pairs);
+                                                             state.contacts, base.histories, unknowns.place,
+                                                             state.counters, pairs);
                                        }))},
           {"matrix", times(c.linear_systems,
                            seconds_of([&] { find_tangent<3>(1, all, {}, unknowns.place, unknowns.free, again); }))},

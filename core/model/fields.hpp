@@ -242,11 +242,16 @@ void visit_fields(Either<StaticBase> auto& b, auto&& visit) {
   visit(Saved{}, motions, histories, supports, ledger, loads.values, held_bonds, listed);
 }
 
+void visit_fields(Just<StepsOfFew> auto& f, auto&& visit) {
+  auto& [list, since_all, regularisation, merit, merit_of_all, went_far] = f;
+  visit(Saved{}, list, since_all, regularisation, merit, merit_of_all, went_far);
+}
+
 void visit_fields(Just<StaticProgress> auto& p, auto&& visit) {
   auto& [iteration, since_commit, tries, polished, regularisation, overshoot, length, lengths, accepted, residual,
-         change, merits] = p;
+         change, merits, pairs, few] = p;
   visit(Saved{}, iteration, since_commit, tries, polished, regularisation, overshoot, length, lengths, accepted,
-        residual, change, merits);
+        residual, change, merits, pairs, few);
 }
 
 void visit_fields(Either<StaticSystem> auto& s, auto&& visit) {

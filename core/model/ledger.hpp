@@ -40,8 +40,9 @@ struct Counters {
   long long snap_backs = 0;        // slips in which friction fell faster than the shear spring could unload
   long long neighbour_builds = 0;
   long long static_iterations = 0;                                  // static solver: steps accepted
-  long long static_rejections = 0;                                  // and shortened or refused
-  long long linear_systems = 0;                                     // that it solved
+  long long static_iterations_of_few = 0;                           // and those of few bodies in between
+  long long static_rejections = 0;                                  // steps shortened or refused
+  long long linear_systems = 0;                                     // that it solved for all bodies
   long long linear_iterations = 0;                                  // of these: products with their matrices
   long long static_fallbacks = 0;                                   // increments that it left to relaxation
   long long broken_bonds_fallbacks = 0, unconverged_fallbacks = 0;  // because bonds broke; without equilibrium
@@ -70,6 +71,7 @@ inline constexpr CounterRow counter_table[] = {
     {"snap_backs", &Counters::snap_backs},
     {"neighbour_builds", &Counters::neighbour_builds},
     {"static_iterations", &Counters::static_iterations},
+    {"static_iterations_of_few", &Counters::static_iterations_of_few},
     {"static_rejections", &Counters::static_rejections},
     {"linear_systems", &Counters::linear_systems},
     {"linear_iterations", &Counters::linear_iterations},

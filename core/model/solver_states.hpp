@@ -57,6 +57,16 @@ struct StaticBase {
   long long listed = 0;  // Counters::neighbour_builds that the histories belong to
 };
 
+// Steps of few bodies between two of all (step/moving_bodies.hpp).
+struct StepsOfFew {
+  std::vector<int> list;      // of the free bodies, ascending; none: all move
+  int since_all = 0;          // of the few since the last step of all
+  double regularisation = 0;  // lambda of the steps of all meanwhile
+  double merit = 0;           // of these bodies' residual after the last step
+  double merit_of_all = 0;    // before the last step of all, and whether that step went about as far as it could
+  bool went_far = false;
+};
+
 // How far the iterations of an increment have come.
 struct StaticProgress {
   int iteration = 0;  // accepted ones of this increment
@@ -68,6 +78,8 @@ struct StaticProgress {
   std::vector<double> accepted;          // by degree of freedom: motion since the reference state
   std::vector<double> residual, change;  // by degree of freedom: unbalanced forces, last step
   std::vector<double> merits;            // of the accepted ones
+  int pairs = 0;                         // that touched in the last one
+  StepsOfFew few;
 };
 
 // The parts of its linear system.

@@ -45,7 +45,7 @@ void find_elastic_tangent(const Model<Dim>& model, const Settings& settings, con
                           const StaticBase<Dim>& base, State<Dim>& state, BlockMatrix<freedoms<Dim>>& k) {
   std::vector<PairStiffness<Dim>> pairs;
   find_pair_stiffness(model, settings, state.schedule, joint_step(settings, state.time_step, state.relaxation),
-                      state.bodies, state.contacts, base.histories, state.counters, pairs);
+                      state.bodies, state.contacts, base.histories, unknowns.place, state.counters, pairs);
   for (const StepSupport<Dim>& row : step_supports<Dim>)
     row.add_pairs(model, settings, state, pairs);
   std::vector<const PairStiffness<Dim>*> all;

@@ -269,13 +269,13 @@ JointState<Dim> unloaded(const Vector<Dim>& normal, const Vector<Dim>& point, do
 template <int Dim>
 void find_pair_stiffness(const Model<Dim>& model, const Settings& settings, const Schedule& schedule,
                          const JointStep& joint_step, const BodiesState<Dim>& bodies,
-                         const ContactsState<Dim>& contacts, const JointHistories<Dim>& histories, Counters& counters,
-                         std::vector<PairStiffness<Dim>>& list) {
+                         const ContactsState<Dim>& contacts, const JointHistories<Dim>& histories,
+                         const std::vector<int>& place, Counters& counters, std::vector<PairStiffness<Dim>>& list) {
   list.clear();
   for (std::size_t i = 0; i < contacts.list.size(); ++i) {
     const Contact<Dim>& c = contacts.list[i];
     const int a = model.parts[c.part_a].body, b = model.parts[c.part_b].body;
-    if (!c.touching() || (!is_free(model, a) && !is_free(model, b))) continue;
+    if (!c.touching() || (place[a] < 0 && place[b] < 0)) continue;
     PairStiffness<Dim> pair;
     pair.contact = static_cast<int>(i);
     pair.body_a = a;
@@ -374,12 +374,13 @@ void find_closed_joints(const Model<Dim>& model, const Settings& settings, const
   }
 }
 
-#define VOUSSOIR_INSTANTIATE(Dim)                                                                                  \
-  template void find_pair_stiffness<Dim>(const Model<Dim>&, const Settings&, const Schedule&, const JointStep&,    \
-                                         const BodiesState<Dim>&, const ContactsState<Dim>&,                       \
-                                         const JointHistories<Dim>&, Counters&, std::vector<PairStiffness<Dim>>&); \
-  template void find_closed_joints<Dim>(const Model<Dim>&, const Settings&, const BodiesState<Dim>&,               \
-                                        const ContactsState<Dim>&, JointHistories<Dim>&, Counters&,                \
+#define VOUSSOIR_INSTANTIATE(Dim)                                                                               \
+  template void find_pair_stiffness<Dim>(const Model<Dim>&, const Settings&, const Schedule&, const JointStep&, \
+                                         const BodiesState<Dim>&, const ContactsState<Dim>&,                    \
+                                         const JointHistories<Dim>&, const std::vector<int>&, Counters&,        \
+                                         std::vector<PairStiffness<Dim>>&);                                     \
+  template void find_closed_joints<Dim>(const Model<Dim>&, const Settings&, const BodiesState<Dim>&,            \
+                                        const ContactsState<Dim>&, JointHistories<Dim>&, Counters&,             \
                                         std::vector<PairStiffness<Dim>>&);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)

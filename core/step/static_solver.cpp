@@ -11,6 +11,7 @@
 #include "core/step/joint_forces.hpp"
 #include "core/step/loads.hpp"
 #include "core/step/motion.hpp"
+#include "core/step/moving_bodies.hpp"
 #include "core/step/pair_stiffness.hpp"
 #include "core/step/relaxation.hpp"
 #include "core/step/static_solver_base.hpp"
@@ -47,6 +48,11 @@ constexpr double hardly_fallen = 0.7, short_step = 0.1;
 // such as the sway of an arch on four hinges. Stiff joints resist the square of a step along it, so the residual grows
 // even if the step is right. Columns, walls and sliced rock of thousands of blocks converge in fewer.
 constexpr int valley_after = 50;
+
+// The few bodies of most of the residual move by themselves, after the first steps of all, until no more than this
+// share of its square is theirs, or for so many steps between two of all; with which regularisation they begin.
+constexpr int few_after = 2, most_of_few = 6;
+constexpr double left_to_few = 0.2, first_of_few = 0.1;
 
 // With which an increment begins if the loads are balanced up to this fraction of the contact forces and of so many
 // joints that touch at most one carries nothing.
@@ -126,9 +132,12 @@ struct Newton {
     return r.cwiseProduct(unknowns.free);
   }
 
-  double merit(const Eigen::VectorXd& residual) const {
-    return std::sqrt(residual.dot(residual.cwiseQuotient(unknowns.scale)));
+  static double merit(const Eigen::VectorXd& residual, const Eigen::VectorXd& scale) {
+    return std::sqrt(residual.dot(residual.cwiseQuotient(scale)));
   }
+
+  MovingBodies<Dim> moving() const { return {unknowns, progress.few.list}; }
+  bool few_move() const { return !progress.few.list.empty(); }
 
   // ---- linear system ------------------------------------------------------------------------------------------------
 
@@ -141,40 +150,45 @@ struct Newton {
     return blocks;
   }
 
-  void find_matrix(double regularisation) {
+  void find_matrix(const MovingBodies<Dim>& bodies, double regularisation) {
     std::vector<const PairStiffness<Dim>*> pairs;
     for (const PairStiffness<Dim>& p : system.stiffness)
       pairs.push_back(&p);
     for (const PairStiffness<Dim>& p : system.closed)
       if (!state.contacts.list[p.contact].touching()) pairs.push_back(&p);
-    const Eigen::VectorXd& free = unknowns.free;
+    const Eigen::VectorXd& free = bodies.free;
     BlockMatrix<F>& k = system.work.matrix;
-    find_tangent<Dim>(settings.threads, pairs, stiffness_of_loads(), unknowns.place, free, k);
+    find_tangent<Dim>(settings.threads, pairs, stiffness_of_loads(), bodies.place, free, k);
     // restrained directions do not move
-    k.add_diagonal(regularisation * unknowns.scale.cwiseProduct(free) +
-                   unknowns.scale.cwiseProduct(Eigen::VectorXd::Ones(free.size()) - free));
+    k.add_diagonal(regularisation * bodies.scale.cwiseProduct(free) +
+                   bodies.scale.cwiseProduct(Eigen::VectorXd::Ones(free.size()) - free));
   }
 
   void find_stiffness() {
     find_pair_stiffness(model, settings, state.schedule, joint_step(settings, state.time_step, state.relaxation),
-                        state.bodies, state.contacts, base.histories, state.counters, system.stiffness);
+                        state.bodies, state.contacts, base.histories, moving().place, state.counters, system.stiffness);
     for (const StepSupport<Dim>& row : step_supports<Dim>)
       row.add_pairs(model, settings, state, system.stiffness);
     find_water_stiffness(model, settings, state.schedule, state.bodies, system.of_water);
   }
 
   // A step along which the residual does positive work; if the tangent gives none, more regularisation.
-  Eigen::VectorXd next_step(const Eigen::VectorXd& residual) {
+  Eigen::VectorXd next_step(const Eigen::VectorXd& residual_of_all) {
+    const MovingBodies<Dim> bodies = moving();
+    const Eigen::VectorXd residual = bodies.of(residual_of_all);
+    const auto among_all = [&](const Eigen::VectorXd& x) { return bodies.among_all(x, unknowns.count()); };
     for (int tries = 0; tries < most_tries; ++tries) {
-      find_matrix(progress.regularisation);
+      find_matrix(bodies, progress.regularisation);
       const LinearAnswer answer =
-          solve_blocks(system.work, unknowns.upwards, residual, linear_tolerance, linear_limit, settings.threads);
-      ++state.counters.linear_systems;
-      state.counters.linear_iterations += answer.iterations;
-      if (answer.residual <= most_unsolved && residual.dot(answer.x) > 0) return answer.x;
+          solve_blocks(system.work, bodies.upwards, residual, linear_tolerance, linear_limit, settings.threads);
+      if (!few_move()) {
+        ++state.counters.linear_systems;
+        state.counters.linear_iterations += answer.iterations;
+      }
+      if (answer.residual <= most_unsolved && residual.dot(answer.x) > 0) return among_all(answer.x);
       progress.regularisation = std::max(8 * progress.regularisation, 1e-6);
     }
-    return residual.cwiseQuotient(unknowns.scale);
+    return among_all(residual.cwiseQuotient(bodies.scale));
   }
 
   // ---- judgement ----------------------------------------------------------------------------------------------------
@@ -207,19 +221,23 @@ struct Newton {
     return true;
   }
 
-  void regularise(const Eigen::VectorXd& residual, double merit_now) {
+  // `before`, `now`: merits of the bodies that move
+  void regularise(const Eigen::VectorXd& residual, double before, double now) {
     if (progress.overshoot > 1 || progress.tries > 0)
       progress.regularisation *= bounded_fall;
     else if (progress.length < far_shortened)
       progress.regularisation *= rise;
     else if (progress.length >= 1)
       progress.regularisation *=
-          work_left(residual) > 0.5 ? slow_fall : std::clamp(merit_now / progress.merits.back(), most_fall, least_fall);
-    if (!in_valley() && progress.overshoot <= 1 && work_left(residual) <= 0.5 &&
-        merit_now > hardly_fallen * progress.merits.back())
-      progress.regularisation = std::max(short_step, 4 * progress.regularisation);
+          work_left(residual) > 0.5 ? slow_fall : std::clamp(now / before, most_fall, least_fall);
     if (progress.regularisation < least_regularisation) progress.regularisation = 0;
   }
+
+  // whether the last step went about as far as it could
+  bool went_far(const Eigen::VectorXd& residual) const {
+    return increment.trial == Trial::step && !in_valley() && progress.overshoot <= 1 && work_left(residual) <= 0.5;
+  }
+  void break_cycle() { progress.regularisation = std::max(short_step, 4 * progress.regularisation); }
 
   double fraction_in_new_contacts() const {
     double all = 0, of_new = 0;
@@ -237,6 +255,36 @@ struct Newton {
     const auto touching = std::ranges::count_if(state.contacts.list, &Contact<Dim>::touching);
     return unbalanced_ratio(model, settings.threads, state) < nearly_balanced &&
            std::ssize(system.closed) * one_closed_of < touching;
+  }
+
+  // ---- few bodies ---------------------------------------------------------------------------------------------------
+
+  double merit_of_few(const Eigen::VectorXd& residual) const {
+    const MovingBodies<Dim> few = moving();
+    return merit(few.of(residual), few.scale);
+  }
+
+  // Chooses which bodies move in the next step: again the few that do, others, or all.
+  void choose_moving(const Eigen::VectorXd& residual, double merit_of_all, bool far) {
+    StepsOfFew& few = progress.few;
+    if (few_move()) {
+      const double before = std::exchange(few.merit, merit_of_few(residual));
+      if (few.since_all < most_of_few && few.merit * few.merit > left_to_few * merit_of_all * merit_of_all) {
+        if (far && few.merit > hardly_fallen * before) break_cycle();
+        return;
+      }
+      progress.regularisation = few.regularisation;
+    }
+    few.list.clear();
+    if (!settings.statics.refuses_growth && !in_valley() && progress.iteration >= few_after &&
+        few.since_all < most_of_few)
+      few.list = few_of_residual(unknowns, residual);
+    if (few_move()) {
+      few.merit = merit_of_few(residual);
+      few.regularisation = std::exchange(progress.regularisation, first_of_few);
+    } else if (few.went_far && merit_of_all > hardly_fallen * few.merit_of_all) {
+      break_cycle();
+    }
   }
 
   // ---- work ---------------------------------------------------------------------------------------------------------
@@ -280,11 +328,12 @@ struct Newton {
 
   bool rests() {
     const double ratio = unbalanced_ratio(model, settings.threads, state) / settings.equilibrium.unbalanced;
-    return ratio <= of_unbalanced || (ratio <= 0.5 && ++progress.polished > most_polishing);
+    return ratio <= of_unbalanced || (!few_move() && ratio <= 0.5 && ++progress.polished > most_polishing);
   }
 
   void start_increment() {
-    progress.iteration = progress.tries = progress.polished = 0;
+    progress.iteration = progress.tries = progress.polished = progress.pairs = 0;
+    progress.few = {};
     progress.merits.clear();
     system.closed.clear();
     find_closed_joints(model, settings, state.bodies, state.contacts, base.histories, state.counters, system.closed);
@@ -344,21 +393,35 @@ struct Newton {
   void accept(const Eigen::VectorXd& residual, double now) {
     if (increment.trial != Trial::start) {
       keep(numbers(progress.accepted) + numbers(progress.change), progress.accepted);
-      ++progress.iteration;
-      ++state.counters.static_iterations;
+      ++(few_move() ? progress.few.since_all : progress.iteration);
+      ++(few_move() ? state.counters.static_iterations_of_few : state.counters.static_iterations);
+    }
+    const bool of_all = !few_move(), far = went_far(residual);
+    if (of_all) {
+      progress.few.since_all = 0;
+      progress.few.merit_of_all = progress.merits.empty() ? now : progress.merits.back();
+      progress.few.went_far = far;
     }
     keep(residual, progress.residual);
-    progress.merits.push_back(now);
     progress.tries = 0;
+    if (few_move())
+      progress.merits.back() = now;
+    else
+      progress.merits.push_back(now);
     if (rests()) return end_increment();
+    choose_moving(residual, now, far);
+    if (few_move()) {
+      find_stiffness();
+      return step_from_accepted();
+    }
     if (progress.iteration >= iteration_limit) return give_up(&Counters::unconverged_fallbacks);
     if (++progress.since_commit >= most_since_commit ||
         has_slipped_far(model, settings.statics.slip, unknowns, increment) ||
         fraction_in_new_contacts() > most_in_new_contacts)
       commit();
-    const double reached = static_cast<double>(system.stiffness.size());
     find_stiffness();
-    const bool reached_all = static_cast<double>(system.stiffness.size()) < still_reaching * reached;
+    const int reached = std::exchange(progress.pairs, static_cast<int>(system.stiffness.size()));
+    const bool reached_all = progress.pairs < still_reaching * reached;
     if (progress.iteration >= closed_iterations && reached_all) system.closed.clear();
     step_from_accepted();
   }
@@ -381,12 +444,15 @@ struct Newton {
                          ? &Counters::broken_bonds_fallbacks
                          : &Counters::unconverged_fallbacks);
     const Eigen::VectorXd residual = residual_now();
-    const double now = merit(residual);
+    const double now = merit(residual, unknowns.scale);
     if (breaks || (trial == Trial::step && refuses_growth() && grows(residual, now))) return refuse(breaks);
     if (trial == Trial::step) {
       if (!refuses_growth() && shortens(residual)) return;
       if (!std::isfinite(now)) return set_trial_at(numbers(progress.accepted), Trial::last);
-      regularise(residual, now);
+      if (few_move())
+        regularise(residual, progress.few.merit, merit_of_few(residual));
+      else
+        regularise(residual, progress.merits.back(), now);
     }
     accept(residual, now);
   }
