@@ -1,7 +1,8 @@
 // Newton's method for statics (core/step/static_solver.hpp) on sliced rock: seconds to equilibrium by number of blocks,
-// on points and on whole faces, for softer and stiffer joints, after a small change, and for a factor of safety; walls
-// and columns; what each part takes. Prints a table and writes build/reports/benchmarks/statics.csv. Processor seconds
-// of one thread; the gain of a second thread is of the clock, and told only if the machine is quiet.
+// on points and on whole faces, for softer and stiffer joints, after a small change, of an excavation, and for a factor
+// of safety; of walls and columns; what each part takes. Prints a table and writes
+// build/reports/benchmarks/statics.csv. Processor seconds of one thread; the gain of a second thread is of the clock,
+// and told only if the machine is quiet.
 #include <fmt/format.h>
 #include <time.h>
 
@@ -16,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "core/run/run.hpp"
 #include "core/run/simulate.hpp"
 #include "core/scene/scene.hpp"
 #include "core/solvers/incomplete_factors.hpp"
@@ -24,6 +26,7 @@
 #include "core/step/relaxation.hpp"
 #include "core/step/static_solver_base.hpp"
 #include "core/step/tangent.hpp"
+#include "core/testing/stacks.hpp"
 
 namespace voussoir::benchmarks {
 namespace {
@@ -174,6 +177,42 @@ double load_average() {
   return getloadavg(&load, 1) == 1 ? load : quiet_load + 1;
 }
 
+template <int Dim>
+void print_row(const std::string& name, const Model<Dim>& model, const State<Dim>& state, double took,
+               const Counters& c, const std::string& outcome, std::ofstream& csv) {
+  const auto blocks = std::ranges::count_if(model.bodies, [](const Body<Dim>& b) { return !b.fixed; });
+  const auto touching = std::ranges::count_if(state.contacts.list, &Contact<Dim>::touching);
+  const double products =
+      static_cast<double>(c.linear_iterations) / static_cast<double>(std::max(c.linear_systems, 1LL));
+  fmt::print(
+      "{:34} {:6} blocks, {:6} pairs touch: {:8.3f} s; {} steps and {} of few bodies, {} systems, {:.0f} products "
+      "each, {} contact evaluations; {}\n",
+      name, blocks, touching, took, c.static_iterations, c.static_iterations_of_few, c.linear_systems, products,
+      c.contact_evaluations, outcome);
+  csv << fmt::format("\"{}\",{},{},{},{},{},{},{},{}\n", name, blocks, touching, took, c.static_iterations,
+                     c.linear_systems, c.linear_iterations, c.contact_evaluations, c.static_fallbacks);
+  std::fflush(stdout);
+}
+
+// a model in the plane from where it was laid to rest
+void time_stack(const std::string& name, const Model<2>& model, std::ofstream& csv) {
+  std::vector<double> seconds;
+  State<2> state;
+  RunReport report;
+  for (int i = 0; i < repetitions; ++i) {
+    Settings settings;
+    settings.statics.method = Statics::newton;
+    settings.statics.increments = 1;
+    settings.threads = 1;
+    state = initial_state(model);
+    const double begin = processor_seconds();
+    report = run<2>(model, settings, {.rest = true, .step_limit = 1'000'000}, {}, state);
+    seconds.push_back(processor_seconds() - begin);
+  }
+  print_row(name, model, state, median(seconds), state.counters,
+            report.reason == StopReason::equilibrium ? "equilibrium" : "no equilibrium", csv);
+}
+
 void time_subject(const Subject& subject, std::ofstream& csv) {
   const Prepared<3> scene = prepared(subject);
   const auto blocks = std::ranges::count_if(scene.model.bodies, [](const Body<3>& b) { return !b.fixed; });
@@ -185,17 +224,8 @@ void time_subject(const Subject& subject, std::ofstream& csv) {
     seconds.push_back(m.seconds);
   }
   const double took = median(seconds);
-  const auto touching = std::ranges::count_if(progress.state.contacts.list, &Contact<3>::touching);
   const Counters& c = m.counters;
-  const double products =
-      static_cast<double>(c.linear_iterations) / static_cast<double>(std::max(c.linear_systems, 1LL));
-  fmt::print(
-      "{:34} {:6} blocks, {:6} pairs touch: {:8.3f} s; {} steps, {} systems, {:.0f} products each, {} contact "
-      "evaluations; {}\n",
-      subject.name, blocks, touching, took, c.static_iterations, c.linear_systems, products, c.contact_evaluations,
-      m.outcome);
-  csv << fmt::format("\"{}\",{},{},{},{},{},{},{},{}\n", subject.name, blocks, touching, took, c.static_iterations,
-                     c.linear_systems, c.linear_iterations, c.contact_evaluations, c.static_fallbacks);
+  print_row(subject.name, scene.model, progress.state, took, c, m.outcome, csv);
   if (subject.overrides.empty() && subject.from_stage == 0 && scene.stages.size() == 1) {
     double rest = took;
     for (const Share& share : shares_of(scene, progress, c)) {
@@ -218,6 +248,14 @@ std::vector<Subject> subjects(bool all) {
   const std::string weaker =
       std::string(settles) +
       "[[stage]]\nname = \"weaker\"\nkind = \"settle\"\nfriction = [{ name = \"rock\", friction_deg = 34 }]\n";
+  const std::string dug =
+      std::string(
+          "[[excavations]]\nname = \"pit\"\nbox = { min = [4, 3, 4], max = [7, 6, 7] }\n[[bolts]]\nname = "
+          "\"wall\"\nfrom = [3.9, 4.5, 5.2]\nto = [1.9, 4.5, 4.9]\nstiffness = 1e8\nyield = 150e3\n") +
+      settles +
+      "[[stage]]\nname = \"dig\"\nkind = \"settle\"\nexcavate = [\"pit\"]\nexcavation_forces = { remaining = 0.5 "
+      "}\n[[stage]]\nname = \"bolt\"\nkind = \"settle\"\ninstall = [\"wall\"]\nexcavation_forces = { remaining = 0 "
+      "}\n[[stage]]\nname = \"wait\"\nkind = \"settle\"\n";
   const std::string search = std::string(settles) +
                              "[[stage]]\nname = \"factor\"\nkind = \"reduce\"\nsearch = \"factor\"\nfrom_factor = "
                              "0.5\nto_factor = 10\ntolerance_factor = 0.05\n";
@@ -235,6 +273,7 @@ std::vector<Subject> subjects(bool all) {
   list.push_back({"friction 20 deg", settled, {"joint_properties.rock.friction_deg=20"}});
   list.push_back({"friction 45 deg", settled, {"joint_properties.rock.friction_deg=45"}});
   list.push_back({"then one degree of friction less", rock_mass(of_2488, weaker), {}, 1});
+  list.push_back({"excavation in three stages", rock_mass(of_2488, dug), {}, 1});
   list.push_back({"factor of safety, open in the east", rock_mass(of_2488, search, true), {}, 1});
   list.push_back({"rock mass", rock_mass(of_10640, settles)});
   list.push_back({"rock mass", rock_mass(of_22170, settles)});
@@ -255,5 +294,9 @@ int main(int argc, char** argv) {
   csv << "subject,blocks,touching_pairs,processor_s,steps,systems,products,contact_evaluations,fallbacks\n";
   for (const Subject& subject : subjects(argc < 3))
     time_subject(subject, csv);
+  if (argc < 3) {
+    time_stack("column of squares", shapes::column_of_squares(20'000), csv);
+    time_stack("wall of bricks", shapes::brick_wall(141), csv);
+  }
   return csv ? 0 : 1;
 }

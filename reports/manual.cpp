@@ -142,6 +142,8 @@ std::vector<Part> all_parts(const Sources& sources) {
   parts.push_back({"Speed", "what-accuracy-costs", "Cost of accuracy", trade_page(folders, sources.missing)});
   parts.push_back(
       {"Speed", "what-a-slope-costs", "Cost on a slope", text_page(folders, "slope_cost", "what-a-slope-costs")});
+  parts.push_back({"Speed", "what-equilibrium-costs", "Cost of equilibrium",
+                   text_page(folders, "rest_cost", "what-equilibrium-costs")});
   parts.push_back({"Speed", "contact-kernel", "The contact kernel", kernel_page(folders, sources.missing)});
   parts.push_back(
       {"Reference", "what-water-means", "Water in the model", text_page(folders, "water", "what-water-means")});

@@ -19,7 +19,12 @@ std::string text_page(const Folders& folders, const std::string& name, const std
                           if (path.filename() == "NOTES.md") return fmt::format("#{}-notes", of_case);
                           return fmt::format("#{}-{}", of_case, slug(path.filename().string()));
                         },
-                        [](const std::string&, const std::string&) -> std::optional<std::string> { return {}; }};
+                        [&](const std::string& target, const std::string& caption) -> std::optional<std::string> {
+                          const fs::path figures = folders.build / "reports" / "figures";
+                          const std::string stem = fs::path(target).stem().string();
+                          if (!fs::exists(figures / (stem + ".svg"))) return {};  // not drawn
+                          return drawn_figure({figures}, stem, slug(stem), caption);
+                        }};
   return fmt::format("<section class=\"case\" id=\"{}\">\n<h2>{}</h2>\n{}</section>\n", anchor,
                      escape(markdown_title(text).value_or(name)), markdown_to_html(text, 1, true, rules));
 }

@@ -7,7 +7,7 @@
 namespace voussoir::reports {
 
 // A section with the anchor `anchor`, the text's own title its heading. Links to a case, ../cases/<case>/README.md, or
-// to a scene of one point to their place in the manual.
+// to a scene of one point to their place in the manual; a picture is the figure of its name, if it was drawn.
 std::string text_page(const Folders& folders, const std::string& name, const std::string& anchor);
 
 }  // namespace voussoir::reports

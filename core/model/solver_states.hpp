@@ -57,7 +57,7 @@ struct StaticBase {
   long long listed = 0;  // Counters::neighbour_builds that the histories belong to
 };
 
-// Steps of few bodies between two of all (step/moving_bodies.hpp).
+// Steps of few bodies between two of all (step/bodies_of_step.hpp).
 struct StepsOfFew {
   std::vector<int> list;      // of the free bodies, ascending; none: all move
   int since_all = 0;          // of the few since the last step of all

@@ -14,6 +14,7 @@
 #include "core/step/prescribed.hpp"
 #include "core/step/relaxation.hpp"
 #include "core/step/static_solver.hpp"
+#include "core/step/static_solver_base.hpp"
 #include "core/step/support_table.hpp"
 #include "text/angle.hpp"
 

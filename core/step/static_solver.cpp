@@ -7,11 +7,11 @@
 #include <utility>
 
 #include "core/solvers/block_solver.hpp"
+#include "core/step/bodies_of_step.hpp"
 #include "core/step/integrate.hpp"
 #include "core/step/joint_forces.hpp"
 #include "core/step/loads.hpp"
 #include "core/step/motion.hpp"
-#include "core/step/moving_bodies.hpp"
 #include "core/step/pair_stiffness.hpp"
 #include "core/step/relaxation.hpp"
 #include "core/step/static_solver_base.hpp"
@@ -36,9 +36,9 @@ constexpr double may_drive_back = -0.5, most_shortening = 0.1, least_shortening 
 constexpr int most_lengths = 6;
 
 // Regularisation falls with the residual of a step that was not shortened, within these bounds, or by the third if more
-// than half of the work is left, since it is then regularisation that bounds the step; it falls by the fourth if the
-// step was bounded by the blocks' size, and rises by the last if the step was shortened below that fraction.
-constexpr double most_fall = 0.02, least_fall = 0.5, slow_fall = 0.1, bounded_fall = 0.5, far_shortened = 0.3, rise = 2;
+// than half of the work is left, since it is then regularisation that bounds the step. It rises by the last if the step
+// was shortened below that fraction; else it falls by the fourth if the step was bounded by the blocks' size.
+constexpr double most_fall = 0.02, least_fall = 0.5, slow_fall = 0.1, bounded_fall = 0.5, far_shortened = 0.3, rise = 4;
 
 // A residual of which more than this is left after a step that went nearly as far as it could: contacts open and close
 // alternately, and a short step (at least this regularisation) breaks the cycle.
@@ -136,7 +136,7 @@ struct Newton {
     return std::sqrt(residual.dot(residual.cwiseQuotient(scale)));
   }
 
-  MovingBodies<Dim> moving() const { return {unknowns, progress.few.list}; }
+  BodiesOfStep<Dim> moving() const { return {unknowns, progress.few.list}; }
   bool few_move() const { return !progress.few.list.empty(); }
 
   // ---- linear system ------------------------------------------------------------------------------------------------
@@ -150,7 +150,7 @@ struct Newton {
     return blocks;
   }
 
-  void find_matrix(const MovingBodies<Dim>& bodies, double regularisation) {
+  void find_matrix(const BodiesOfStep<Dim>& bodies, double regularisation) {
     std::vector<const PairStiffness<Dim>*> pairs;
     for (const PairStiffness<Dim>& p : system.stiffness)
       pairs.push_back(&p);
@@ -174,7 +174,7 @@ struct Newton {
 
   // A step along which the residual does positive work; if the tangent gives none, more regularisation.
   Eigen::VectorXd next_step(const Eigen::VectorXd& residual_of_all) {
-    const MovingBodies<Dim> bodies = moving();
+    const BodiesOfStep<Dim> bodies = moving();
     const Eigen::VectorXd residual = bodies.of(residual_of_all);
     const auto among_all = [&](const Eigen::VectorXd& x) { return bodies.among_all(x, unknowns.count()); };
     for (int tries = 0; tries < most_tries; ++tries) {
@@ -223,10 +223,10 @@ struct Newton {
 
   // `before`, `now`: merits of the bodies that move
   void regularise(const Eigen::VectorXd& residual, double before, double now) {
-    if (progress.overshoot > 1 || progress.tries > 0)
-      progress.regularisation *= bounded_fall;
-    else if (progress.length < far_shortened)
+    if (progress.length < far_shortened && progress.tries == 0)
       progress.regularisation *= rise;
+    else if (progress.overshoot > 1 || progress.tries > 0)
+      progress.regularisation *= bounded_fall;
     else if (progress.length >= 1)
       progress.regularisation *=
           work_left(residual) > 0.5 ? slow_fall : std::clamp(now / before, most_fall, least_fall);
@@ -239,17 +239,6 @@ struct Newton {
   }
   void break_cycle() { progress.regularisation = std::max(short_step, 4 * progress.regularisation); }
 
-  double fraction_in_new_contacts() const {
-    double all = 0, of_new = 0;
-    for (std::size_t i = 0; i < state.contacts.list.size(); ++i) {
-      if (!state.contacts.list[i].touching()) continue;
-      const double force = state.contacts.list[i].force.norm();
-      all += force;
-      if (base.histories.contacts[i].history.normal.isZero(0)) of_new += force;
-    }
-    return all > 0 ? of_new / all : 0;
-  }
-
   // whether the loads are nearly balanced already, and nearly all joints that are closed carry
   bool is_carried() const {
     const auto touching = std::ranges::count_if(state.contacts.list, &Contact<Dim>::touching);
@@ -260,7 +249,7 @@ struct Newton {
   // ---- few bodies ---------------------------------------------------------------------------------------------------
 
   double merit_of_few(const Eigen::VectorXd& residual) const {
-    const MovingBodies<Dim> few = moving();
+    const BodiesOfStep<Dim> few = moving();
     return merit(few.of(residual), few.scale);
   }
 
@@ -287,28 +276,8 @@ struct Newton {
     }
   }
 
-  // ---- work ---------------------------------------------------------------------------------------------------------
-
-  // Of the loads over the increment so far, by the mean of those at its ends: exact for linear loads. All of it counts
-  // as removed, as under relaxation.
-  void add_work() {
-    const Eigen::VectorXd q = numbers(progress.accepted);
-    for (std::size_t i = 0; i < load_count; ++i) {
-      const std::vector<Load<Dim>>&then = base.loads.values[i], &now = state.loads.by_source.values[i];
-      double work = 0;
-      for (std::size_t k = 0; k < unknowns.count(); ++k) {
-        const auto along = [&](const Load<Dim>& l) {
-          return l.force.dot(q.segment<Dim>(F * k)) + l.moment.dot(q.segment<S>(F * k + Dim));
-        };
-        const auto b = static_cast<std::size_t>(unknowns.bodies[k]);
-        work += 0.5 * ((b < then.size() ? along(then[b]) : 0) + (b < now.size() ? along(now[b]) : 0));
-      }
-      state.ledger.energy.flows.values[i] += source_table[i].motion * work;
-      state.ledger.energy.flows[Source::relaxation] += work;
-    }
-    state.ledger.energy.kinetic = 0;
-    balance(state.ledger.energy);
-  }
+  // ---- base
+  // ----------------------------------------------------------------------------------------------------------
 
   void take_base() {
     stop(state.bodies.motions);
@@ -320,7 +289,7 @@ struct Newton {
 
   // the accepted trial, just evaluated, is the new base
   void commit() {
-    add_work();
+    add_work_of_increment(unknowns, base.loads, numbers(progress.accepted), state.loads.by_source, state.ledger.energy);
     take_base();
   }
 
@@ -417,7 +386,7 @@ struct Newton {
     if (progress.iteration >= iteration_limit) return give_up(&Counters::unconverged_fallbacks);
     if (++progress.since_commit >= most_since_commit ||
         has_slipped_far(model, settings.statics.slip, unknowns, increment) ||
-        fraction_in_new_contacts() > most_in_new_contacts)
+        fraction_in_new_contacts(state.contacts, base.histories) > most_in_new_contacts)
       commit();
     find_stiffness();
     const int reached = std::exchange(progress.pairs, static_cast<int>(system.stiffness.size()));
@@ -511,28 +480,13 @@ double memory_of_newton(const State<Dim>& state) {
                              state.contacts.rises.size() * sizeof(JointRise<Dim>));
 }
 
-template <int Dim>
-std::vector<Placement<Dim>> accepted_placements(const Model<Dim>& model, const StaticIncrement<Dim>& increment) {
-  std::vector<Placement<Dim>> placed;
-  const double* q = increment.progress.accepted.data();  // of the free bodies, in order
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    placed.push_back({increment.base.motions[b].displacement, increment.base.motions[b].rotation});
-    if (model.bodies[b].fixed || !model.bodies[b].present) continue;
-    placed.back().displacement += Eigen::Map<const Vector<Dim>>(q);
-    placed.back().rotation = turned(placed.back().rotation, Spin<Dim>(Eigen::Map<const Spin<Dim>>(q + Dim)));
-    q += freedoms<Dim>;
-  }
-  return placed;
-}
-
 #define VOUSSOIR_INSTANTIATE(Dim)                                                                         \
   template bool newton_applies<Dim>(const Model<Dim>&);                                                   \
   template void begin_newton<Dim>(const Model<Dim>&, const Settings&, double, const std::vector<double>&, \
                                   State<Dim>&);                                                           \
   template void iterate<Dim>(const Model<Dim>&, const Settings&, State<Dim>&);                            \
   template std::string progress_of_newton<Dim>(const State<Dim>&);                                        \
-  template double memory_of_newton<Dim>(const State<Dim>&);                                               \
-  template std::vector<Placement<Dim>> accepted_placements<Dim>(const Model<Dim>&, const StaticIncrement<Dim>&);
+  template double memory_of_newton<Dim>(const State<Dim>&);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)
 #undef VOUSSOIR_INSTANTIATE

@@ -55,8 +55,4 @@ std::string progress_of_newton(const State<Dim>& state);
 template <int Dim>
 double memory_of_newton(const State<Dim>& state);
 
-// by body: at the last trial that was accepted
-template <int Dim>
-std::vector<Placement<Dim>> accepted_placements(const Model<Dim>& model, const StaticIncrement<Dim>& increment);
-
 }  // namespace voussoir

@@ -84,11 +84,62 @@ void set_trial(const Model<Dim>& model, const Unknowns<Dim>& unknowns, const Sta
   time_step.length = 1;
 }
 
+template <int Dim>
+void add_work_of_increment(const Unknowns<Dim>& unknowns, const LoadsBySource<Dim>& loads_then,
+                           const Eigen::VectorXd& q, const LoadsBySource<Dim>& loads_now, EnergyBalance& energy) {
+  constexpr int F = freedoms<Dim>, S = spin_freedoms<Dim>;
+  for (std::size_t i = 0; i < load_count; ++i) {
+    const std::vector<Load<Dim>>&then = loads_then.values[i], &now = loads_now.values[i];
+    double work = 0;
+    for (std::size_t k = 0; k < unknowns.count(); ++k) {
+      const auto along = [&](const Load<Dim>& l) {
+        return l.force.dot(q.segment<Dim>(F * k)) + l.moment.dot(q.segment<S>(F * k + Dim));
+      };
+      const auto b = static_cast<std::size_t>(unknowns.bodies[k]);
+      work += 0.5 * ((b < then.size() ? along(then[b]) : 0) + (b < now.size() ? along(now[b]) : 0));
+    }
+    energy.flows.values[i] += source_table[i].motion * work;
+    energy.flows[Source::relaxation] += work;
+  }
+  energy.kinetic = 0;
+  balance(energy);
+}
+
+template <int Dim>
+double fraction_in_new_contacts(const ContactsState<Dim>& contacts, const JointHistories<Dim>& of_base) {
+  double all = 0, of_new = 0;
+  for (std::size_t i = 0; i < contacts.list.size(); ++i) {
+    if (!contacts.list[i].touching()) continue;
+    const double force = contacts.list[i].force.norm();
+    all += force;
+    if (of_base.contacts[i].history.normal.isZero(0)) of_new += force;
+  }
+  return all > 0 ? of_new / all : 0;
+}
+
+template <int Dim>
+std::vector<Placement<Dim>> accepted_placements(const Model<Dim>& model, const StaticIncrement<Dim>& increment) {
+  std::vector<Placement<Dim>> placed;
+  const double* q = increment.progress.accepted.data();  // of the free bodies, in order
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    placed.push_back({increment.base.motions[b].displacement, increment.base.motions[b].rotation});
+    if (model.bodies[b].fixed || !model.bodies[b].present) continue;
+    placed.back().displacement += Eigen::Map<const Vector<Dim>>(q);
+    placed.back().rotation = turned(placed.back().rotation, Spin<Dim>(Eigen::Map<const Spin<Dim>>(q + Dim)));
+    q += freedoms<Dim>;
+  }
+  return placed;
+}
+
 #define VOUSSOIR_INSTANTIATE(Dim)                                                                                   \
   template struct Unknowns<Dim>;                                                                                    \
   template StaticBase<Dim> base_of<Dim>(const State<Dim>&);                                                         \
   template void follow_list<Dim>(const ContactsState<Dim>&, long long, StaticBase<Dim>&,                            \
                                  std::vector<PairStiffness<Dim>>&);                                                 \
+  template void add_work_of_increment<Dim>(const Unknowns<Dim>&, const LoadsBySource<Dim>&, const Eigen::VectorXd&, \
+                                           const LoadsBySource<Dim>&, EnergyBalance&);                              \
+  template double fraction_in_new_contacts<Dim>(const ContactsState<Dim>&, const JointHistories<Dim>&);             \
+  template std::vector<Placement<Dim>> accepted_placements<Dim>(const Model<Dim>&, const StaticIncrement<Dim>&);    \
   template void set_trial<Dim>(const Model<Dim>&, const Unknowns<Dim>&, const StaticBase<Dim>&,                     \
                                const Eigen::VectorXd&, BodiesState<Dim>&, ContactsState<Dim>&, SupportsState<Dim>&, \
                                Ledger&, TimeStep&);

@@ -40,4 +40,18 @@ void set_trial(const Model<Dim>& model, const Unknowns<Dim>& unknowns, const Sta
                const Eigen::VectorXd& q, BodiesState<Dim>& bodies, ContactsState<Dim>& contacts,
                SupportsState<Dim>& supports, Ledger& ledger, TimeStep& time_step);
 
+// Adds the work of the loads over the motion q since the base, by the mean of those at its ends: exact for linear
+// loads. All of it counts as removed, as under relaxation.
+template <int Dim>
+void add_work_of_increment(const Unknowns<Dim>& unknowns, const LoadsBySource<Dim>& then, const Eigen::VectorXd& q,
+                           const LoadsBySource<Dim>& now, EnergyBalance& energy);
+
+// of all contact forces: in contacts that the base does not have
+template <int Dim>
+double fraction_in_new_contacts(const ContactsState<Dim>& contacts, const JointHistories<Dim>& of_base);
+
+// by body: at the last trial that was accepted
+template <int Dim>
+std::vector<Placement<Dim>> accepted_placements(const Model<Dim>& model, const StaticIncrement<Dim>& increment);
+
 }  // namespace voussoir

@@ -15,6 +15,7 @@
 #include "core/run/simulate.hpp"
 #include "core/step/loads.hpp"
 #include "core/testing/models.hpp"
+#include "core/testing/stacks.hpp"
 #include "core/testing/whole_runs.hpp"
 #include "text/angle.hpp"
 
@@ -24,6 +25,8 @@ namespace {
 using shapes::block_on_plate;
 using shapes::body_of;
 using shapes::box;
+using shapes::brick_wall;
+using shapes::column_of_squares;
 using shapes::gravity;
 using shapes::index_of;
 
@@ -45,20 +48,10 @@ std::pair<RunReport, State<Dim>> rest_of(const Model<Dim>& model, Statics static
   return {report, std::move(state)};
 }
 
-// squares one above the other that cannot rotate
-Model<2> column(int blocks) {
-  std::vector<Body<2>> bodies{body_of<2>(box<2>({-0.5, -1}, {1.5, 0}), true)};
-  for (int i = 0; i < blocks; ++i) {
-    bodies.push_back(body_of<2>(box<2>({0, 1.0 * i}, {1, 1.0 * i + 1})));
-    bodies.back().free_rotation.fill(false);
-  }
-  return shapes::model_of<2>(std::move(bodies));
-}
-
 // Linear springs: the full weight in one increment, for any height. Stiff enough that no step is shortened.
 void expect_columns_take_as_many_iterations(const std::vector<int>& heights) {
   for (const int blocks : heights) {
-    Model<2> model = column(blocks);
+    Model<2> model = column_of_squares(blocks);
     model.properties[0].normal_stiffness = 26000 * gravity * blocks / 1e-3;  // overlaps up to a millimetre
     const auto [report, state] = rest_of(model, Statics::newton);
     double weight = 0, settled = 0;  // from the top down
@@ -85,27 +78,11 @@ TEST(NewtonLong, AColumnOfAnyHeightTakesTheSameIterations) {
   expect_columns_take_as_many_iterations({10'000, 20'000});
 }
 
-// courses of bricks, each half a brick on the next
-Model<2> wall(int courses) {
-  std::vector<Body<2>> bodies{body_of<2>(box<2>({-1, -1}, {courses + 1.0, 0}), true)};
-  for (int row = 0; row < courses; ++row) {
-    const double low = 0.5 * row, first = row % 2 ? 0.5 : 0;
-    if (first > 0) bodies.push_back(body_of<2>(box<2>({0, low}, {first, low + 0.5})));
-    for (double x = first; x < courses; ++x)
-      bodies.push_back(body_of<2>(box<2>({x, low}, {std::min(x + 1, 1.0 * courses), low + 0.5})));
-  }
-  Model<2> model = shapes::model_of<2>(std::move(bodies));
-  model.properties[0].normal_stiffness = 1e10;
-  model.properties[0].shear_stiffness = 5e9;
-  model.properties[0].sub_contacts = 2;
-  return model;
-}
-
 // Joints between bricks of a course have almost no force, and open and close as the wall settles.
 void expect_walls_take_as_many_evaluations_a_pair(const std::vector<int>& sizes) {
   std::vector<double> a_pair, blocks;
   for (const int courses : sizes) {
-    const Model<2> model = wall(courses);
+    const Model<2> model = brick_wall(courses);
     const auto [report, state] = rest_of(model, Statics::newton);
     const auto touching = std::count_if(state.contacts.list.begin(), state.contacts.list.end(),
                                         [](const Contact<2>& c) { return c.touching(); });
@@ -302,7 +279,7 @@ void harden(JointProperties& joint) {
 // each joint closes under the weight above it, by its own law
 TEST(Newton, AColumnClosesByStressDependentStiffness) {
   for (const auto& law : {stiffen_by_stress, stiffen_by_a_power}) {
-    Model<2> model = column(30);
+    Model<2> model = column_of_squares(30);
     law(model.properties[0]);
     const auto [report, state] = rest_of(model, Statics::newton);
     double weight = 0, settled = 0;  // from the top down
@@ -366,7 +343,7 @@ TEST(Newton, LeavesSofteningToRelaxation) {
 // Blocks that will be bonded with tensile strength first close by tension over normal stiffness, as far as their weight
 // closes the lowest of them, without any force on that path.
 TEST(Newton, AColumnClosesByTheOffsetOfItsBonds) {
-  Model<2> model = column(30);
+  Model<2> model = column_of_squares(30);
   JointProperties& joint = model.properties[0];
   joint.laws.bond = true;
   joint.constant_stiffness = false;
@@ -383,7 +360,7 @@ TEST(Newton, AColumnClosesByTheOffsetOfItsBonds) {
 // ---- the same bits --------------------------------------------------------------------------------------------------
 
 TEST(Newton, ThreadsChangeNoBit) {
-  Model<2> model = column(2 * too_few_for_a_team);
+  Model<2> model = column_of_squares(2 * too_few_for_a_team);
   model.properties[0].normal_stiffness *= 1e3;
   const auto [report, one] = rest_of(model, Statics::newton);
   for (const int threads : {2, 7})

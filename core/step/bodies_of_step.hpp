@@ -10,14 +10,14 @@
 namespace voussoir {
 
 template <int Dim>
-struct MovingBodies {
+struct BodiesOfStep {
   std::vector<int> list;        // indices among the unknowns' bodies
   std::vector<int> place;       // by body of the model: index in `list`, or -1
   std::vector<int> upwards;     // indices in `list`, the lowest first
   Eigen::VectorXd scale, free;  // as Unknowns
 
   // `few`: ascending; none: all free bodies move
-  MovingBodies(const Unknowns<Dim>& unknowns, const std::vector<int>& few);
+  BodiesOfStep(const Unknowns<Dim>& unknowns, const std::vector<int>& few);
 
   // of numbers by degree of freedom of all free bodies those of the moving ones; and back, zero for the others
   Eigen::VectorXd of(const Eigen::VectorXd& all) const;

@@ -1,4 +1,4 @@
-#include "core/step/moving_bodies.hpp"
+#include "core/step/bodies_of_step.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -16,7 +16,7 @@ constexpr double share_of_few = 0.5, above_mean = 16;
 }  // namespace
 
 template <int Dim>
-MovingBodies<Dim>::MovingBodies(const Unknowns<Dim>& unknowns, const std::vector<int>& few) : list(few) {
+BodiesOfStep<Dim>::BodiesOfStep(const Unknowns<Dim>& unknowns, const std::vector<int>& few) : list(few) {
   if (list.empty()) {
     list.resize(unknowns.count());
     std::iota(list.begin(), list.end(), 0);
@@ -37,7 +37,7 @@ MovingBodies<Dim>::MovingBodies(const Unknowns<Dim>& unknowns, const std::vector
 }
 
 template <int Dim>
-Eigen::VectorXd MovingBodies<Dim>::of(const Eigen::VectorXd& all) const {
+Eigen::VectorXd BodiesOfStep<Dim>::of(const Eigen::VectorXd& all) const {
   constexpr int F = freedoms<Dim>;
   Eigen::VectorXd moving(F * list.size());
   for (std::size_t i = 0; i < list.size(); ++i)
@@ -46,7 +46,7 @@ Eigen::VectorXd MovingBodies<Dim>::of(const Eigen::VectorXd& all) const {
 }
 
 template <int Dim>
-Eigen::VectorXd MovingBodies<Dim>::among_all(const Eigen::VectorXd& moving, std::size_t count) const {
+Eigen::VectorXd BodiesOfStep<Dim>::among_all(const Eigen::VectorXd& moving, std::size_t count) const {
   constexpr int F = freedoms<Dim>;
   Eigen::VectorXd all = Eigen::VectorXd::Zero(F * count);
   for (std::size_t i = 0; i < list.size(); ++i)
@@ -85,7 +85,7 @@ std::vector<int> few_of_residual(const Unknowns<Dim>& unknowns, const Eigen::Vec
 }
 
 #define VOUSSOIR_INSTANTIATE(Dim)    \
-  template struct MovingBodies<Dim>; \
+  template struct BodiesOfStep<Dim>; \
   template std::vector<int> few_of_residual<Dim>(const Unknowns<Dim>&, const Eigen::VectorXd&);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)
