@@ -295,8 +295,8 @@ int main(int argc, char** argv) {
   for (const Subject& subject : subjects(argc < 3))
     time_subject(subject, csv);
   if (argc < 3) {
-    time_stack("column of squares", shapes::column_of_squares(20'000), csv);
-    time_stack("wall of bricks", shapes::brick_wall(141), csv);
+    time_stack("column of squares", voussoir::shapes::column_of_squares(20'000), csv);
+    time_stack("wall of bricks", voussoir::shapes::brick_wall(141), csv);
   }
   return csv ? 0 : 1;
 }
