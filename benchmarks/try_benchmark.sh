@@ -10,4 +10,4 @@ mkdir -p "$out"
   --benchmark_report_aggregates_only=true --benchmark_out="$out/run.json" --benchmark_out_format=json >"$out/run.log" 2>&1
 "$build/benchmarks/voussoir_contact_report" "$out/run.json" "$out"
 "$build/benchmarks/fall_benchmark" "$out" 200
-"$build/benchmarks/statics_benchmark" "$out" quick
+"$build/benchmarks/statics_benchmark" "$out" "small rock mass"
