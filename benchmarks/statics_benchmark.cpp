@@ -1,6 +1,6 @@
 // Newton's method for statics (core/step/static_solver.hpp) on sliced rock: seconds to equilibrium by number of blocks,
-// on points and on whole faces, for softer and stiffer joints, after a small change, of an excavation, and for a factor
-// of safety; of walls and columns; what each part takes. Prints a table and writes
+// on points and on whole faces, for softer and stiffer joints, after a small change, of an excavation, and of a trial
+// of a search; of walls and columns; what each part takes. Prints a table and writes
 // build/reports/benchmarks/statics.csv. Processor seconds of one thread; the gain of a second thread is of the clock,
 // and told only if the machine is quiet.
 #include <fmt/format.h>
@@ -54,16 +54,16 @@ struct Box {
   int length, width, height;  // m
 };
 
-// the rock mass of cases/slicing between walls, without the one in the east if it is open there
-std::string rock_mass(const Box& box, const std::string& stages, bool open = false) {
+// the rock mass of cases/slicing between walls
+std::string rock_mass(const Box& box, const std::string& stages) {
   const int x = box.length, y = box.width, z = box.height;
   const auto block = [](const char* name, int x0, int y0, int z0, int x1, int y1, int z1) {
     return fmt::format("{{ name = \"{}\", box = {{ min = [{}, {}, {}], max = [{}, {}, {}] }}, fixed = true }},\n", name,
                        x0, y0, z0, x1, y1, z1);
   };
-  std::string blocks = block("floor", -1, -1, -1, x + 1, y + 1, 0) + block("west", -1, -1, 0, 0, y + 1, z) +
-                       block("south", 0, -1, 0, x, 0, z) + block("north", 0, y, 0, x, y + 1, z);
-  if (!open) blocks += block("east", x, -1, 0, x + 1, y + 1, z);
+  const std::string blocks = block("floor", -1, -1, -1, x + 1, y + 1, 0) + block("west", -1, -1, 0, 0, y + 1, z) +
+                             block("south", 0, -1, 0, x, 0, z) + block("north", 0, y, 0, x, y + 1, z) +
+                             block("east", x, -1, 0, x + 1, y + 1, z);
   return fmt::format(
       "base = \"rock_mass.toml\"\nstatics = \"newton\"\nblocks = [\n{}]\n[domain]\nbox = {{ min = [0, 0, 0], max = "
       "[{}, {}, {}] }}\n{}",
@@ -248,19 +248,38 @@ std::vector<Subject> subjects() {
   const std::string weaker =
       std::string(settles) +
       "[[stage]]\nname = \"weaker\"\nkind = \"settle\"\nfriction = [{ name = \"rock\", friction_deg = 34 }]\n";
-  const std::string dug =
-      std::string(
-          "[[excavations]]\nname = \"top\"\nbox = { min = [0, 0, 5.2], max = [11, 9, 7] }\n[[bolts]]\nname = "
-          "\"wall\"\nfrom = [3.9, 4.5, 5.2]\nto = [1.9, 4.5, 4.9]\nstiffness = 1e8\nyield = 150e3\n") +
-      settles +
-      "[[stage]]\nname = \"dig\"\nkind = \"settle\"\nexcavate = [\"top\"]\nexcavation_forces = { remaining = 0.5, "
-      "duration_s = 1 "
-      "}\n[[stage]]\nname = \"bolt\"\nkind = \"settle\"\ninstall = [\"wall\"]\nexcavation_forces = { remaining = 0, "
-      "duration_s = 1 "
-      "}\n[[stage]]\nname = \"wait\"\nkind = \"settle\"\n";
-  const std::string search = std::string(settles) +
-                             "[[stage]]\nname = \"factor\"\nkind = \"reduce\"\nsearch = \"factor\"\nfrom_factor = "
-                             "0.5\nto_factor = 10\ntolerance_factor = 0.05\n";
+  const std::string dug = std::string(R"([[excavations]]
+name = "top"
+box = { min = [0, 0, 5.2], max = [11, 9, 7] }
+[[bolts]]
+name = "wall"
+from = [3.9, 4.5, 5.2]
+to = [1.9, 4.5, 4.9]
+stiffness = 1e8
+yield = 150e3
+)") + settles + R"([[stage]]
+name = "dig"
+kind = "settle"
+excavate = ["top"]
+excavation_forces = { remaining = 0.5, duration_s = 1 }
+[[stage]]
+name = "bolt"
+kind = "settle"
+install = ["wall"]
+excavation_forces = { remaining = 0, duration_s = 1 }
+[[stage]]
+name = "wait"
+kind = "settle"
+)";
+  // it stands: the search ends without a bracket
+  const std::string trial = std::string(settles) + R"([[stage]]
+name = "trial"
+kind = "reduce"
+search = "factor"
+from_factor = 0.5
+to_factor = 3
+tolerance_factor = 0.05
+)";
   std::vector<Subject> list{{"small rock mass", rock_mass(of_327, settles)}};
   list.push_back({"rock mass", settled});
   list.push_back({"whole faces", settled, {"contact.face=integrated"}});
@@ -275,7 +294,7 @@ std::vector<Subject> subjects() {
   list.push_back({"friction 45 deg", settled, {"joint_properties.rock.friction_deg=45"}});
   list.push_back({"then one degree of friction less", rock_mass(of_2488, weaker), {}, 1});
   list.push_back({"excavation in three stages", rock_mass(of_2488, dug), {}, 1});
-  list.push_back({"factor of safety, open in the east", rock_mass(of_2488, search, true), {}, 1});
+  list.push_back({"a trial that stands, factor 3", rock_mass(of_2488, trial), {}, 1});
   list.push_back({"rock mass", rock_mass(of_10640, settles)});
   list.push_back({"rock mass", rock_mass(of_22170, settles)});
   return list;
