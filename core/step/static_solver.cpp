@@ -221,7 +221,7 @@ struct Newton {
     return true;
   }
 
-  // `before`, `now`: merits of the bodies that move
+  // `before`, `now`: merits of the bodies that move, before and after the last step
   void regularise(const Eigen::VectorXd& residual, double before, double now) {
     if (progress.length < far_shortened && progress.tries == 0)
       progress.regularisation *= rise;
@@ -276,8 +276,7 @@ struct Newton {
     }
   }
 
-  // ---- base
-  // ----------------------------------------------------------------------------------------------------------
+  // ---- base ---------------------------------------------------------------------------------------------------------
 
   void take_base() {
     stop(state.bodies.motions);
