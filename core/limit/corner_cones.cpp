@@ -2,79 +2,84 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "core/key_blocks/rock_contacts.hpp"
-#include "core/limit/interfaces.hpp"
 
 namespace voussoir {
 namespace {
 
-using CornerCone = ForceCone<6, 3>;
-
-bool any_free(const CornerBody& body) {
-  return std::ranges::any_of(body.free, [](bool free) { return free; });
-}
+template <int Dim>
+using CornerCone = ForceCone<freedoms<Dim>, Dim>;
 
 // The row of blocks of every body that is free to move; -1: held.
-std::vector<int> rows_of(const CornerAssembly& assembly) {
+template <int Dim>
+std::vector<int> rows_of(const CornerAssembly<Dim>& assembly) {
   std::vector<int> rows;
   int count = 0;
-  for (const CornerBody& body : assembly.bodies)
-    rows.push_back(any_free(body) ? count++ : -1);
+  for (const CornerBody<Dim>& body : assembly.bodies)
+    rows.push_back(body.moves() ? count++ : -1);
   return rows;
 }
 
-int count_free(const CornerAssembly& assembly) {
-  return static_cast<int>(std::ranges::count_if(assembly.bodies, any_free));
-}
-
 // N: the unit of forces between two bodies is the lighter one's weight, so that no coefficient exceeds 1
-double unit_of(const CornerAssembly& assembly, const CornerFace& face) {
+template <int Dim>
+double unit_of(const CornerAssembly<Dim>& assembly, const CornerFace<Dim>& face) {
   const auto weight = [&](int b) {
-    return any_free(assembly.bodies[b]) ? assembly.bodies[b].weight : std::numeric_limits<double>::infinity();
+    return assembly.bodies[b].moves() ? assembly.bodies[b].weight : std::numeric_limits<double>::infinity();
   };
   return std::min(weight(face.body_a), weight(face.body_b));
 }
 
-// normal and two tangents
-Matrix<3> axes_of(const CornerFace& face) {
-  const Vector<3> first = face.normal.unitOrthogonal();
+// normal and tangents
+Matrix<2> axes_of(const Vector<2>& normal) {
+  Matrix<2> axes;
+  axes << normal, Vector<2>(-normal[1], normal[0]);
+  return axes;
+}
+
+Matrix<3> axes_of(const Vector<3>& normal) {
+  const Vector<3> first = normal.unitOrthogonal();
   Matrix<3> axes;
-  axes << face.normal, first, face.normal.cross(first);
+  axes << normal, first, normal.cross(first);
   return axes;
 }
 
 // what forces of these directions at a point do to a body, in its units
-FixedMatrix<6, 3> on_body(const CornerBody& body, const Vector<3>& place, const Matrix<3>& forces) {
-  FixedMatrix<6, 3> rows;
-  for (int k = 0; k < 3; ++k) {
-    rows.col(k).head<3>() = forces.col(k) / body.weight;
-    rows.col(k).tail<3>() = (place - body.centroid).cross(forces.col(k)) / (body.weight * body.radius);
+template <int Dim>
+FixedMatrix<freedoms<Dim>, Dim> on_body(const CornerBody<Dim>& body, const Vector<Dim>& place,
+                                        const Matrix<Dim>& forces) {
+  FixedMatrix<freedoms<Dim>, Dim> rows;
+  for (int k = 0; k < Dim; ++k) {
+    rows.col(k).template head<Dim>() = forces.col(k) / body.weight;
+    rows.col(k).template tail<spin_freedoms<Dim>>() =
+        moment(Vector<Dim>(place - body.centroid), Vector<Dim>(forces.col(k))) / (body.weight * body.radius);
   }
-  for (int k = 0; k < 6; ++k)
+  for (int k = 0; k < freedoms<Dim>; ++k)
     if (!body.free[k]) rows.row(k).setZero();
   return rows;
 }
 
 // Of N/cos φ and T/sin φ, whose cone is |T| <= N tan φ with coefficients below 1 at any friction; `normal` and `shear`:
 // those two factors.
-CornerCone cone_at(const CornerAssembly& assembly, const std::vector<int>& rows, const CornerFace& face,
-                   const Vector<3>& place, double normal, double shear) {
-  CornerCone cone;
+template <int Dim>
+CornerCone<Dim> cone_at(const CornerAssembly<Dim>& assembly, const std::vector<int>& rows, const CornerFace<Dim>& face,
+                        const Vector<Dim>& place, double normal, double shear) {
+  CornerCone<Dim> cone;
   cone.body_a = rows[face.body_a];
   cone.body_b = rows[face.body_b];
-  Matrix<3> forces = unit_of(assembly, face) * axes_of(face);
+  Matrix<Dim> forces = unit_of(assembly, face) * axes_of(face.normal);
   forces.col(0) *= normal;
-  forces.rightCols<2>() *= shear;
-  if (cone.body_a >= 0) cone.on_a = on_body(assembly.bodies[face.body_a], place, -forces);
-  if (cone.body_b >= 0) cone.on_b = on_body(assembly.bodies[face.body_b], place, forces);
+  forces.template rightCols<Dim - 1>() *= shear;
+  if (cone.body_a >= 0) cone.on_a = on_body<Dim>(assembly.bodies[face.body_a], place, -forces);
+  if (cone.body_b >= 0) cone.on_b = on_body<Dim>(assembly.bodies[face.body_b], place, forces);
   return cone;
 }
 
 // Calls act(face, corner, share of the area) for every corner.
-template <class Act>
-void for_corners(const CornerAssembly& assembly, const Act& act) {
+template <int Dim, class Act>
+void for_corners(const CornerAssembly<Dim>& assembly, const Act& act) {
   for (std::size_t f = 0; f < assembly.faces.size(); ++f) {
     const std::vector<double> shares = assembly.faces[f].shares();
     for (std::size_t k = 0; k < shares.size(); ++k)
@@ -82,28 +87,35 @@ void for_corners(const CornerAssembly& assembly, const Act& act) {
   }
 }
 
-void add_loads(const CornerAssembly& assembly, const std::vector<int>& rows, const std::vector<Load<3>>& loads,
+template <int Dim>
+void add_loads(const CornerAssembly<Dim>& assembly, const std::vector<int>& rows, const std::vector<Load<Dim>>& loads,
                double factor, Eigen::VectorXd& sum) {
   for (std::size_t b = 0; b < loads.size(); ++b) {
     if (rows[b] < 0) continue;
-    const CornerBody& body = assembly.bodies[b];
-    for (int k = 0; k < 3; ++k) {
-      if (body.free[k]) sum[6 * rows[b] + k] += factor * loads[b].force[k] / body.weight;
-      if (body.free[3 + k]) sum[6 * rows[b] + 3 + k] += factor * loads[b].moment[k] / (body.weight * body.radius);
-    }
+    const CornerBody<Dim>& body = assembly.bodies[b];
+    Vector<freedoms<Dim>> all;
+    all << loads[b].force / body.weight, loads[b].moment / (body.weight * body.radius);
+    for (int k = 0; k < freedoms<Dim>; ++k)
+      if (body.free[k]) sum[freedoms<Dim> * rows[b] + k] += factor * all[k];
   }
 }
 
-}  // namespace
+double area_of(const std::vector<Vector<2>>& ends) {
+  return (ends[1] - ends[0]).norm();
+}
 
-double CornerFace::area() const {
+double area_of(const std::vector<Vector<3>>& corners) {
   Vector<3> twice = Vector<3>::Zero();
   for (std::size_t k = 1; k + 1 < corners.size(); ++k)
     twice += (corners[k] - corners[0]).cross(corners[k + 1] - corners[0]);
   return 0.5 * twice.norm();
 }
 
-std::vector<double> CornerFace::shares() const {
+std::vector<double> shares_of(const std::vector<Vector<2>>&) {
+  return {0.5, 0.5};
+}
+
+std::vector<double> shares_of(const std::vector<Vector<3>>& corners) {
   const std::size_t count = corners.size();
   Vector<3> mean = Vector<3>::Zero();
   for (const Vector<3>& corner : corners)
@@ -132,21 +144,38 @@ std::vector<double> CornerFace::shares() const {
   return shares;
 }
 
-CornerAssembly corner_assembly(const Model<3>& model, double acceleration, bool bonded) {
-  CornerAssembly assembly;
-  for (const Body<3>& body : model.bodies) {
-    CornerBody of{body.reference, body.mass * acceleration, body.radius, {}};
-    if (body.present && !body.fixed)
-      for (int k = 0; k < 3; ++k) {
-        of.free[k] = body.free_translation[k];
-        of.free[3 + k] = body.free_rotation[k];
-      }
+}  // namespace
+
+template <int Dim>
+bool CornerBody<Dim>::moves() const {
+  return std::ranges::any_of(free, std::identity());
+}
+
+template <int Dim>
+double CornerFace<Dim>::area() const {
+  return area_of(corners);
+}
+
+template <int Dim>
+std::vector<double> CornerFace<Dim>::shares() const {
+  return shares_of(corners);
+}
+
+template <int Dim>
+CornerAssembly<Dim> corner_assembly(const Model<Dim>& model, double acceleration, bool bonded) {
+  CornerAssembly<Dim> assembly;
+  for (const Body<Dim>& body : model.bodies) {
+    CornerBody<Dim> of{body.reference, body.mass * acceleration, body.radius, {}};
+    if (body.present && !body.fixed) {
+      std::ranges::copy(body.free_translation, of.free.begin());
+      std::ranges::copy(body.free_rotation, of.free.begin() + Dim);
+    }
     assembly.bodies.push_back(of);
   }
   assembly.properties = model.properties;
-  const RockContacts<3> contacts = find_rock_contacts<3>(model);
-  for (const RockContact<3>& contact : contacts.list) {
-    if (!any_free(assembly.bodies[contact.body_a]) && !any_free(assembly.bodies[contact.body_b])) continue;
+  const RockContacts<Dim> contacts = find_rock_contacts<Dim>(model);
+  for (const RockContact<Dim>& contact : contacts.list) {
+    if (!assembly.bodies[contact.body_a].moves() && !assembly.bodies[contact.body_b].moves()) continue;
     const JointProperties& p = model.properties[contact.properties];
     const bool cohesive = bonded || (contact.one_joint && contact.joint != no_joint && p.bonds == BondsMade::as_sliced);
     const auto corners = contacts.corners_of(contact);
@@ -161,15 +190,17 @@ CornerAssembly corner_assembly(const Model<3>& model, double acceleration, bool 
   return assembly;
 }
 
-CornerProgram corner_program(const CornerAssembly& assembly, const std::vector<Load<3>>& dead,
-                             const std::vector<Load<3>>& live) {
+template <int Dim>
+CornerProgram<Dim> corner_program(const CornerAssembly<Dim>& assembly, const std::vector<Load<Dim>>& dead,
+                                  const std::vector<Load<Dim>>& live) {
   const std::vector<int> rows = rows_of(assembly);
-  CornerProgram program;
-  program.right_side = program.live = Eigen::VectorXd::Zero(6 * count_free(assembly));
+  CornerProgram<Dim> program;
+  program.right_side = program.live =
+      Eigen::VectorXd::Zero(freedoms<Dim> * std::ranges::count_if(assembly.bodies, &CornerBody<Dim>::moves));
   add_loads(assembly, rows, dead, -1, program.right_side);
   add_loads(assembly, rows, live, 1, program.live);
   for_corners(assembly, [&](int f, int k, double share) {
-    const CornerFace& face = assembly.faces[f];
+    const CornerFace<Dim>& face = assembly.faces[f];
     program.cones.push_back(
         cone_at(assembly, rows, face, face.corners[k], std::cos(face.friction), std::sin(face.friction)));
     if (!(face.cohesion > 0)) return;
@@ -179,7 +210,8 @@ CornerProgram corner_program(const CornerAssembly& assembly, const std::vector<L
   return program;
 }
 
-std::vector<double> sines_of_cones(const CornerAssembly& assembly) {
+template <int Dim>
+std::vector<double> sines_of_cones(const CornerAssembly<Dim>& assembly) {
   std::vector<double> sines;
   for_corners(assembly, [&](int f, int, double) {
     sines.push_back(std::sin(assembly.faces[f].friction));
@@ -188,52 +220,57 @@ std::vector<double> sines_of_cones(const CornerAssembly& assembly) {
   return sines;
 }
 
-void add_missing_forces(const CornerAssembly& assembly, CornerProgram& program) {
+template <int Dim>
+void add_missing_forces(const CornerAssembly<Dim>& assembly, CornerProgram<Dim>& program) {
   const std::vector<int> rows = rows_of(assembly);
+  constexpr int of_a_cone = Dim - 1, cones = freedoms<Dim> / of_a_cone;
   for (std::size_t b = 0; b < rows.size(); ++b)
-    for (int pair = 0; rows[b] >= 0 && pair < 3; ++pair) {
-      CornerCone cone;
+    for (int first = 0; rows[b] >= 0 && first < cones * of_a_cone; first += of_a_cone) {
+      CornerCone<Dim> cone;
       cone.body_b = rows[b];
       cone.cost = 1;
-      for (int k = 0; k < 2; ++k)
-        cone.on_b(2 * pair + k, 1 + k) = assembly.bodies[b].free[2 * pair + k];
+      for (int k = 0; k < of_a_cone; ++k)
+        cone.on_b(first + k, 1 + k) = assembly.bodies[b].free[first + k];
       program.cones.push_back(cone);
     }
 }
 
-CornerForces corner_forces(const CornerAssembly& assembly, const Eigen::VectorXd& x) {
-  CornerForces forces(assembly.faces.size());
+template <int Dim>
+CornerForces<Dim> corner_forces(const CornerAssembly<Dim>& assembly, const Eigen::VectorXd& x) {
+  CornerForces<Dim> forces(assembly.faces.size());
   Eigen::Index at = 0;
   for_corners(assembly, [&](int f, int, double) {
-    const CornerFace& face = assembly.faces[f];
-    const Matrix<3> axes = unit_of(assembly, face) * axes_of(face);
-    Vector<3> numbers = x.segment<3>(at);
-    at += 3;
+    const CornerFace<Dim>& face = assembly.faces[f];
+    const Matrix<Dim> axes = unit_of(assembly, face) * axes_of(face.normal);
+    Vector<Dim> numbers = x.template segment<Dim>(at);
+    at += Dim;
     numbers[0] *= std::cos(face.friction);
-    numbers.tail<2>() *= std::sin(face.friction);
+    numbers.template tail<Dim - 1>() *= std::sin(face.friction);
     if (face.cohesion > 0) {
-      numbers.tail<2>() += x.segment<2>(at + 1);
-      at += 3;
+      numbers.template tail<Dim - 1>() += x.template segment<Dim - 1>(at + 1);
+      at += Dim;
     }
     forces[f].push_back(axes * numbers);
   });
   return forces;
 }
 
-std::vector<MotionInSpace> mechanism_of(const CornerAssembly& assembly, const Eigen::VectorXd& y) {
+template <int Dim>
+std::vector<BodyVelocity<Dim>> mechanism_of(const CornerAssembly<Dim>& assembly, const Eigen::VectorXd& y) {
   const std::vector<int> rows = rows_of(assembly);
-  std::vector<MotionInSpace> motions(rows.size());
+  std::vector<BodyVelocity<Dim>> motions(rows.size());
   double fastest = 0;
   for (std::size_t b = 0; b < rows.size(); ++b) {
     if (rows[b] < 0) continue;
-    const CornerBody& body = assembly.bodies[b];
-    for (int k = 0; k < 3; ++k) {
-      if (body.free[k]) motions[b].velocity[k] = -y[6 * rows[b] + k] / body.weight;
-      if (body.free[3 + k]) motions[b].spin[k] = -y[6 * rows[b] + 3 + k] / (body.weight * body.radius);
-    }
+    const CornerBody<Dim>& body = assembly.bodies[b];
+    const auto own = y.template segment<freedoms<Dim>>(freedoms<Dim> * rows[b]);
+    for (int k = 0; k < Dim; ++k)
+      if (body.free[k]) motions[b].velocity[k] = -own[k] / body.weight;
+    for (int k = 0; k < spin_freedoms<Dim>; ++k)
+      if (body.free[Dim + k]) motions[b].spin[k] = -own[Dim + k] / (body.weight * body.radius);
     fastest = std::max(fastest, motions[b].velocity.norm() + body.radius * motions[b].spin.norm());
   }
-  for (MotionInSpace& motion : motions)
+  for (BodyVelocity<Dim>& motion : motions)
     if (fastest > 0) {
       motion.velocity /= fastest;
       motion.spin /= fastest;
@@ -241,21 +278,60 @@ std::vector<MotionInSpace> mechanism_of(const CornerAssembly& assembly, const Ei
   return motions;
 }
 
-std::vector<Sensitivity> sensitivity_of(const CornerAssembly& assembly, const ConeProgramAnswer& answer) {
+template <int Dim>
+std::vector<Sensitivity> sensitivity_of(const CornerAssembly<Dim>& assembly, const ConeProgramAnswer& answer) {
   const std::vector<int> rows = rows_of(assembly);
   std::vector<Sensitivity> all(assembly.faces.size());
   Eigen::Index at = 0;
   for_corners(assembly, [&](int f, int k, double share) {
-    const CornerFace& face = assembly.faces[f];
-    const CornerCone change =
+    const CornerFace<Dim>& face = assembly.faces[f];
+    const CornerCone<Dim> change =
         cone_at(assembly, rows, face, face.corners[k], -std::sin(face.friction), std::cos(face.friction));
-    const Vector<3> x = answer.x.segment<3>(3 * at++);
-    if (change.body_a >= 0) all[f].friction -= (change.on_a * x).dot(answer.y.segment<6>(6 * change.body_a));
-    if (change.body_b >= 0) all[f].friction -= (change.on_b * x).dot(answer.y.segment<6>(6 * change.body_b));
+    const Vector<Dim> x = answer.x.template segment<Dim>(Dim * at++);
+    constexpr int rows_of_a_body = freedoms<Dim>;
+    const auto power = [&](int body, const FixedMatrix<rows_of_a_body, Dim>& on) {
+      return body < 0 ? 0.0 : (on * x).dot(answer.y.template segment<rows_of_a_body>(rows_of_a_body * body));
+    };
+    all[f].friction -= power(change.body_a, change.on_a) + power(change.body_b, change.on_b);
     if (!(face.cohesion > 0)) return;
     all[f].cohesion += answer.heads[at++] * share * face.cohesion * face.area() / unit_of(assembly, face);
   });
   return all;
 }
+
+template <int Dim>
+Vector<Dim> opening_at(const CornerAssembly<Dim>& assembly, const CornerFace<Dim>& face, const Vector<Dim>& place,
+                       const std::vector<BodyVelocity<Dim>>& velocities) {
+  const auto velocity = [&](int body) -> Vector<Dim> {
+    const BodyVelocity<Dim>& v = velocities[body];
+    return v.velocity + cross(v.spin, Vector<Dim>(place - assembly.bodies[body].centroid));
+  };
+  return velocity(face.body_b) - velocity(face.body_a);
+}
+
+template struct CornerBody<2>;
+template struct CornerFace<2>;
+template CornerAssembly<2> corner_assembly(const Model<2>&, double, bool);
+template CornerProgram<2> corner_program(const CornerAssembly<2>&, const std::vector<Load<2>>&,
+                                         const std::vector<Load<2>>&);
+template std::vector<double> sines_of_cones(const CornerAssembly<2>&);
+template void add_missing_forces(const CornerAssembly<2>&, CornerProgram<2>&);
+template CornerForces<2> corner_forces(const CornerAssembly<2>&, const Eigen::VectorXd&);
+template std::vector<BodyVelocity<2>> mechanism_of(const CornerAssembly<2>&, const Eigen::VectorXd&);
+template Vector<2> opening_at(const CornerAssembly<2>&, const CornerFace<2>&, const Vector<2>&,
+                              const std::vector<BodyVelocity<2>>&);
+template std::vector<Sensitivity> sensitivity_of(const CornerAssembly<2>&, const ConeProgramAnswer&);
+template struct CornerBody<3>;
+template struct CornerFace<3>;
+template CornerAssembly<3> corner_assembly(const Model<3>&, double, bool);
+template CornerProgram<3> corner_program(const CornerAssembly<3>&, const std::vector<Load<3>>&,
+                                         const std::vector<Load<3>>&);
+template std::vector<double> sines_of_cones(const CornerAssembly<3>&);
+template void add_missing_forces(const CornerAssembly<3>&, CornerProgram<3>&);
+template CornerForces<3> corner_forces(const CornerAssembly<3>&, const Eigen::VectorXd&);
+template std::vector<BodyVelocity<3>> mechanism_of(const CornerAssembly<3>&, const Eigen::VectorXd&);
+template Vector<3> opening_at(const CornerAssembly<3>&, const CornerFace<3>&, const Vector<3>&,
+                              const std::vector<BodyVelocity<3>>&);
+template std::vector<Sensitivity> sensitivity_of(const CornerAssembly<3>&, const ConeProgramAnswer&);
 
 }  // namespace voussoir

@@ -6,7 +6,6 @@
 
 #include "core/joint_laws/barton_bandis.hpp"
 #include "core/limit/limit.hpp"
-#include "core/limit/limit_in_space.hpp"
 #include "core/testing/limit_models.hpp"
 #include "text/angle.hpp"
 
@@ -34,7 +33,7 @@ TEST(Envelope, OfABlockOnAnIncline) {
     for (Body<2>& body : model.bodies)
       body.free_rotation.fill(false);
     const double normal = 2000 * 10 * height * std::cos(40 * degree), shear = normal * std::tan(40 * degree);
-    const CriticalStrength found = find_factor_of_safety(model, find_interfaces(model));
+    const CriticalStrength<2> found = limit_models::factor_of_safety(model);
     ASSERT_EQ(found.status, LimitStatus::found);
     EXPECT_TRUE(found.evidence.tangents_agree);
     EXPECT_GE(found.evidence.rounds_of_tangents, 1);
@@ -61,23 +60,22 @@ TEST(Envelope, OfTwoBlocksInARow) {
   model.properties.back().friction = 0;
   make_rough(model.properties.front());
   const double weight = 2000 * 10, normal = weight * std::cos(50 * degree);
-  const std::vector<Interface> faces = find_interfaces(model);
-  const CriticalStrength found = find_factor_of_safety(model, faces, {"rock"});
+  const CriticalStrength<2> found = limit_models::factor_of_safety(model, {"rock"});
   ASSERT_EQ(found.status, LimitStatus::found);
   EXPECT_TRUE(found.evidence.tangents_agree);
   const double exact = (strength(3 * normal) + strength(normal)) / (4 * weight * std::sin(50 * degree));
   EXPECT_NEAR(found.stands, exact, 2e-6 * exact);
 
   // pushed up the plane, the higher one leaves the other behind
-  const Loads dead = loads_of_acceleration(model, model.gravity), live = loads_of_acceleration(model, {-10, 0});
-  const LoadFactor pushed = find_load_factor(model, faces, dead, live);
+  const Loads<2> dead = loads_of_acceleration(model, model.gravity), live = loads_of_acceleration<2>(model, {-10, 0});
+  const LoadFactor<2> pushed = find_load_factor(limit_models::assembly_of(model), dead, live);
   ASSERT_EQ(pushed.status, LimitStatus::found);
   EXPECT_NEAR(pushed.factor, std::sin(50 * degree) + strength(3 * normal) / (3 * weight), 1e-5);
 }
 
 // a block of 20 kN on 2 m², pushed aside and held by cohesion too
 TEST(Envelope, InSpace) {
-  CornerAssembly assembly{{CornerBody{Vector<3>::Zero(), 1, 1, {}}}, {}, {JointProperties{}}};
+  CornerAssembly<3> assembly{{CornerBody<3>{Vector<3>::Zero(), 1, 1, {}}}, {}, {JointProperties{}}};
   make_rough(assembly.properties.front());
   const double weight = 20e3, area = 2;
   assembly.bodies.push_back({{0, 0, 0.1}, weight, 1, {true, true, true, true, true, true}});
@@ -85,14 +83,14 @@ TEST(Envelope, InSpace) {
       {0, 1, {0, 0, 1}, {{-1, -0.5, 0}, {1, -0.5, 0}, {1, 0.5, 0}, {-1, 0.5, 0}}, 0, residual_deg * degree, 500});
   const std::vector<Load<3>> dead{{}, {{0, 0, -weight}, Vector<3>::Zero()}},
       live{{}, {{600, 800, 0}, {-0.1 * 800, 0.1 * 600, 0}}};  // at the level of the joint
-  const LoadFactorInSpace pushed = find_load_factor(assembly, dead, live);
+  const LoadFactor<3> pushed = find_load_factor(assembly, dead, live);
   ASSERT_EQ(pushed.status, LimitStatus::found);
   EXPECT_TRUE(pushed.evidence.tangents_agree);
   EXPECT_NEAR(pushed.factor, area * (strength(weight / area) + 500) / 1000, 1e-6 * pushed.factor);
 
   std::vector<Load<3>> both = dead;
   both[1] += live[1];
-  const CriticalStrengthInSpace found = find_factor_of_safety(assembly, both, {true});
+  const CriticalStrength<3> found = find_factor_of_safety(assembly, both, {true});
   ASSERT_EQ(found.status, LimitStatus::found);
   EXPECT_NEAR(found.stands, pushed.factor, 1e-6 * pushed.factor);
 }

@@ -22,16 +22,15 @@ TEST(FactorOfSafety, OfABlockOnAnInclineIsItsStrengthOverItsWeight) {
     for (const double cohesion : {0.0, 500.0}) {
       Model<2> model = block_on_plate(2, 0.1, dip * degree);
       model.properties.front().cohesion = cohesion;
-      const std::vector<Interface> faces = find_interfaces(model, true);
       const double weight = 2 * 0.1 * 2000 * 10, s = std::sin(dip * degree), c = std::cos(dip * degree);
       const double exact = (2 * cohesion + weight * c * std::tan(30 * degree)) / (weight * s);
-      const CriticalStrength found = find_factor_of_safety(model, faces);
+      const CriticalStrength<2> found = limit_models::factor_of_safety(model, {}, true);
       ASSERT_EQ(found.status, LimitStatus::found);
       EXPECT_LE(found.stands, found.collapses);
       EXPECT_NEAR(found.stands, exact, 1e-7 * exact) << dip << " " << cohesion;
       EXPECT_NEAR(found.collapses, exact, 1e-7 * exact);
       EXPECT_LT(found.evidence.gap, rounding);
-      EXPECT_EQ(find_interfaces(model).front().cohesion, 0) << "without bonds";
+      EXPECT_EQ(limit_models::assembly_of(model).faces.front().cohesion, 0) << "without bonds";
     }
 }
 
@@ -39,23 +38,26 @@ TEST(FactorOfSafety, IsThatOfTheNamedPropertiesAndOfFurtherLoads) {
   Model<2> model = block_on_plate(2, 0.1, 20 * degree);
   model.properties.push_back(model.properties.front());
   model.properties.back().name = "unused";
-  const std::vector<Interface> faces = find_interfaces(model);
-  EXPECT_THROW(find_factor_of_safety(model, faces, {"roc"}), std::out_of_range);
-  EXPECT_EQ(find_factor_of_safety(model, faces, {"unused"}).status, LimitStatus::carries_any);
+  EXPECT_THROW(limit_models::factor_of_safety(model, {"roc"}), std::out_of_range);
+  EXPECT_EQ(limit_models::factor_of_safety(model, {"unused"}).status, LimitStatus::carries_any);
   const double ratio = std::tan(30 * degree) / std::tan(20 * degree);
-  EXPECT_NEAR(find_factor_of_safety(model, faces, {"rock"}).stands, ratio, 2e-7);
+  EXPECT_NEAR(limit_models::factor_of_safety(model, {"rock"}).stands, ratio, 2e-7);
   // half the weight lifted: normal force and driving force are halved
-  Loads lifted(model.bodies.size());
-  for (std::size_t b = 0; b < lifted.size(); ++b)
-    if (!model.bodies[b].fixed) lifted[b].force = -0.5 * model.bodies[b].mass * model.gravity;
-  EXPECT_NEAR(find_factor_of_safety(model, faces, {}, lifted).stands, ratio, 2e-7);
+  const CornerAssembly<2> assembly = limit_models::assembly_of(model);
+  const std::vector<bool> all = faces_of(assembly, {});
+  const auto loads_with = [&](const Vector<2>& lift) {
+    Loads<2> loads = loads_of_acceleration(model, model.gravity);
+    for (std::size_t b = 0; b < loads.size(); ++b)
+      loads[b].force += model.bodies[b].mass * lift;
+    return loads;
+  };
+  EXPECT_NEAR(find_factor_of_safety(assembly, loads_with(-0.5 * model.gravity), all).stands, ratio, 2e-7);
   // lifted only perpendicular to the plane
   const Vector<2> normal = matrix(Rotation<2>{20 * degree}) * Vector<2>(0, 1);
-  for (std::size_t b = 0; b < lifted.size(); ++b)
-    lifted[b].force = lifted[b].force.dot(normal) * normal;
-  EXPECT_NEAR(find_factor_of_safety(model, faces, {}, lifted).stands, 0.5 * ratio, 2e-7);
+  const Loads<2> lifted = loads_with(-0.5 * model.gravity.dot(normal) * normal);
+  EXPECT_NEAR(find_factor_of_safety(assembly, lifted, all).stands, 0.5 * ratio, 2e-7);
   const double critical = std::atan(2 * std::tan(20 * degree));
-  EXPECT_NEAR(find_critical_friction(model, faces, {}, lifted).stands, critical, bracket);
+  EXPECT_NEAR(find_critical_friction(assembly, lifted, all).stands, critical, bracket);
 }
 
 // 1 m of water behind a block of 1 m x 1 m and 20 kN, with the first, the last or a middle point of its table at the
@@ -73,8 +75,12 @@ TEST(CriticalFriction, IncludesWaterWithAKinkAtAFace) {
         body.parts.front().joints[f] = body.parts.front().faces[f].normal[0] > 0.5 && !body.fixed ? 0 : no_joint;
     model.joints = {{"crack", {Vector<2>::UnitX(), x}, 0}};
     assign_waters(model, {{"w", 10'000, false, numbers}}, {0, -1});
-    const CriticalStrength found =
-        find_critical_friction(model, find_interfaces(model), {}, water_loads_at_reference<2>(model));
+    const CornerAssembly<2> assembly = limit_models::assembly_of(model);
+    Loads<2> loads = loads_of_acceleration(model, model.gravity);
+    const Loads<2> water = water_loads_at_reference<2>(model);
+    for (std::size_t b = 0; b < loads.size(); ++b)
+      loads[b] += water[b];
+    const CriticalStrength<2> found = find_critical_friction(assembly, loads, faces_of(assembly, {}));
     ASSERT_EQ(found.status, LimitStatus::found);
     EXPECT_NEAR(found.stands, std::atan(0.25), bracket);
   }

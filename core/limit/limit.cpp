@@ -8,486 +8,333 @@
 
 #include "core/limit/follow_envelope.hpp"
 #include "core/limit/self_stress.hpp"
+#include "core/limit/shortfall.hpp"
 #include "text/angle.hpp"
 
 namespace voussoir {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double most_of_weight = 1e6;             // a structure that supports more supports any load
+constexpr double roughest = 89 * degree;           // beyond it a cone is a half-space
+constexpr double angle_tolerance = 1e-6 * degree;  // width of the bracket
+constexpr double most_strength = 1000.0 / 1001;    // of s/(1 + s), s the part of the strength that is left
+constexpr double strength_tolerance = 2e-8;
+constexpr double newton_doubt = 0.15;  // times the square of a step: how far its end may be from the root
+constexpr double farther = 4;          // from a predicted root at every trial that stands
+constexpr double nothing_left =
+    100;  // tolerances: strength that is as good as none, as forces grow without bound towards it
 
-constexpr double largest_factor = 1e6;                // of weights: a structure that supports more supports any load
-constexpr double least_friction = 0;                  // of the bisection
-constexpr double largest_friction = 89 * degree;      // beyond it a cone is a half-plane
-constexpr double friction_tolerance = 1e-6 * degree;  // width of the bracket
-// A factor F is bisected as 1/(1 + F), which maps all factors to a finite range: for that variable
-constexpr double least_left = 0, most_left = 1000.0 / 1001;
-constexpr double left_tolerance = 2e-8;  // below it the solver does not separate missing force from rounding
-// If the solver gives up within this many tolerances of the end, feasibility is decided by rounding: the bracket stays
-// wider.
-constexpr double near_enough = 100;
-constexpr double balanced = 1e-10;  // of a body's weight: ten times the residual that the solver's tolerance allows
+template <int Dim>
+bool nothing_free(const CornerAssembly<Dim>& assembly) {
+  return std::ranges::none_of(assembly.bodies, &CornerBody<Dim>::moves);
+}
 
-// The rows of the program are the equilibrium of every degree of freedom, each divided by its body's own weight
-// (moments by its radius too), so that a small falling block is detected like a large one.
-struct Rows {
-  std::vector<std::array<int, 3>> of_body;  // x, y, moment; -1: held
-  std::vector<double> weight, lever;        // by body: N, m
-  int count = 0;
+// a measure of strength from 0 up, and its use by faces
+template <int Dim>
+struct Strength {
+  double strongest, tolerance;
+  std::function<void(double at, CornerAssembly<Dim>& trial)> weaken;
+  // the change of what is missing with the measure
+  std::function<double(double at, const std::vector<Sensitivity>& of_faces)> slope;
 };
 
-// m/s², the unit of the weights: the largest load over its body's mass, a moment divided by the body's radius too
-double acceleration_of(const Model<2>& model, const Loads& loads) {
-  double largest = 0;
-  for (std::size_t b = 0; b < loads.size(); ++b) {
-    const Body<2>& body = model.bodies[b];
-    largest = std::max(
-        {largest, loads[b].force.norm() / body.mass, std::abs(loads[b].moment[0]) / (body.mass * body.radius)});
-  }
-  return largest;
-}
+// The bracket is closed by Newton's method on what is missing, from the collapsing side: to either side of the root
+// that it predicts, by halves where that leads out of the bracket or gains too little.
+template <int Dim>
+CriticalStrength<Dim> bracket_strength(const CornerAssembly<Dim>& assembly, const Loads<Dim>& loads,
+                                       const Strength<Dim>& strength) {
+  CriticalStrength<Dim> result;
+  if (nothing_free(assembly)) return result.status = LimitStatus::nothing_free, result;
+  if (std::ranges::all_of(loads, [](const Load<Dim>& load) { return load.force.isZero(0) && load.moment.isZero(0); }))
+    return result.status = LimitStatus::no_load, result;
 
-Rows number_rows(const Model<2>& model, double acceleration) {
-  Rows rows;
-  for (const Body<2>& body : model.bodies) {
-    std::array<int, 3> of{-1, -1, -1};
-    if (body.present && !body.fixed) {
-      for (int k = 0; k < 2; ++k)
-        if (body.free_translation[k]) of[k] = rows.count++;
-      if (body.free_rotation[0]) of[2] = rows.count++;
-    }
-    rows.of_body.push_back(of);
-    rows.weight.push_back(body.fixed ? infinity : body.mass * acceleration);
-    rows.lever.push_back(body.radius);
-  }
-  return rows;
-}
-
-// Forces between two bodies are in units of the lighter one's weight, N: no coefficient of the program exceeds 1.
-double force_unit(const Rows& rows, const Interface& face) {
-  return std::min(rows.weight[face.body_a], rows.weight[face.body_b]);
-}
-
-void add_entry(ProgramColumn& column, int row, double value) {
-  if (row >= 0 && value != 0) column.entries.emplace_back(row, value);
-}
-
-// a force at a point: on body_b, and its opposite on body_a
-void add_force(const Model<2>& model, const Rows& rows, const Interface& face, const Vector<2>& point,
-               const Vector<2>& force, ProgramColumn& column) {
-  for (const int body : {face.body_a, face.body_b}) {
-    if (model.bodies[body].fixed) continue;
-    const Vector<2> on_body = body == face.body_b ? force : Vector<2>(-force);
-    const std::array<int, 3>& row = rows.of_body[body];
-    const double fraction = force_unit(rows, face) / rows.weight[body];
-    add_entry(column, row[0], fraction * on_body[0]);
-    add_entry(column, row[1], fraction * on_body[1]);
-    const Vector<2> arm = point - model.bodies[body].reference;
-    add_entry(column, row[2], fraction * moment(arm, on_body)[0] / rows.lever[body]);
-  }
-}
-
-Vector<2> tangent_of(const Interface& face) {
-  return {-face.normal[1], face.normal[0]};
-}
-
-// Three columns for every end of every interface: the two sides of the cone, and the shear by cohesion. The
-// sides are unit forces, so that a friction angle near 90 degrees needs no special treatment.
-constexpr std::size_t columns_of_an_end = 3;
-
-void add_ends(const Model<2>& model, const Rows& rows, const std::vector<Interface>& interfaces,
-              LinearProgram& program) {
-  for (const Interface& face : interfaces) {
-    const Vector<2> tangent = tangent_of(face);
-    const double c = std::cos(face.friction), s = std::sin(face.friction);
-    const double adhesion = 0.5 * face.cohesion * face.length() / force_unit(rows, face);
-    for (const Vector<2>& end : face.ends) {
-      ProgramColumn left{0, 0, infinity, {}}, right{0, 0, infinity, {}}, cohesive{0, -adhesion, adhesion, {}};
-      add_force(model, rows, face, end, c * face.normal + s * tangent, left);
-      add_force(model, rows, face, end, c * face.normal - s * tangent, right);
-      add_force(model, rows, face, end, tangent, cohesive);
-      program.columns.insert(program.columns.end(), {left, right, cohesive});
-    }
-  }
-}
-
-// components of the loads along the degrees of freedom, as fractions of each body's weight
-void for_each_load(const Rows& rows, const Loads& loads, const auto& use) {
-  for (std::size_t b = 0; b < loads.size(); ++b) {
-    const std::array<int, 3>& row = rows.of_body[b];
-    for (int k = 0; k < 2; ++k)
-      if (row[k] >= 0) use(row[k], loads[b].force[k] / rows.weight[b]);
-    if (row[2] >= 0) use(row[2], loads[b].moment[0] / (rows.weight[b] * rows.lever[b]));
-  }
-}
-
-std::vector<std::array<EndForce, 2>> read_forces(const Rows& rows, const std::vector<Interface>& interfaces,
-                                                 const std::vector<double>& x) {
-  std::vector<std::array<EndForce, 2>> forces(interfaces.size());
-  auto value = x.begin();
-  for (std::size_t i = 0; i < interfaces.size(); ++i)
-    for (EndForce& end : forces[i]) {
-      const double unit = force_unit(rows, interfaces[i]), friction = interfaces[i].friction;
-      end.normal = unit * std::cos(friction) * (value[0] + value[1]);
-      end.shear = unit * (std::sin(friction) * (value[0] - value[1]) + value[2]);
-      value += columns_of_an_end;
-    }
-  return forces;
-}
-
-// The multipliers as velocities: a column that may grow has no negative reduced cost, that is, no force within its cone
-// does negative work at an opening joint; so the velocities are the multipliers' opposite, by each row's weight.
-std::vector<BodyVelocity> read_velocities(const Rows& rows, const std::vector<double>& y) {
-  std::vector<BodyVelocity> velocities(rows.of_body.size());
-  double fastest = 0;
-  for (std::size_t b = 0; b < velocities.size(); ++b) {
-    const std::array<int, 3>& row = rows.of_body[b];
-    const auto of = [&](int k) { return row[k] >= 0 ? -y[row[k]] / rows.weight[b] : 0.0; };
-    velocities[b] = {{of(0), of(1)}, of(2) / rows.lever[b]};
-    fastest = std::max(fastest, velocities[b].velocity.norm() + std::abs(of(2)));
-  }
-  if (fastest > 0)
-    for (BodyVelocity& v : velocities)
-      v = {v.velocity / fastest, v.spin / fastest};
-  return velocities;
-}
-
-// the velocity of body_b relative to body_a at a point
-Vector<2> opening_at(const Model<2>& model, const Interface& face, const Vector<2>& point,
-                     const std::vector<BodyVelocity>& velocities) {
-  const auto velocity = [&](int body) {
-    const BodyVelocity& v = velocities[body];
-    return Vector<2>(v.velocity + cross(Spin<2>(v.spin), point - model.bodies[body].reference));
-  };
-  return velocity(face.body_b) - velocity(face.body_a);
-}
-
-// the largest inadmissible velocity at an end of an interface, against a side of its cone
-double find_inadmissible(const Model<2>& model, const std::vector<Interface>& interfaces,
-                         const std::vector<BodyVelocity>& velocities) {
-  double largest = 0;
-  for (const Interface& face : interfaces)
-    for (const Vector<2>& end : face.ends) {
-      const Vector<2> opening = opening_at(model, face, end, velocities);
-      const double slip = std::abs(opening.dot(tangent_of(face)));
-      largest = std::max(largest, std::sin(face.friction) * slip - std::cos(face.friction) * opening.dot(face.normal));
-    }
-  return largest;
-}
-
-// the equilibrium of all bodies under dead loads
-LinearProgram equilibrium(const Model<2>& model, const Rows& rows, const std::vector<Interface>& interfaces,
-                          const Loads& dead) {
-  LinearProgram program;
-  program.right_side.assign(rows.count, 0);
-  add_ends(model, rows, interfaces, program);
-  for_each_load(rows, dead, [&](int row, double fraction) { program.right_side[row] = -fraction; });
-  return program;
-}
-
-// the least sum of forces that must be added for equilibrium, each as a fraction of its body's weight
-struct Margin {
-  ProgramSolution solution;
-  Certificate certificate;
-};
-
-Margin find_margin(LinearProgram program) {
-  for (std::size_t row = 0; row < program.right_side.size(); ++row)
-    for (const double sign : {1.0, -1.0})
-      program.columns.push_back({1, 0, infinity, {{static_cast<int>(row), sign}}});
-  Margin margin{solve(program), {}};
-  if (margin.solution.status == ProgramStatus::optimal) margin.certificate = judge(program, margin.solution);
-  return margin;
-}
-
-bool stands(const Margin& margin) {
-  return margin.solution.status == ProgramStatus::optimal && margin.certificate.primal <= balanced;
-}
-
-// Whether loads that are not supported at the weakest strength, whose program this is, are supported at any higher one:
-// by unbounded forces, because joints with self-stress take any shear as soon as they have friction. Such joints may in
-// turn make self-stress in others possible. `gains`: interfaces whose friction grows.
-bool carried_beyond(LinearProgram program, const std::vector<bool>& gains) {
-  for (bool grown = true; grown;) {
-    const std::vector<bool> unbounded = unbounded_columns(program);
-    grown = false;
-    for (std::size_t end = 0; end < 2 * gains.size(); ++end) {
-      ProgramColumn* const of_end = &program.columns[columns_of_an_end * end];
-      for (int side = 0; side < 2; ++side) {
-        if (!unbounded[columns_of_an_end * end + side]) continue;
-        grown = true;
-        of_end[side].low = -infinity;
-        if (gains[end / 2]) of_end[2].low = -infinity, of_end[2].high = infinity;
-      }
-    }
-  }
-  return stands(find_margin(program));
-}
-
-// Whether joints with possible self-stress move in the mechanism, and the loads are not supported without them. No
-// mechanism: all joints count.
-bool may_rest_on_self_stress(const Model<2>& model, const std::vector<Interface>& interfaces, LinearProgram program,
-                             const std::vector<BodyVelocity>& mechanism) {
-  constexpr double still = 1e-6;  // of the fastest body: far above the rounding of multipliers
-  const std::vector<bool> unbounded = unbounded_columns(program);
-  bool moves = false;
-  for (std::size_t end = 0; end < 2 * interfaces.size(); ++end)
-    for (int side = 0; side < 2; ++side) {
-      if (!unbounded[columns_of_an_end * end + side]) continue;
-      program.columns[columns_of_an_end * end + side].high = 0;
-      const Interface& face = interfaces[end / 2];
-      moves = moves || mechanism.empty() || opening_at(model, face, face.ends[end % 2], mechanism).norm() > still;
-    }
-  return moves && !stands(find_margin(program));
-}
-
-std::vector<bool> choose(const Model<2>& model, const std::vector<std::string>& names) {
-  std::vector<bool> chosen(model.properties.size(), names.empty());
-  for (const std::string& name : names) {
-    const auto at = std::find_if(model.properties.begin(), model.properties.end(),
-                                 [&](const JointProperties& p) { return p.name == name; });
-    if (at == model.properties.end()) throw std::out_of_range(name);
-    chosen[at - model.properties.begin()] = true;
-  }
-  return chosen;
-}
-
-// a measure of strength, its range from weak to strong, and its use by interfaces
-struct StrengthRange {
-  double weakest, strongest, tolerance;
-  std::function<void(double strength, std::vector<Interface>& interfaces)> weaken;
-};
-
-// the two strengths between which loads are just supported
-CriticalStrength bisect(const Model<2>& model, const Rows& rows, const std::vector<Interface>& interfaces,
-                        const Loads& dead, const StrengthRange& range) {
-  CriticalStrength result;
-  if (rows.count == 0) return result.status = LimitStatus::nothing_free, result;
-  if (model.gravity.isZero(0)) return result.status = LimitStatus::no_load, result;
-
-  std::vector<Interface> trial = interfaces;
-  const auto at = [&](double strength) {
-    range.weaken(strength, trial);
+  CornerAssembly<Dim> trial = assembly;
+  const auto at = [&](double measure) {
+    strength.weaken(measure, trial);
     ++result.evidence.programs;
-    return find_margin(equilibrium(model, rows, trial, dead));
+    return shortfall(trial, corner_program(trial, loads));
   };
-  const auto keep_standing = [&](double strength, const Margin& margin) {
-    result.stands = strength;
-    result.state.forces = read_forces(rows, trial, margin.solution.x);
-    result.evidence.out_of_balance = std::max(margin.certificate.primal, margin.certificate.primal_violation);
+  const auto keep_standing = [&](double measure, const Shortfall& found) {
+    result.stands = measure;
+    result.state.forces = corner_forces(trial, found.answer.x);
+    result.evidence.out_of_balance = found.answer.out_of_balance;
   };
-  const auto keep_collapsing = [&](double strength, const Margin& margin) {
-    result.collapses = strength;
-    result.missing = margin.certificate.dual;
-    result.state.velocities = read_velocities(rows, margin.solution.y);
-    result.evidence.gap = std::abs(margin.certificate.primal - margin.certificate.dual);
-    result.evidence.inadmissible = find_inadmissible(model, trial, result.state.velocities);
+  double root = 0;  // where Newton's method expects it
+  const auto keep_collapsing = [&](double measure, const Shortfall& found) {
+    result.collapses = measure;
+    result.missing = found.answer.bound;
+    result.state.velocities = mechanism_of(trial, found.answer.y);
+    result.evidence.gap = std::abs(found.answer.value - found.answer.bound);
+    result.evidence.inadmissible = found.answer.inadmissible;
+    const double slope = strength.slope(measure, sensitivity_of(trial, found.answer));
+    root = slope < 0 ? measure - found.answer.bound / slope : measure;
   };
-  const auto failed = [&](const Margin& margin) { return margin.solution.status != ProgramStatus::optimal; };
 
-  // the ends of the range
-  const Margin weak = at(range.weakest);
-  if (failed(weak)) return result.status = LimitStatus::solver_failed, result;
-  if (stands(weak)) {
-    keep_standing(range.weakest, weak);
+  const Shortfall weak = at(0);
+  if (weak.failed()) return result.status = LimitStatus::solver_failed, result;
+  if (weak.stands()) {
+    keep_standing(0, weak);
     return result.status = LimitStatus::carries_any, result;
   }
-  keep_collapsing(range.weakest, weak);
-  const Margin strong = at(range.strongest);
-  if (failed(strong)) return result.status = LimitStatus::solver_failed, result;
-  if (!stands(strong)) {
-    keep_collapsing(range.strongest, strong);
+  keep_collapsing(0, weak);
+  const double first_root = root;
+  const Shortfall strong = at(strength.strongest);
+  if (strong.failed()) return result.status = LimitStatus::solver_failed, result;
+  if (!strong.stands()) {
+    keep_collapsing(strength.strongest, strong);
     return result.status = LimitStatus::carries_nothing, result;
   }
-  keep_standing(range.strongest, strong);
+  keep_standing(strength.strongest, strong);
+  root = first_root;
 
-  while (result.stands - result.collapses > range.tolerance) {
-    const double middle = 0.5 * (result.collapses + result.stands);
-    const Margin margin = at(middle);
-    if (failed(margin)) {
-      if (result.stands - result.collapses > near_enough * range.tolerance) result.status = LimitStatus::solver_failed;
-      break;
+  int stood = 0;  // trials, since one collapsed: the root is then lower than predicted
+  while (result.stands - result.collapses > strength.tolerance) {
+    const double step = root - result.collapses, aside = 0.3 * strength.tolerance + newton_doubt * step * step;
+    double next = stood == 0 ? root + aside : root - std::pow(farther, stood - 1) * aside;
+    if (!(next > result.collapses && next < result.stands)) next = 0.5 * (result.collapses + result.stands);
+    const Shortfall found = at(next);
+    if (found.failed()) return result.status = LimitStatus::solver_failed, result;
+    if (found.stands()) {
+      ++stood;
+      keep_standing(next, found);
+    } else {
+      stood = 0;
+      keep_collapsing(next, found);
     }
-    stands(margin) ? keep_standing(middle, margin) : keep_collapsing(middle, margin);
   }
+  if (result.stands < nothing_left * strength.tolerance) result.status = LimitStatus::not_attained;
   return result;
 }
 
-// The strength at which gravity and further loads are just supported, and whether it depends on self-stress.
-CriticalStrength find_strength(const Model<2>& model, const std::vector<Interface>& interfaces, const Loads& besides,
-                               const StrengthRange& range) {
-  constexpr double margin = 1.01;  // joints with self-stress at this much more strength count
-  Loads dead = loads_of_acceleration(model, model.gravity);
-  for (std::size_t b = 0; b < besides.size(); ++b)
-    dead[b] += besides[b];
-  const Rows rows = number_rows(model, model.gravity.norm());
-  CriticalStrength found = bisect(model, rows, interfaces, dead, range);
-
-  const auto joints_at = [&](double strength) {
-    std::vector<Interface> joints = interfaces;
-    range.weaken(strength, joints);
-    return joints;
-  };
-  const bool sought = found.status == LimitStatus::found || found.status == LimitStatus::solver_failed;
-  if (sought && found.missing > 0 && found.collapses == range.weakest) {
-    const std::vector<Interface> weakest = joints_at(range.weakest), strongest = joints_at(range.strongest);
-    std::vector<bool> gains;
-    for (std::size_t i = 0; i < weakest.size(); ++i)
-      gains.push_back(strongest[i].friction > weakest[i].friction);
-    if (carried_beyond(equilibrium(model, rows, weakest, dead), gains)) found.status = LimitStatus::not_attained;
-  }
-  // Near the critical strength of jammed blocks forces grow without bound, and the solver gives up sooner:
-  // the bracket then stays wider.
-  const bool wide =
-      found.status == LimitStatus::solver_failed && found.missing > 0 && found.stands <= margin * found.collapses;
-  if (wide || found.status == LimitStatus::found || found.status == LimitStatus::carries_any) {
-    const std::vector<Interface> joints = joints_at(std::min(range.strongest, margin * found.stands));
-    found.self_stress =
-        may_rest_on_self_stress(model, joints, equilibrium(model, rows, joints, dead), found.state.velocities);
-    if (wide && found.self_stress) found.status = LimitStatus::found;
-  }
-  return found;
-}
-
-LoadFactor find_straight_load_factor(const Model<2>& model, const std::vector<Interface>& interfaces, const Loads& dead,
-                                     const Loads& live) {
-  LoadFactor result;
-  const double of_dead = acceleration_of(model, dead),
-               acceleration = of_dead > 0 ? of_dead : acceleration_of(model, live);
-  const Rows rows = number_rows(model, acceleration);
-  if (rows.count == 0) return result.status = LimitStatus::nothing_free, result;
-  double largest_fraction = 0;  // of a weight, the live load's: the program's factor is that of the load divided by it
-  if (acceleration > 0)
-    for_each_load(rows, live,
-                  [&](int, double fraction) { largest_fraction = std::max(largest_fraction, std::abs(fraction)); });
-  if (largest_fraction == 0) return result.status = LimitStatus::no_load, result;
+template <int Dim>
+LoadFactor<Dim> find_straight_load_factor(const CornerAssembly<Dim>& assembly, const Loads<Dim>& dead,
+                                          const Loads<Dim>& live) {
+  LoadFactor<Dim> result;
+  if (nothing_free(assembly)) return result.status = LimitStatus::nothing_free, result;
+  CornerProgram<Dim> program = corner_program(assembly, dead, live);
+  const double largest = program.live.cwiseAbs().maxCoeff();  // of a body's weight
+  if (largest == 0) return result.status = LimitStatus::no_load, result;
+  program.live /= largest;
 
   // the dead load first: if it is not supported there is no factor
-  if (of_dead > 0) {
-    const Margin margin = find_margin(equilibrium(model, rows, interfaces, dead));
+  if (!program.right_side.isZero(0)) {
+    const Shortfall found = shortfall(assembly, corner_program(assembly, dead));
     ++result.evidence.programs;
-    if (margin.solution.status != ProgramStatus::optimal) return result.status = LimitStatus::solver_failed, result;
-    if (!stands(margin)) {
+    if (found.failed()) return result.status = LimitStatus::solver_failed, result;
+    if (!found.stands()) {
       result.status = LimitStatus::carries_nothing;
-      result.state.velocities = read_velocities(rows, margin.solution.y);
+      result.state.velocities = mechanism_of(assembly, found.answer.y);
       return result;
     }
   }
-
-  LinearProgram program = equilibrium(model, rows, interfaces, dead);
-  ProgramColumn factor{-1, 0, largest_factor, {}};
-  for_each_load(rows, live, [&](int row, double fraction) { add_entry(factor, row, fraction / largest_fraction); });
-  program.columns.push_back(factor);
-  const ProgramSolution solution = solve(program);
+  // Without dead load and cohesion forces and load grow together: all multiples are supported, or none.
+  const bool grows =
+      program.right_side.isZero(0) &&
+      std::ranges::none_of(assembly.faces, [](const CornerFace<Dim>& face) { return face.cohesion > 0; });
+  const ConeProgramAnswer answer = grows ? shortfall(assembly, corner_program(assembly, live)).answer : solve(program);
   ++result.evidence.programs;
-  if (solution.status != ProgramStatus::optimal) return result.status = LimitStatus::solver_failed, result;
-
-  const Certificate certificate = judge(program, solution);
-  result.factor = solution.x.back() / largest_fraction;
-  if (solution.x.back() >= largest_factor) result.status = LimitStatus::carries_any;
-  result.state = {read_forces(rows, interfaces, solution.x), read_velocities(rows, solution.y)};
-  result.evidence.gap = std::abs(certificate.primal - certificate.dual) / std::max(1.0, std::abs(certificate.primal));
-  result.evidence.out_of_balance = certificate.primal_violation;
-  result.evidence.inadmissible = find_inadmissible(model, interfaces, result.state.velocities);
-  if (result.status == LimitStatus::found) {
-    constexpr double nearly = 0.99;  // of the factor
-    for (const auto& [row, fraction] : program.columns.back().entries)
-      program.right_side[row] -= nearly * solution.x.back() * fraction;
-    program.columns.pop_back();
-    result.self_stress = may_rest_on_self_stress(model, interfaces, program, result.state.velocities);
+  if (answer.status == ConeStatus::stalled || answer.status == ConeStatus::infeasible)
+    return result.status = LimitStatus::solver_failed, result;
+  const bool nothing = grows && !Shortfall{answer}.stands();
+  if (!nothing && (grows || answer.status == ConeStatus::unbounded || answer.factor >= most_of_weight))
+    result.status = LimitStatus::carries_any;
+  else if (!nothing)
+    result.factor = std::max(0.0, answer.factor / largest);
+  if (!nothing) result.state.forces = corner_forces(assembly, answer.x);
+  if (result.status == LimitStatus::found) result.state.velocities = mechanism_of(assembly, answer.y);
+  result.state.velocities.resize(assembly.bodies.size());
+  if (result.status != LimitStatus::found) return result;
+  result.evidence.gap = answer.gap;
+  result.evidence.out_of_balance = answer.out_of_balance;
+  result.evidence.inadmissible = answer.inadmissible;
+  if (nothing) return result;
+  constexpr double nearly = 0.99;  // of the factor
+  Loads<Dim> loads = dead;
+  for (std::size_t b = 0; b < loads.size(); ++b) {
+    loads[b].force += nearly * result.factor * live[b].force;
+    loads[b].moment += nearly * result.factor * live[b].moment;
   }
+  result.self_stress = may_rest_on_self_stress(assembly, loads, result.state.velocities);
   return result;
 }
 
-// for FollowEnvelope
-struct RoughAssembly {
-  const Model<2>& model;
-  std::vector<Interface> faces;
-  const std::vector<JointProperties>& properties = model.properties;
+// and whether it depends on self-stress
+template <int Dim>
+CriticalStrength<Dim> find_strength(const CornerAssembly<Dim>& assembly, const Loads<Dim>& loads,
+                                    const Strength<Dim>& strength) {
+  constexpr double stronger = 1.01;
+  CriticalStrength<Dim> found = bracket_strength(assembly, loads, strength);
+  if (found.status != LimitStatus::found && found.status != LimitStatus::carries_any) return found;
+  CornerAssembly<Dim> trial = assembly;
+  strength.weaken(std::min(strength.strongest, stronger * found.stands), trial);
+  found.self_stress = may_rest_on_self_stress(trial, loads, found.state.velocities);
+  return found;
+}
 
-  double weight_on(const Interface& face) const {
-    double least = infinity;
+template <int Dim>
+CriticalStrength<Dim> find_straight_factor(const CornerAssembly<Dim>& assembly, const Loads<Dim>& loads,
+                                           const std::vector<bool>& chosen) {
+  Strength<Dim> strength{most_strength, strength_tolerance, {}, {}};
+  strength.weaken = [&](double fraction, CornerAssembly<Dim>& trial) {
+    const double left = fraction / (1 - fraction);
+    for (std::size_t f = 0; f < trial.faces.size(); ++f) {
+      if (!chosen[f]) continue;
+      trial.faces[f].friction = std::atan(left * std::tan(assembly.faces[f].friction));
+      trial.faces[f].cohesion = left * assembly.faces[f].cohesion;
+    }
+  };
+  strength.slope = [&](double fraction, const std::vector<Sensitivity>& of_faces) {
+    const double left = fraction / (1 - fraction);
+    double sum = 0;
+    for (std::size_t f = 0; f < of_faces.size(); ++f) {
+      if (!chosen[f]) continue;
+      const double tangent = std::tan(assembly.faces[f].friction), weaker = left * tangent;
+      sum += of_faces[f].friction * tangent / (1 + weaker * weaker);
+      if (left > 0) sum += of_faces[f].cohesion / left;
+    }
+    return sum / ((1 - fraction) * (1 - fraction));
+  };
+  CriticalStrength<Dim> found = find_strength(assembly, loads, strength);
+  for (double* end : {&found.collapses, &found.stands})
+    *end = *end > 0 ? (1 - *end) / *end : std::numeric_limits<double>::infinity();
+  return found;
+}
+
+// for FollowEnvelope
+template <int Dim>
+struct RoughCorners {
+  const CornerAssembly<Dim>& assembly;
+  const std::vector<CornerFace<Dim>>& faces = assembly.faces;
+  const std::vector<JointProperties>& properties = assembly.properties;
+
+  double weight_on(const CornerFace<Dim>& face) const {
+    double least = std::numeric_limits<double>::infinity();
     for (const int body : {face.body_a, face.body_b})
-      if (!model.bodies[body].fixed) least = std::min(least, model.bodies[body].mass * model.gravity.norm());
+      if (assembly.bodies[body].moves()) least = std::min(least, assembly.bodies[body].weight);
     return least;
   }
-  static double area_of(const Interface& face) { return face.length(); }
+  static double area_of(const CornerFace<Dim>& face) { return face.area(); }
 
-  using Forces = std::vector<std::array<EndForce, 2>>;
-  static FaceResultant force_on(const Forces& forces, std::size_t f) {
-    const auto& [a, b] = forces[f];
-    return {a.normal + b.normal, std::abs(a.shear) + std::abs(b.shear)};
+  FaceResultant force_on(const CornerForces<Dim>& forces, std::size_t f) const {
+    FaceResultant sum;
+    for (const Vector<Dim>& force : forces[f]) {
+      const double normal = force.dot(faces[f].normal);
+      sum.normal += normal;
+      sum.shear += (force - normal * faces[f].normal).norm();
+    }
+    return sum;
   }
-  static Forces mix(Forces a, const Forces& b, double share) {
+  static CornerForces<Dim> mix(CornerForces<Dim> a, const CornerForces<Dim>& b, double share) {
     for (std::size_t f = 0; f < a.size(); ++f)
-      for (std::size_t end = 0; end < 2; ++end) {
-        a[f][end].normal += share * (b[f][end].normal - a[f][end].normal);
-        a[f][end].shear += share * (b[f][end].shear - a[f][end].shear);
-      }
+      for (std::size_t k = 0; k < a[f].size(); ++k)
+        a[f][k] += share * (b[f][k] - a[f][k]);
     return a;
+  }
+
+  // `find` of an assembly, for its faces
+  auto on_faces(const auto& find) const {
+    return [this, find](const std::vector<CornerFace<Dim>>& straight) {
+      CornerAssembly<Dim> trial = assembly;
+      trial.faces = straight;
+      return find(trial);
+    };
   }
 };
 
 }  // namespace
 
-Loads loads_of_acceleration(const Model<2>& model, const Vector<2>& acceleration) {
-  Loads loads(model.bodies.size());
+template <int Dim>
+Loads<Dim> loads_of_acceleration(const Model<Dim>& model, const Vector<Dim>& acceleration) {
+  Loads<Dim> loads(model.bodies.size());
   for (std::size_t b = 0; b < loads.size(); ++b)
     if (model.bodies[b].present) loads[b].force = model.bodies[b].mass * acceleration;
   return loads;
 }
 
-Loads loads_of_applied_forces(const Model<2>& model) {
-  Loads loads(model.bodies.size());
-  for (const AppliedForce<2>& f : model.applied)
-    loads[f.body] += load_of<2>({f.place, f.force}, Matrix<2>::Identity());
+template <int Dim>
+Loads<Dim> loads_of_applied_forces(const Model<Dim>& model) {
+  Loads<Dim> loads(model.bodies.size());
+  for (const AppliedForce<Dim>& f : model.applied)
+    loads[f.body] += load_of<Dim>({f.place, f.force}, Matrix<Dim>::Identity());
   return loads;
 }
 
-LoadFactor find_load_factor(const Model<2>& model, const std::vector<Interface>& interfaces, const Loads& dead,
-                            const Loads& live) {
-  const RoughAssembly rough{model, interfaces};
-  return FollowEnvelope(rough).repeat(
-      [&](const std::vector<Interface>& straight) { return find_straight_load_factor(model, straight, dead, live); },
-      [](const LoadFactor& found) { return found.factor; });
+template <int Dim>
+double acceleration_of(const Model<Dim>& model, const Loads<Dim>& loads) {
+  double largest = 0;
+  for (std::size_t b = 0; b < loads.size(); ++b) {
+    const Body<Dim>& body = model.bodies[b];
+    largest =
+        std::max({largest, loads[b].force.norm() / body.mass, loads[b].moment.norm() / (body.mass * body.radius)});
+  }
+  return largest;
 }
 
-CriticalStrength find_critical_friction(const Model<2>& model, const std::vector<Interface>& interfaces,
-                                        const std::vector<std::string>& properties, const Loads& besides) {
-  const std::vector<bool> chosen = choose(model, properties);
-  const auto weaken = [&](double friction, std::vector<Interface>& trial) {
-    for (Interface& face : trial)
-      if (chosen[face.properties]) face.friction = friction;
-  };
-  const StrengthRange range{least_friction, largest_friction, friction_tolerance, weaken};
-  const RoughAssembly rough{model, interfaces};
+template <int Dim>
+LoadFactor<Dim> find_load_factor(const CornerAssembly<Dim>& assembly, const Loads<Dim>& dead, const Loads<Dim>& live) {
+  const RoughCorners<Dim> rough{assembly};
   return FollowEnvelope(rough).repeat(
-      [&](const std::vector<Interface>& straight) { return find_strength(model, straight, besides, range); },
-      [](const CriticalStrength& found) { return found.stands; });
+      rough.on_faces([&](const CornerAssembly<Dim>& trial) { return find_straight_load_factor(trial, dead, live); }),
+      [](const LoadFactor<Dim>& found) { return found.factor; });
 }
 
-CriticalStrength find_factor_of_safety(const Model<2>& model, const std::vector<Interface>& interfaces,
-                                       const std::vector<std::string>& properties, const Loads& besides) {
-  const std::vector<bool> chosen = choose(model, properties);
-  const auto find = [&](const std::vector<Interface>& straight) {
-    // the remaining fraction of the stated strength: 1/F
-    const auto weaken = [&](double fraction, std::vector<Interface>& trial) {
-      const double left = fraction / (1 - fraction);
-      for (std::size_t i = 0; i < trial.size(); ++i) {
-        if (!chosen[trial[i].properties]) continue;
-        trial[i].friction = std::atan(left * std::tan(straight[i].friction));
-        trial[i].cohesion = left * straight[i].cohesion;
-      }
-    };
-    CriticalStrength found = find_strength(model, straight, besides, {least_left, most_left, left_tolerance, weaken});
-    for (double* end : {&found.collapses, &found.stands})
-      *end = *end > 0 ? (1 - *end) / *end : infinity;
-    return found;
+template <int Dim>
+CriticalStrength<Dim> find_critical_friction(const CornerAssembly<Dim>& assembly, const Loads<Dim>& loads,
+                                             const std::vector<bool>& chosen) {
+  Strength<Dim> strength{roughest, angle_tolerance, {}, {}};
+  strength.weaken = [&](double friction, CornerAssembly<Dim>& trial) {
+    for (std::size_t f = 0; f < trial.faces.size(); ++f)
+      if (chosen[f]) trial.faces[f].friction = friction;
   };
-  std::vector<bool> of_faces;
-  for (const Interface& face : interfaces)
-    of_faces.push_back(chosen[face.properties]);
-  const RoughAssembly rough{model, interfaces};
-  return FollowEnvelope(rough).factor(find, of_faces);
+  strength.slope = [&](double, const std::vector<Sensitivity>& of_faces) {
+    double sum = 0;
+    for (std::size_t f = 0; f < of_faces.size(); ++f)
+      if (chosen[f]) sum += of_faces[f].friction;
+    return sum;
+  };
+  const RoughCorners<Dim> rough{assembly};
+  return FollowEnvelope(rough).repeat(
+      rough.on_faces([&](const CornerAssembly<Dim>& trial) { return find_strength(trial, loads, strength); }),
+      [](const CriticalStrength<Dim>& found) { return found.stands; });
 }
+
+template <int Dim>
+CriticalStrength<Dim> find_factor_of_safety(const CornerAssembly<Dim>& assembly, const Loads<Dim>& loads,
+                                            const std::vector<bool>& chosen) {
+  const RoughCorners<Dim> rough{assembly};
+  return FollowEnvelope(rough).factor(
+      rough.on_faces([&](const CornerAssembly<Dim>& trial) { return find_straight_factor(trial, loads, chosen); }),
+      chosen);
+}
+
+template <int Dim>
+std::vector<bool> faces_of(const CornerAssembly<Dim>& assembly, const std::vector<std::string>& properties) {
+  std::vector<bool> named(assembly.properties.size(), properties.empty()), chosen;
+  for (const std::string& name : properties) {
+    const auto at = std::ranges::find(assembly.properties, name, &JointProperties::name);
+    if (at == assembly.properties.end()) throw std::out_of_range(name);
+    named[at - assembly.properties.begin()] = true;
+  }
+  for (const CornerFace<Dim>& face : assembly.faces)
+    chosen.push_back(properties.empty() || named[face.properties]);
+  return chosen;
+}
+
+template Loads<2> loads_of_acceleration(const Model<2>&, const Vector<2>&);
+template Loads<2> loads_of_applied_forces(const Model<2>&);
+template double acceleration_of(const Model<2>&, const Loads<2>&);
+template LoadFactor<2> find_load_factor(const CornerAssembly<2>&, const Loads<2>&, const Loads<2>&);
+template CriticalStrength<2> find_critical_friction(const CornerAssembly<2>&, const Loads<2>&,
+                                                    const std::vector<bool>&);
+template CriticalStrength<2> find_factor_of_safety(const CornerAssembly<2>&, const Loads<2>&, const std::vector<bool>&);
+template std::vector<bool> faces_of(const CornerAssembly<2>&, const std::vector<std::string>&);
+template Loads<3> loads_of_acceleration(const Model<3>&, const Vector<3>&);
+template Loads<3> loads_of_applied_forces(const Model<3>&);
+template double acceleration_of(const Model<3>&, const Loads<3>&);
+template LoadFactor<3> find_load_factor(const CornerAssembly<3>&, const Loads<3>&, const Loads<3>&);
+template CriticalStrength<3> find_critical_friction(const CornerAssembly<3>&, const Loads<3>&,
+                                                    const std::vector<bool>&);
+template CriticalStrength<3> find_factor_of_safety(const CornerAssembly<3>&, const Loads<3>&, const std::vector<bool>&);
+template std::vector<bool> faces_of(const CornerAssembly<3>&, const std::vector<std::string>&);
 
 }  // namespace voussoir

@@ -1,86 +1,83 @@
-// Rigid-block limit analysis of a 2-D assembly (Livesley 1978): blocks are rigid, a joint carries normal and shear
-// forces at the two ends of every interface, within Coulomb's cone and without tension. An equilibrium within the cone
-// gives a lower bound of the supported load; the multipliers of the same linear program are the velocities of a
-// mechanism. The mechanism opens a joint by tan(friction) of its slip (associated flow), so that the result is an upper
-// bound for blocks that slip without opening: if blocks topple it may be several degrees unsafe.
+// Rigid-block limit analysis (Livesley 1978): blocks are rigid, joints carry forces at the corners of faces (in the
+// plane at the ends of interfaces) within Coulomb's exact cones, without tension. Forces in equilibrium within the
+// cones are a lower bound of the supported load; the multipliers of the same cone program are the velocities of a
+// mechanism, an upper bound. The mechanism opens a joint by tan(friction) of its slip (associated flow): both bounds
+// enclose the factor of joints that dilate so. Of joints that do not dilate it is an upper bound of what they support.
 #pragma once
 
 #include <string>
 #include <vector>
 
+#include "core/limit/corner_cones.hpp"
 #include "core/limit/evidence.hpp"
-#include "core/limit/interfaces.hpp"
-#include "core/limit/linear_program.hpp"
-#include "core/load/load.hpp"
 
 namespace voussoir {
 
-// the force at one end of an interface, on body_b
-struct EndForce {
-  double normal = 0;  // N (per metre of thickness), pressure positive
-  double shear = 0;   // N, along the normal rotated by a right angle, counter-clockwise
-};
-
-// velocities of a mechanism: only their ratios have a meaning. For the fastest body, the speed of the centroid plus
-// that of the farthest corner about it is 1.
-struct BodyVelocity {
-  Vector<2> velocity = Vector<2>::Zero();  // of the centroid
-  double spin = 0;                         // 1/m, counter-clockwise
-};
-
 // One limit state: forces that support the load, and velocities of the collapse mechanism.
+template <int Dim>
 struct LimitState {
-  std::vector<std::array<EndForce, 2>> forces;  // by interface; empty if no forces support the load
-  std::vector<BodyVelocity> velocities;         // by body; zero for fixed ones; all zero if nothing collapses
-};
-
-struct LoadFactor {
-  LimitStatus status = LimitStatus::found;
-  double factor = 0;         // of the live load
-  bool self_stress = false;  // as in CriticalStrength
-  LimitState state;
-  Evidence evidence;
+  CornerForces<Dim> forces;                   // by face; empty if no forces support the load
+  std::vector<BodyVelocity<Dim>> velocities;  // by body; zero for fixed ones; all zero if nothing collapses
 };
 
 // Loads on each body, by id, in the reference configuration.
-using Loads = std::vector<Load<2>>;
-Loads loads_of_acceleration(const Model<2>& model, const Vector<2>& acceleration);  // m/s²
-Loads loads_of_applied_forces(const Model<2>& model);                               // at a factor of 1
+template <int Dim>
+using Loads = std::vector<Load<Dim>>;
+template <int Dim>
+Loads<Dim> loads_of_acceleration(const Model<Dim>& model, const Vector<Dim>& acceleration);  // m/s²
+template <int Dim>
+Loads<Dim> loads_of_applied_forces(const Model<Dim>& model);  // at a factor of 1
+
+// m/s², the unit of weights: the largest load over its body's mass, a moment divided by the body's radius too
+template <int Dim>
+double acceleration_of(const Model<Dim>& model, const Loads<Dim>& loads);
+
+template <int Dim>
+struct LoadFactor {
+  LimitStatus status = LimitStatus::found;
+  double factor = 0;  // of the live load
+  // The load may be supported by normal forces which it does not require: at 0.99 of the factor faces that move in the
+  // mechanism can have self-stress, and without them the load is not supported.
+  bool self_stress = false;
+  LimitState<Dim> state;
+  Evidence evidence;
+};
 
 // The largest factor of the live loads that is supported together with the dead ones, with the friction and cohesion of
-// the interfaces. The gap is that of the largest ratio of live load to a body's weight, relative to the larger of 1 and
-// this ratio. Joints after Barton and Bandis have their peak envelope here and in a factor of safety.
-LoadFactor find_load_factor(const Model<2>& model, const std::vector<Interface>& interfaces, const Loads& dead,
-                            const Loads& live);
+// the faces. The gap is that of the largest ratio of live load to a body's weight, relative to the larger of 1 and this
+// ratio. Joints after Barton and Bandis have their peak envelope here and in a factor of safety.
+template <int Dim>
+LoadFactor<Dim> find_load_factor(const CornerAssembly<Dim>& assembly, const Loads<Dim>& dead, const Loads<Dim>& live);
 
 // The strength at which loads are just supported, between a stable and a collapsing one.
 struct StrengthBracket {
   LimitStatus status = LimitStatus::found;
   double collapses = 0, stands = 0;  // friction angle in rad, or factor of safety
   double missing = 0;  // at `collapses`: the least sum of added forces, over their bodies' weights, for equilibrium
-  Evidence evidence;   // gap: of the missing force at `collapses`; out_of_balance at `stands`
+  bool self_stress = false;  // as in LoadFactor, at 1.01 times the strength
+  Evidence evidence;         // gap: of the missing force at `collapses`; out_of_balance at `stands`
 };
 
+template <int Dim>
 struct CriticalStrength : StrengthBracket {
-  // It may depend on normal forces between walls that the loads do not require: at 1.01 times the strength joints that
-  // move in the mechanism can have self-stress, and without them the loads are not supported.
-  bool self_stress = false;
-  LimitState state;  // forces at `stands`, velocities at `collapses`
+  LimitState<Dim> state;  // forces at `stands`, velocities at `collapses`
 };
 
-// The friction angle at which the model's gravity is just supported, by bisection over linear programs for the least
-// force to be added, to 1e-6 degrees (for jammed blocks, self_stress, to 1 % at worst, as the bracket states: forces
-// grow without bound towards it). It applies to all interfaces with named properties, the others keep theirs; no name:
-// all; joints after Barton and Bandis must not be among them. Cohesion is unchanged. `besides`: further dead loads, by
-// body. Unknown names throw std::out_of_range with the name.
-CriticalStrength find_critical_friction(const Model<2>& model, const std::vector<Interface>& interfaces,
-                                        const std::vector<std::string>& properties = {}, const Loads& besides = {});
+// The friction angle of the chosen faces at which the loads are just supported, to 1e-6 degrees. Those faces must not
+// follow Barton and Bandis. Cohesion is unchanged.
+template <int Dim>
+CriticalStrength<Dim> find_critical_friction(const CornerAssembly<Dim>& assembly, const Loads<Dim>& loads,
+                                             const std::vector<bool>& chosen);
 
-// The factor of safety F: gravity is just supported if tan(friction) and cohesion of the interfaces with named
-// properties are divided by F, those of the others unchanged. Likewise, to about 1e-7 of itself; it is searched from
-// 1e-3 (carries_nothing: not even a thousand times the strength is enough) to infinity (carries_any: no strength is
-// needed).
-CriticalStrength find_factor_of_safety(const Model<2>& model, const std::vector<Interface>& interfaces,
-                                       const std::vector<std::string>& properties = {}, const Loads& besides = {});
+// The factor of safety F: the loads are just supported if tan(friction) and cohesion of the chosen faces are divided by
+// F, those of the others unchanged. To 1e-7 of itself; it is searched from 1e-3 (carries_nothing: not even a thousand
+// times the strength is enough) to infinity (carries_any: no strength is needed).
+template <int Dim>
+CriticalStrength<Dim> find_factor_of_safety(const CornerAssembly<Dim>& assembly, const Loads<Dim>& loads,
+                                            const std::vector<bool>& chosen);
+
+// the faces with properties of these names; no name: all. Unknown names throw std::out_of_range with the name.
+template <int Dim>
+std::vector<bool> faces_of(const CornerAssembly<Dim>& assembly, const std::vector<std::string>& properties);
 
 }  // namespace voussoir

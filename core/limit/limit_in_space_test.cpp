@@ -1,6 +1,6 @@
 // Limit analysis in space against closed forms and other programs: wedges, inclines, twist, walls, an arch,
 // self-stress.
-#include "core/limit/limit_in_space.hpp"
+#include "core/limit/limit.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ namespace {
 using namespace corner_scenes;
 
 void expect_factor(const CornerScene& scene, double expected) {
-  const LoadFactorInSpace found = scene.factor();
+  const LoadFactor<3> found = scene.factor();
   ASSERT_EQ(found.status, LimitStatus::found);
   EXPECT_NEAR(found.factor, expected, 2e-9);
   EXPECT_LT(found.evidence.gap, 1e-8);
@@ -27,7 +27,7 @@ void expect_factor(const CornerScene& scene, double expected) {
 // ---- wedges --------------------------------------------------------------------------------------------------------
 
 void expect_friction(const CornerScene& scene, double expected) {
-  const CriticalStrengthInSpace found = scene.friction();
+  const CriticalStrength<3> found = scene.friction();
   ASSERT_EQ(found.status, LimitStatus::found);
   EXPECT_NEAR(to_degrees(found.stands), expected, 3e-6);
   EXPECT_NEAR(to_degrees(found.collapses), expected, 3e-6);
@@ -134,7 +134,7 @@ TEST(LimitInSpace, CountsCohesion) {
   // the factor of safety of both on a slope
   scene.dead[block].force = {1.2, 0, -1};
   scene.dead[block].moment = (middle - scene.assembly.bodies[block].centroid).cross(Point(1.2, 0, 0));
-  const CriticalStrengthInSpace found = find_factor_of_safety(scene.assembly, scene.dead, {true});
+  const CriticalStrength<3> found = find_factor_of_safety(scene.assembly, scene.dead, {true});
   ASSERT_EQ(found.status, LimitStatus::found);
   EXPECT_NEAR(found.stands, (0.4 * area + std::tan(20 * degree)) / 1.2, 1e-6);
 }
@@ -148,7 +148,7 @@ TEST(LimitInSpace, BringsWallsDown) {
   expect_factor(wall(6, 4, 0.5, 0.25, 0.3, 25, {1, 0, 0}), std::tan(25 * degree));
   expect_factor(wall(8, 3, 0.6, 0.3, 0.3, 30, {1, 0, 0}), 0.536216876);
   expect_factor(wall(4, 3, 1, 0.5, 0.4, 35, {0, 1, 0}), 0.2);
-  const LoadFactorInSpace found = wall(4, 3, 1, 0.5, 0.4, 35, {0, 1, 0}).factor();
+  const LoadFactor<3> found = wall(4, 3, 1, 0.5, 0.4, 35, {0, 1, 0}).factor();
   double fastest = 0;
   for (std::size_t b = 0; b < found.state.velocities.size(); ++b)
     fastest = std::max(fastest, found.state.velocities[b].velocity.norm());

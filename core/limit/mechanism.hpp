@@ -4,24 +4,27 @@
 #include <optional>
 #include <vector>
 
-#include "core/limit/limit.hpp"
+#include "core/limit/corner_cones.hpp"
 
 namespace voussoir {
 
+template <int Dim>
 struct BlockMotion {
   int body = 0;
-  double speed = 0;                 // of its centroid, relative to the mechanism's fastest block (BodyVelocity)
-  double turning = 0;               // of its farthest corner about the centroid, same unit
-  double rotation_fraction = 0;     // of the block's kinetic energy: I w² / (m v² + I w²)
-  std::optional<Vector<2>> centre;  // about which it rotates, m, world coordinates; none: it only translates
+  double speed = 0;                   // of its centroid, relative to the mechanism's fastest block (BodyVelocity)
+  double turning = 0;                 // of its farthest corner about the centroid, same unit
+  double rotation_fraction = 0;       // of the block's kinetic energy: w·I w / (m v² + w·I w)
+  std::optional<Vector<Dim>> centre;  // in the plane, about which it rotates, m, world; none: it only translates
 };
 
+template <int Dim>
 struct Mechanism {
-  std::vector<BlockMotion> moving;  // bodies faster than 1e-6 of the fastest, by id
-  double rotation_fraction = 0;     // of the kinetic energy of all of them
-  int turning = 0;                  // bodies whose turning exceeds 1e-6 of their motion
+  std::vector<BlockMotion<Dim>> moving;  // bodies faster than 1e-6 of the fastest, by id
+  double rotation_fraction = 0;          // of the kinetic energy of all of them
+  int turning = 0;                       // bodies whose turning exceeds 1e-6 of their motion
 };
 
-Mechanism describe_mechanism(const Model<2>& model, const std::vector<BodyVelocity>& velocities);
+template <int Dim>
+Mechanism<Dim> describe_mechanism(const Model<Dim>& model, const std::vector<BodyVelocity<Dim>>& velocities);
 
 }  // namespace voussoir

@@ -1,30 +1,76 @@
 #include "core/limit/self_stress.hpp"
 
-#include <cmath>
+#include <algorithm>
+
+#include "core/limit/shortfall.hpp"
 
 namespace voussoir {
+namespace {
 
-// Solutions of A x = 0 can be added and scaled, so that one of them has all columns that any of them has, each at least
-// 1: the largest sum of min(x, 1) is their number.
-std::vector<bool> unbounded_columns(const LinearProgram& program) {
-  const std::size_t count = program.columns.size();
-  if (count == 0) return {};
-  LinearProgram homogeneous{std::vector<double>(program.right_side.size(), 0), {}};
-  for (ProgramColumn column : program.columns) {
-    column.cost = 0;
-    if (std::isfinite(column.low) && std::isfinite(column.high)) column.low = column.high = 0;
-    homogeneous.columns.push_back(column);
+constexpr double least_share = 1e-6;  // of the largest self-stress: below it a corner has none
+constexpr double still = 1e-6;        // of the fastest body: far above the rounding of multipliers
+
+// Self-stresses can be added and scaled: their largest sum is unbounded if there are any, and the interior point method
+// ends inside the set of them all, where every corner that can have one has it.
+template <int Dim>
+std::vector<std::vector<bool>> corners_with_self_stress(const CornerAssembly<Dim>& assembly) {
+  CornerAssembly<Dim> frictional = assembly;
+  std::vector<std::vector<bool>> possible;
+  for (CornerFace<Dim>& face : frictional.faces) {
+    face.cohesion = 0;
+    possible.emplace_back(face.corners.size(), false);
   }
-  for (const ProgramColumn& column : program.columns) {  // up to 1 of each relevant one
-    const bool counts = std::isfinite(column.low) && !std::isfinite(column.high);
-    homogeneous.columns.push_back({counts ? -1.0 : 0.0, 0, counts ? 1.0 : 0.0, column.entries});
-  }
-  std::vector<bool> unbounded(count, false);
-  const ProgramSolution solution = solve(homogeneous);
-  if (solution.status != ProgramStatus::optimal) return unbounded;
-  for (std::size_t j = 0; j < count; ++j)
-    unbounded[j] = solution.x[count + j] > 0.5;  // 0 or 1
-  return unbounded;
+  CornerProgram<Dim> program = corner_program(frictional, {});
+  for (auto& cone : program.cones)
+    cone.cost = -1;
+  const ConeProgramAnswer answer = solve(program);
+  if (answer.status != ConeStatus::unbounded) return possible;
+  double largest = 0;
+  for (std::size_t k = 0; k < program.cones.size(); ++k)
+    largest = std::max(largest, answer.x[Dim * k]);
+  Eigen::Index at = 0;
+  for (std::vector<bool>& of_face : possible)
+    for (std::size_t k = 0; k < of_face.size(); ++k, at += Dim)
+      of_face[k] = answer.x[at] > least_share * largest;
+  return possible;
 }
+
+}  // namespace
+
+template <int Dim>
+std::vector<bool> faces_with_self_stress(const CornerAssembly<Dim>& assembly) {
+  std::vector<bool> faces;
+  for (const std::vector<bool>& corners : corners_with_self_stress(assembly))
+    faces.push_back(std::ranges::find(corners, true) != corners.end());
+  return faces;
+}
+
+template <int Dim>
+bool may_rest_on_self_stress(const CornerAssembly<Dim>& assembly, const Loads<Dim>& loads,
+                             const std::vector<BodyVelocity<Dim>>& velocities) {
+  const std::vector<std::vector<bool>> possible = corners_with_self_stress(assembly);
+  const CornerProgram<Dim> all = corner_program(assembly, loads);
+  CornerProgram<Dim> without = all;
+  without.cones.clear();
+  bool moves = false;
+  auto cone = all.cones.begin();
+  for (std::size_t f = 0; f < assembly.faces.size(); ++f) {
+    const CornerFace<Dim>& face = assembly.faces[f];
+    for (std::size_t k = 0; k < face.corners.size(); ++k) {
+      if (!possible[f][k])
+        without.cones.push_back(*cone);
+      else if (velocities.empty() || opening_at(assembly, face, face.corners[k], velocities).norm() > still)
+        moves = true;
+      ++cone;
+      if (face.cohesion > 0) without.cones.push_back(*cone++);
+    }
+  }
+  return moves && !shortfall(assembly, without).stands();
+}
+
+template std::vector<bool> faces_with_self_stress(const CornerAssembly<2>&);
+template std::vector<bool> faces_with_self_stress(const CornerAssembly<3>&);
+template bool may_rest_on_self_stress(const CornerAssembly<2>&, const Loads<2>&, const std::vector<BodyVelocity<2>>&);
+template bool may_rest_on_self_stress(const CornerAssembly<3>&, const Loads<3>&, const std::vector<BodyVelocity<3>>&);
 
 }  // namespace voussoir

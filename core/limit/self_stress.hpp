@@ -3,12 +3,19 @@
 
 #include <vector>
 
-#include "core/limit/linear_program.hpp"
+#include "core/limit/limit.hpp"
 
 namespace voussoir {
 
-// Which columns of a program can grow without bound: those that are positive in some x with A x = 0, where columns from
-// 0 to infinity are at least 0, free ones are free, and those with two bounds are 0. Also none if the solver gives up.
-std::vector<bool> unbounded_columns(const LinearProgram& program);
+// Which faces can have normal forces in equilibrium without any load, with their friction and without cohesion. Also
+// none if the solver gives up.
+template <int Dim>
+std::vector<bool> faces_with_self_stress(const CornerAssembly<Dim>& assembly);
+
+// Whether faces with possible self-stress move in the mechanism, and the loads are not supported without the forces at
+// them. No velocities: all such faces count.
+template <int Dim>
+bool may_rest_on_self_stress(const CornerAssembly<Dim>& assembly, const Loads<Dim>& loads,
+                             const std::vector<BodyVelocity<Dim>>& velocities);
 
 }  // namespace voussoir

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "core/limit/limit.hpp"
 #include "core/testing/limit_models.hpp"
@@ -19,25 +18,7 @@ using shapes::integer;
 using shapes::Random;
 using shapes::uniform;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double bracket = 1.01e-6 * degree;  // of find_critical_friction, as the header states it
-
-// x0 = x1, x2 + x3 = 0 by bounds alone, a free x4 that x5 needs, and x6 within bounds
-TEST(SelfStress, IsTheColumnsThatGrowWithoutBound) {
-  LinearProgram program{{7, -3, 2}, {}};
-  const auto add = [&](std::vector<std::pair<int, double>> entries, double low = 0, double high = infinity) {
-    program.columns.push_back({1, low, high, std::move(entries)});
-  };
-  add({{0, 1}});
-  add({{0, -2}});
-  add({{1, 1}});
-  add({{1, 1}});
-  add({{2, 1}}, -infinity);
-  add({{2, 1}});
-  add({{0, 1}}, -1, 1);
-  EXPECT_EQ(unbounded_columns(program), (std::vector<bool>{true, true, false, false, false, true, false}));
-  EXPECT_TRUE(unbounded_columns({{1, 2}, {}}).empty()) << "of blocks that touch nothing";
-}
 
 // Stones of one width in a row between two fixed walls, each inclined away from the other by `lean` upwards: below 0
 // the slot opens downwards. Everything is rotated about the origin.
@@ -64,9 +45,8 @@ TEST(SelfStress, BetweenParallelWallsHoldsAtAnyFrictionAboveZero) {
     const int stones = i % 4 == 0 ? 1 : integer(random, 1, 12);
     const Model<2> model =
         model_of(slot(stones, uniform(random, 0.2, 2), uniform(random, 0.5, 2), 0, uniform(random, -60, 60) * degree));
-    const std::vector<Interface> faces = find_interfaces(model);
-    EXPECT_EQ(find_critical_friction(model, faces).status, LimitStatus::not_attained) << i << ": " << stones;
-    EXPECT_EQ(find_factor_of_safety(model, faces).status, LimitStatus::not_attained) << i << ": " << stones;
+    EXPECT_EQ(critical_friction(model).status, LimitStatus::not_attained) << i << ": " << stones;
+    EXPECT_EQ(factor_of_safety(model).status, LimitStatus::not_attained) << i << ": " << stones;
   }
 }
 
@@ -77,13 +57,12 @@ TEST(SelfStress, MayDependOnAnotherSelfStress) {
                                    {"between", box(0, 0, 1, 1)},
                                    {"wall", box(-3, 0, -1, 1), true},
                                    {"stone", box(-1, 0, 0, 1)}});
-  const std::vector<Interface> faces = find_interfaces(model);
-  EXPECT_EQ(find_critical_friction(model, faces).status, LimitStatus::not_attained);
+  EXPECT_EQ(critical_friction(model).status, LimitStatus::not_attained);
   // without the roof the block can move: the stone then needs all of its own friction to push the block
   Model<2> open = model;
   for (Body<2>& body : open.bodies)
     body.present = body.name != "roof";
-  const CriticalStrength found = find_critical_friction(open, find_interfaces(open));
+  const CriticalStrength<2> found = critical_friction(open);
   EXPECT_EQ(found.status, LimitStatus::found);
 }
 
@@ -94,14 +73,14 @@ TEST(SelfStress, InASlotThatOpensDownwardsIsReported) {
   for (int i = 0; i < 40; ++i) {
     const double lean = uniform(random, 0.5, 25) * degree, height = 1, width = uniform(random, 1.2, 2);
     const Model<2> opens_below = model_of(slot(1, width, height, -lean, 0));
-    const CriticalStrength found = find_critical_friction(opens_below, find_interfaces(opens_below));
+    const CriticalStrength<2> found = critical_friction(opens_below);
     ASSERT_EQ(found.status, LimitStatus::found) << lean / degree;
     // forces grow without bound towards it, so that the bracket may stay wider
     EXPECT_LE(found.collapses, lean + bracket);
     EXPECT_GE(found.stands, lean - bracket);
     EXPECT_LE(found.stands, 1.01 * found.collapses);
     EXPECT_TRUE(found.self_stress);
-    const CriticalStrength factor = find_factor_of_safety(opens_below, find_interfaces(opens_below));
+    const CriticalStrength<2> factor = factor_of_safety(opens_below);
     ASSERT_EQ(factor.status, LimitStatus::found) << lean / degree;
     const double exact = std::tan(30 * degree) / std::tan(lean);
     EXPECT_LE(factor.stands, exact * (1 + 1e-6));
@@ -110,7 +89,7 @@ TEST(SelfStress, InASlotThatOpensDownwardsIsReported) {
     EXPECT_TRUE(factor.self_stress);
 
     const Model<2> opens_above = model_of(slot(1, width, height, lean, 0));
-    const CriticalStrength wedged = find_critical_friction(opens_above, find_interfaces(opens_above));
+    const CriticalStrength<2> wedged = critical_friction(opens_above);
     EXPECT_EQ(wedged.status, LimitStatus::carries_any);
     EXPECT_FALSE(wedged.self_stress);
   }
@@ -122,7 +101,7 @@ TEST(SelfStress, IsNotReportedForLoadsThatCompressTheirJoints) {
   for (int i = 0; i < 20; ++i) {
     const double dip = uniform(random, 2, 25) * degree;
     const Model<2> model = block_on_plate(2, 0.1, dip);
-    const CriticalStrength found = find_critical_friction(model, find_interfaces(model));
+    const CriticalStrength<2> found = critical_friction(model);
     ASSERT_EQ(found.status, LimitStatus::found);
     EXPECT_NEAR(found.stands, dip, bracket);
     EXPECT_FALSE(found.self_stress);
@@ -130,7 +109,7 @@ TEST(SelfStress, IsNotReportedForLoadsThatCompressTheirJoints) {
   // a stone on a floor between walls, next to a sliding block
   std::vector<TestBlock> blocks = slot(1, 1, 1, 0, 0);
   blocks.push_back({"floor", box(-0.5, -1, 0.5, 0), true});
-  EXPECT_FALSE(find_critical_friction(model_of(blocks), find_interfaces(model_of(blocks))).self_stress);
+  EXPECT_FALSE(critical_friction(model_of(blocks)).self_stress);
   for (TestBlock block : {TestBlock{"plate", turned(box(-3, -1, 3, 0), 0.2), true},
                           TestBlock{"block", turned(box(-1, 0, 1, 0.1), 0.2)}}) {
     for (Vector<2>& p : block.corners)
@@ -138,7 +117,7 @@ TEST(SelfStress, IsNotReportedForLoadsThatCompressTheirJoints) {
     blocks.push_back(block);
   }
   const Model<2> model = model_of(blocks);
-  const CriticalStrength found = find_critical_friction(model, find_interfaces(model));
+  const CriticalStrength<2> found = critical_friction(model);
   ASSERT_EQ(found.status, LimitStatus::found);
   EXPECT_NEAR(found.stands, 0.2, bracket);
   EXPECT_FALSE(found.self_stress);

@@ -22,13 +22,12 @@ constexpr double numerical = 1e-6;                          // of 1 or of a fact
 constexpr double same_mechanism = 1e-4;                     // of the factor: a lower one belongs to another
 constexpr double first_aside = 1e-3, last_aside = 1e-4;     // of the slips, for the ends of the interval
 
-bool is_frictional(const ForceCone<6, 3>& cone) {
-  return cone.head == 0;
-}
-
+template <int Dim>
 class FixedPoints {
+  using Cone = ForceCone<freedoms<Dim>, Dim>;
+
  public:
-  FixedPoints(const CornerAssembly& assembly, const std::vector<Load<3>>& dead, const std::vector<Load<3>>& live)
+  FixedPoints(const CornerAssembly<Dim>& assembly, const Loads<Dim>& dead, const Loads<Dim>& live)
       : assembly_(assembly), program_(corner_program(assembly, dead, live)) {
     scale_ = program_.live.cwiseAbs().maxCoeff();
     if (scale_ > 0) program_.live /= scale_;
@@ -108,11 +107,14 @@ class FixedPoints {
     return Round{answer.factor / scale_, largest > 0 ? change / largest : 0};
   }
 
-  static double slip_of(const ForceCone<6, 3>& cone, const Eigen::VectorXd& y) {
-    Vector<3> speed = Vector<3>::Zero();
-    if (cone.body_a >= 0) speed += cone.on_a.transpose() * y.segment<6>(6 * cone.body_a);
-    if (cone.body_b >= 0) speed += cone.on_b.transpose() * y.segment<6>(6 * cone.body_b);
-    return speed.tail<2>().norm();
+  static bool is_frictional(const Cone& cone) { return cone.head == 0; }
+
+  static double slip_of(const Cone& cone, const Eigen::VectorXd& y) {
+    constexpr int rows = freedoms<Dim>;
+    Vector<Dim> speed = Vector<Dim>::Zero();
+    if (cone.body_a >= 0) speed += cone.on_a.transpose() * y.segment<rows>(rows * cone.body_a);
+    if (cone.body_b >= 0) speed += cone.on_b.transpose() * y.segment<rows>(rows * cone.body_b);
+    return speed.template tail<Dim - 1>().norm();
   }
 
   ConeProgramAnswer solve_with(double part, const std::vector<double>& slips) {
@@ -122,8 +124,8 @@ class FixedPoints {
     return solve(program_);
   }
 
-  const CornerAssembly& assembly_;
-  CornerProgram program_;
+  const CornerAssembly<Dim>& assembly_;
+  CornerProgram<Dim> program_;
   std::vector<double> slips_;  // by cone: sin φ |u_T|, as the cone's numbers have it
   double scale_ = 0;
   int rounds_ = 0, programs_ = 0;
@@ -144,7 +146,8 @@ EndOfFactor to_zero(double at_first, double at_last, double first, double last) 
   return {at_zero, std::max(numerical * std::max(1.0, std::abs(at_zero)), std::abs(at_zero - at_last))};
 }
 
-std::optional<Interval> interval_at(double excess, FixedPoints& points) {
+template <int Dim>
+std::optional<Interval> interval_at(double excess, FixedPoints<Dim>& points) {
   const auto settled = points.settle(excess);
   if (!settled) return {};
   Interval found{.settled = settled->settled};
@@ -167,7 +170,8 @@ std::optional<Interval> interval_at(double excess, FixedPoints& points) {
 }
 
 // slips of which a part vanishes as ε does
-std::optional<Interval> loosened(FixedPoints& points) {
+template <int Dim>
+std::optional<Interval> loosened(FixedPoints<Dim>& points) {
   points.loosen();
   const std::optional<Interval> first = interval_at(first_excess, points);
   if (!first) return {};
@@ -185,23 +189,25 @@ std::optional<Interval> loosened(FixedPoints& points) {
   return last;
 }
 
-std::optional<Interval> closed(FixedPoints& points) {
+template <int Dim>
+std::optional<Interval> closed(FixedPoints<Dim>& points) {
   points.loosen();
   return interval_at(0, points);
 }
 
 }  // namespace
 
-FactorWithoutDilation find_factor_without_dilation(const CornerAssembly& assembly, const std::vector<Load<3>>& dead,
-                                                   const std::vector<Load<3>>& live) {
-  FactorWithoutDilation result;
-  const auto is_free = [](const CornerBody& body) { return std::ranges::any_of(body.free, std::identity()); };
-  if (std::ranges::none_of(assembly.bodies, is_free)) return result.status = LimitStatus::nothing_free, result;
-  FixedPoints points(assembly, dead, live);
+template <int Dim>
+FactorWithoutDilation<Dim> find_factor_without_dilation(const CornerAssembly<Dim>& assembly, const Loads<Dim>& dead,
+                                                        const Loads<Dim>& live) {
+  FactorWithoutDilation<Dim> result;
+  if (std::ranges::none_of(assembly.bodies, &CornerBody<Dim>::moves))
+    return result.status = LimitStatus::nothing_free, result;
+  FixedPoints<Dim> points(assembly, dead, live);
   if (!points.has_load()) return result.status = LimitStatus::no_load, result;
 
-  CornerAssembly smooth = assembly;
-  for (CornerFace& face : smooth.faces)
+  CornerAssembly<Dim> smooth = assembly;
+  for (CornerFace<Dim>& face : smooth.faces)
     face.friction = face.cohesion = 0;
   const bool pressed = solve(corner_program(smooth, dead, live)).status == ConeStatus::unbounded;
   if (pressed) return result.status = LimitStatus::carries_any, result.programs = 1, result;
@@ -231,5 +237,10 @@ FactorWithoutDilation find_factor_without_dilation(const CornerAssembly& assembl
   result.state.velocities.resize(assembly.bodies.size());
   return result;
 }
+
+template FactorWithoutDilation<2> find_factor_without_dilation(const CornerAssembly<2>&, const Loads<2>&,
+                                                               const Loads<2>&);
+template FactorWithoutDilation<3> find_factor_without_dilation(const CornerAssembly<3>&, const Loads<3>&,
+                                                               const Loads<3>&);
 
 }  // namespace voussoir

@@ -15,7 +15,7 @@ namespace {
 using namespace corner_scenes;
 
 void expect_interval(const CornerScene& scene, double least, double largest, double error = 1e-7) {
-  const FactorWithoutDilation found = find_factor_without_dilation(scene.assembly, scene.dead, scene.live);
+  const FactorWithoutDilation<3> found = find_factor_without_dilation(scene.assembly, scene.dead, scene.live);
   ASSERT_EQ(found.status, LimitStatus::found);
   EXPECT_TRUE(found.settled);
   EXPECT_FALSE(found.unbounded);
@@ -76,7 +76,7 @@ TEST(WithoutDilation, ASquareBlock) {
 // nothing presses the walls of a drawer: it falls, or is held by any force between them
 TEST(WithoutDilation, ADrawerFalls) {
   const CornerScene scene = drawer();
-  const FactorWithoutDilation found = find_factor_without_dilation(scene.assembly, scene.dead, scene.live);
+  const FactorWithoutDilation<3> found = find_factor_without_dilation(scene.assembly, scene.dead, scene.live);
   EXPECT_TRUE(found.settled);
   EXPECT_TRUE(found.unbounded);
   EXPECT_NEAR(found.least.factor, -1, 1e-6);

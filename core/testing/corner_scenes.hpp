@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/limit/limit_in_space.hpp"
+#include "core/limit/limit.hpp"
 #include "text/angle.hpp"
 
 namespace voussoir::corner_scenes {
@@ -14,7 +14,7 @@ using Point = Vector<3>;
 
 // Blocks and faces stated by hand; the body 0 is fixed.
 struct CornerScene {
-  CornerAssembly assembly{{CornerBody{Point::Zero(), 1, 1, {}}}, {}, {}};
+  CornerAssembly<3> assembly{{CornerBody<3>{Point::Zero(), 1, 1, {}}}, {}, {}};
   std::vector<Load<3>> dead{1}, live{1};
 
   int add(const Point& centroid, double weight, double radius, bool turns = true) {
@@ -30,8 +30,8 @@ struct CornerScene {
   void push(int body, const Point& force, const Point& place) {
     live[body] = {force, (place - assembly.bodies[body].centroid).cross(force)};
   }
-  LoadFactorInSpace factor() const { return find_load_factor(assembly, dead, live); }
-  CriticalStrengthInSpace friction() const {
+  LoadFactor<3> factor() const { return find_load_factor(assembly, dead, live); }
+  CriticalStrength<3> friction() const {
     return find_critical_friction(assembly, dead, std::vector<bool>(assembly.faces.size(), true));
   }
 };

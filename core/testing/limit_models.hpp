@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/limit/limit.hpp"
 #include "core/scene/scene.hpp"
 
 namespace voussoir::limit_models {
@@ -57,6 +58,23 @@ inline Model<2> block_on_plate(double width, double height, double slope, double
   return model_of({{"plate", turned(box(-3, -1, 3, 0), slope), true},
                    {"block", turned(box(-width / 2, 0, width / 2, height), slope)}},
                   friction_deg);
+}
+
+// with weights of its gravity
+inline CornerAssembly<2> assembly_of(const Model<2>& model, bool bonded = false) {
+  const double gravity = model.gravity.norm();
+  return corner_assembly(model, gravity > 0 ? gravity : 1, bonded);
+}
+
+inline CriticalStrength<2> critical_friction(const Model<2>& model, const std::vector<std::string>& properties = {}) {
+  const CornerAssembly<2> assembly = assembly_of(model);
+  return find_critical_friction(assembly, loads_of_acceleration(model, model.gravity), faces_of(assembly, properties));
+}
+
+inline CriticalStrength<2> factor_of_safety(const Model<2>& model, const std::vector<std::string>& properties = {},
+                                            bool bonded = false) {
+  const CornerAssembly<2> assembly = assembly_of(model, bonded);
+  return find_factor_of_safety(assembly, loads_of_acceleration(model, model.gravity), faces_of(assembly, properties));
 }
 
 }  // namespace voussoir::limit_models

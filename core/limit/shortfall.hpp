@@ -1,0 +1,20 @@
+// What loads lack for equilibrium: the least sum of forces that must be added.
+#pragma once
+
+#include "core/limit/corner_cones.hpp"
+
+namespace voussoir {
+
+struct Shortfall {
+  ConeProgramAnswer answer;  // value, bound: the sum, each force over its body's weight
+
+  bool failed() const { return answer.status != ConeStatus::optimal; }
+  // the loads are supported: nothing is missing but what the program's errors explain
+  bool stands() const;
+};
+
+// Of forces within the cones of a program without a live load, to which forces on every free body are added.
+template <int Dim>
+Shortfall shortfall(const CornerAssembly<Dim>& assembly, CornerProgram<Dim> program);
+
+}  // namespace voussoir
