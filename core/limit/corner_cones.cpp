@@ -236,6 +236,23 @@ void add_missing_forces(const CornerAssembly<Dim>& assembly, CornerProgram<Dim>&
 }
 
 template <int Dim>
+void add_free_forces(const CornerAssembly<Dim>& assembly, const std::vector<std::vector<bool>>& corners,
+                     const std::vector<bool>& gains, double cost, CornerProgram<Dim>& program) {
+  const std::vector<int> rows = rows_of(assembly);
+  for_corners(assembly, [&](int f, int k, double) {
+    if (!corners[f][k]) return;
+    const CornerFace<Dim>& face = assembly.faces[f];
+    CornerCone<Dim> normal = cone_at(assembly, rows, face, face.corners[k], 1, 0),
+                    shear = cone_at(assembly, rows, face, face.corners[k], 0, 1);
+    normal.cost = shear.cost = cost;
+    for (auto* on : {&normal.on_a, &normal.on_b})
+      on->col(0).swap(on->col(1));
+    program.cones.push_back(normal);
+    if (gains[f]) program.cones.push_back(shear);
+  });
+}
+
+template <int Dim>
 CornerForces<Dim> corner_forces(const CornerAssembly<Dim>& assembly, const Eigen::VectorXd& x) {
   CornerForces<Dim> forces(assembly.faces.size());
   Eigen::Index at = 0;
@@ -253,6 +270,19 @@ CornerForces<Dim> corner_forces(const CornerAssembly<Dim>& assembly, const Eigen
     forces[f].push_back(axes * numbers);
   });
   return forces;
+}
+
+template <int Dim>
+double out_of_balance(const CornerProgram<Dim>& program, const Eigen::VectorXd& x, double factor) {
+  constexpr int rows = freedoms<Dim>;
+  Eigen::VectorXd left = program.right_side - factor * program.live;
+  Eigen::Index at = 0;
+  for (const CornerCone<Dim>& cone : program.cones) {
+    const auto numbers = x.segment<Dim>(Dim * at++);
+    if (cone.body_a >= 0) left.segment<rows>(rows * cone.body_a) -= cone.on_a * numbers;
+    if (cone.body_b >= 0) left.segment<rows>(rows * cone.body_b) -= cone.on_b * numbers;
+  }
+  return left.size() ? left.cwiseAbs().maxCoeff() : 0;
 }
 
 template <int Dim>
@@ -316,7 +346,10 @@ template CornerProgram<2> corner_program(const CornerAssembly<2>&, const std::ve
                                          const std::vector<Load<2>>&);
 template std::vector<double> sines_of_cones(const CornerAssembly<2>&);
 template void add_missing_forces(const CornerAssembly<2>&, CornerProgram<2>&);
+template void add_free_forces(const CornerAssembly<2>&, const std::vector<std::vector<bool>>&, const std::vector<bool>&,
+                              double, CornerProgram<2>&);
 template CornerForces<2> corner_forces(const CornerAssembly<2>&, const Eigen::VectorXd&);
+template double out_of_balance<2>(const CornerProgram<2>&, const Eigen::VectorXd&, double);
 template std::vector<BodyVelocity<2>> mechanism_of(const CornerAssembly<2>&, const Eigen::VectorXd&);
 template Vector<2> opening_at(const CornerAssembly<2>&, const CornerFace<2>&, const Vector<2>&,
                               const std::vector<BodyVelocity<2>>&);
@@ -328,7 +361,10 @@ template CornerProgram<3> corner_program(const CornerAssembly<3>&, const std::ve
                                          const std::vector<Load<3>>&);
 template std::vector<double> sines_of_cones(const CornerAssembly<3>&);
 template void add_missing_forces(const CornerAssembly<3>&, CornerProgram<3>&);
+template void add_free_forces(const CornerAssembly<3>&, const std::vector<std::vector<bool>>&, const std::vector<bool>&,
+                              double, CornerProgram<3>&);
 template CornerForces<3> corner_forces(const CornerAssembly<3>&, const Eigen::VectorXd&);
+template double out_of_balance<3>(const CornerProgram<3>&, const Eigen::VectorXd&, double);
 template std::vector<BodyVelocity<3>> mechanism_of(const CornerAssembly<3>&, const Eigen::VectorXd&);
 template Vector<3> opening_at(const CornerAssembly<3>&, const CornerFace<3>&, const Vector<3>&,
                               const std::vector<BodyVelocity<3>>&);

@@ -77,8 +77,19 @@ std::vector<double> sines_of_cones(const CornerAssembly<Dim>& assembly);
 template <int Dim>
 void add_missing_forces(const CornerAssembly<Dim>& assembly, CornerProgram<Dim>& program);
 
+// Adds forces of any size and sign at the chosen corners, by face: normal ones, and shear where the face `gains` it.
+// `cost`: of a unit of them.
+template <int Dim>
+void add_free_forces(const CornerAssembly<Dim>& assembly, const std::vector<std::vector<bool>>& corners,
+                     const std::vector<bool>& gains, double cost, CornerProgram<Dim>& program);
+
 template <int Dim>
 CornerForces<Dim> corner_forces(const CornerAssembly<Dim>& assembly, const Eigen::VectorXd& x);
+
+// The largest unbalanced force on a body under the program's right side and λ times its live load, over its weight (a
+// moment: of that times its radius), by the first numbers of x: those of the program's own cones.
+template <int Dim>
+double out_of_balance(const CornerProgram<Dim>& program, const Eigen::VectorXd& x, double factor = 0);
 
 template <int Dim>
 std::vector<BodyVelocity<Dim>> mechanism_of(const CornerAssembly<Dim>& assembly, const Eigen::VectorXd& y);

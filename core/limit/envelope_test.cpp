@@ -49,10 +49,15 @@ TEST(Envelope, OfTwoBlocksInARow) {
                                            {"high", limit_models::box(-1, 0, 0, 3)},
                                            {"low", limit_models::box(0, 0, 1, 1)}});
   model.gravity = 10 * Vector<2>(std::sin(50 * degree), -std::cos(50 * degree));
+  // between the blocks, at x = 0
+  const auto is_wall = [&](const Body<2>& body, const HalfSpace<2>& face) {
+    const HalfSpace<2> placed = moved_origin<2>(face, -body.reference);
+    return std::abs(placed.normal[0]) > 0.5 && std::abs(placed.offset + placed.normal[0] * model.origin[0]) < 1e-9;
+  };
   for (Body<2>& body : model.bodies) {
     body.free_rotation.fill(false);
     for (std::size_t f = 0; f < body.parts.front().faces.size(); ++f)
-      body.parts.front().joints[f] = std::abs(body.parts.front().faces[f].normal[0]) > 0.5 ? 0 : no_joint;
+      body.parts.front().joints[f] = is_wall(body, body.parts.front().faces[f]) ? 0 : no_joint;
   }
   model.joints = {{"wall", {Vector<2>::UnitX(), 0}, 1}};
   model.properties.push_back(model.properties.front());

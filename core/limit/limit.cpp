@@ -21,8 +21,9 @@ constexpr double most_strength = 1000.0 / 1001;    // of s/(1 + s), s the part o
 constexpr double strength_tolerance = 2e-8;
 constexpr double newton_doubt = 0.15;  // times the square of a step: how far its end may be from the root
 constexpr double farther = 4;          // from a predicted root at every trial that stands
-constexpr double nothing_left =
-    100;  // tolerances: strength that is as good as none, as forces grow without bound towards it
+constexpr double jammed = 1e4;         // of the lighter body's weight: forces that no load alone requires
+constexpr double doubt_of_jams = 10;   // tolerances: nearer to the critical strength their forces exceed all digits
+constexpr double stronger = 1.01;      // of the strength: where self-stress is sought
 
 template <int Dim>
 bool nothing_free(const CornerAssembly<Dim>& assembly) {
@@ -33,6 +34,7 @@ bool nothing_free(const CornerAssembly<Dim>& assembly) {
 template <int Dim>
 struct Strength {
   double strongest, tolerance;
+  const std::vector<bool>& chosen;  // faces
   std::function<void(double at, CornerAssembly<Dim>& trial)> weaken;
   // the change of what is missing with the measure
   std::function<double(double at, const std::vector<Sensitivity>& of_faces)> slope;
@@ -54,19 +56,22 @@ CriticalStrength<Dim> bracket_strength(const CornerAssembly<Dim>& assembly, cons
     ++result.evidence.programs;
     return shortfall(trial, corner_program(trial, loads));
   };
+  double doubt = 0, pressing = 0;  // of the last trial that stood
   const auto keep_standing = [&](double measure, const Shortfall& found) {
     result.stands = measure;
+    doubt = found.doubt;
+    pressing = found.answer.x.size() ? found.answer.x.maxCoeff() : 0;
     result.state.forces = corner_forces(trial, found.answer.x);
-    result.evidence.out_of_balance = found.answer.out_of_balance;
+    result.evidence.out_of_balance = out_of_balance<Dim>(corner_program(trial, loads), found.answer.x);
   };
-  double root = 0;  // where Newton's method expects it
+  double root = 0, slope = 0;  // where Newton's method expects it, from the last trial that collapsed
   const auto keep_collapsing = [&](double measure, const Shortfall& found) {
     result.collapses = measure;
     result.missing = found.answer.bound;
     result.state.velocities = mechanism_of(trial, found.answer.y);
     result.evidence.gap = std::abs(found.answer.value - found.answer.bound);
     result.evidence.inadmissible = found.answer.inadmissible;
-    const double slope = strength.slope(measure, sensitivity_of(trial, found.answer));
+    slope = strength.slope(measure, sensitivity_of(trial, found.answer));
     root = slope < 0 ? measure - found.answer.bound / slope : measure;
   };
 
@@ -88,12 +93,22 @@ CriticalStrength<Dim> bracket_strength(const CornerAssembly<Dim>& assembly, cons
   root = first_root;
 
   int stood = 0;  // trials, since one collapsed: the root is then lower than predicted
+  bool asked = false;
   while (result.stands - result.collapses > strength.tolerance) {
+    if (!asked && pressing > jammed) {
+      asked = true;
+      strength.weaken(0, trial);
+      if (carried_by_any_friction(trial, loads, strength.chosen))
+        return result.status = LimitStatus::not_attained, result;
+    }
     const double step = root - result.collapses, aside = 0.3 * strength.tolerance + newton_doubt * step * step;
     double next = stood == 0 ? root + aside : root - std::pow(farther, stood - 1) * aside;
     if (!(next > result.collapses && next < result.stands)) next = 0.5 * (result.collapses + result.stands);
     const Shortfall found = at(next);
-    if (found.failed()) return result.status = LimitStatus::solver_failed, result;
+    if (found.failed()) {  // near the critical strength of jammed blocks
+      if (result.stands > stronger * result.collapses) result.status = LimitStatus::solver_failed;
+      break;
+    }
     if (found.stands()) {
       ++stood;
       keep_standing(next, found);
@@ -102,7 +117,8 @@ CriticalStrength<Dim> bracket_strength(const CornerAssembly<Dim>& assembly, cons
       keep_collapsing(next, found);
     }
   }
-  if (result.stands < nothing_left * strength.tolerance) result.status = LimitStatus::not_attained;
+  // a force too small to be told from rounding may be missing there
+  if (slope < 0) result.stands = std::min(strength.strongest, result.stands - doubt / slope);
   return result;
 }
 
@@ -145,7 +161,7 @@ LoadFactor<Dim> find_straight_load_factor(const CornerAssembly<Dim>& assembly, c
   result.state.velocities.resize(assembly.bodies.size());
   if (result.status != LimitStatus::found) return result;
   result.evidence.gap = answer.gap;
-  result.evidence.out_of_balance = answer.out_of_balance;
+  result.evidence.out_of_balance = out_of_balance<Dim>(program, answer.x, answer.factor);
   result.evidence.inadmissible = answer.inadmissible;
   if (nothing) return result;
   constexpr double nearly = 0.99;  // of the factor
@@ -162,19 +178,19 @@ LoadFactor<Dim> find_straight_load_factor(const CornerAssembly<Dim>& assembly, c
 template <int Dim>
 CriticalStrength<Dim> find_strength(const CornerAssembly<Dim>& assembly, const Loads<Dim>& loads,
                                     const Strength<Dim>& strength) {
-  constexpr double stronger = 1.01;
   CriticalStrength<Dim> found = bracket_strength(assembly, loads, strength);
   if (found.status != LimitStatus::found && found.status != LimitStatus::carries_any) return found;
   CornerAssembly<Dim> trial = assembly;
   strength.weaken(std::min(strength.strongest, stronger * found.stands), trial);
   found.self_stress = may_rest_on_self_stress(trial, loads, found.state.velocities);
+  if (found.self_stress) found.collapses = std::max(0.0, found.collapses - doubt_of_jams * strength.tolerance);
   return found;
 }
 
 template <int Dim>
 CriticalStrength<Dim> find_straight_factor(const CornerAssembly<Dim>& assembly, const Loads<Dim>& loads,
                                            const std::vector<bool>& chosen) {
-  Strength<Dim> strength{most_strength, strength_tolerance, {}, {}};
+  Strength<Dim> strength{most_strength, strength_tolerance, chosen, {}, {}};
   strength.weaken = [&](double fraction, CornerAssembly<Dim>& trial) {
     const double left = fraction / (1 - fraction);
     for (std::size_t f = 0; f < trial.faces.size(); ++f) {
@@ -281,7 +297,7 @@ LoadFactor<Dim> find_load_factor(const CornerAssembly<Dim>& assembly, const Load
 template <int Dim>
 CriticalStrength<Dim> find_critical_friction(const CornerAssembly<Dim>& assembly, const Loads<Dim>& loads,
                                              const std::vector<bool>& chosen) {
-  Strength<Dim> strength{roughest, angle_tolerance, {}, {}};
+  Strength<Dim> strength{roughest, angle_tolerance, chosen, {}, {}};
   strength.weaken = [&](double friction, CornerAssembly<Dim>& trial) {
     for (std::size_t f = 0; f < trial.faces.size(); ++f)
       if (chosen[f]) trial.faces[f].friction = friction;

@@ -18,4 +18,10 @@ template <int Dim>
 bool may_rest_on_self_stress(const CornerAssembly<Dim>& assembly, const Loads<Dim>& loads,
                              const std::vector<BodyVelocity<Dim>>& velocities);
 
+// Whether loads that are not supported are, as soon as the faces that `gain` friction have any: faces with self-stress
+// then carry any force, and may in turn make self-stress in others possible.
+template <int Dim>
+bool carried_by_any_friction(const CornerAssembly<Dim>& assembly, const Loads<Dim>& loads,
+                             const std::vector<bool>& gain);
+
 }  // namespace voussoir

@@ -1,21 +1,26 @@
 #include "core/limit/shortfall.hpp"
 
+#include <cmath>
+
 namespace voussoir {
 namespace {
 
-constexpr double noise = 3;             // times the program's errors: below it nothing is missing
-constexpr double least_missing = 3e-9;  // of a body's weight
+constexpr double least_missing = 1e-10;  // of a body's weight
 
 }  // namespace
-
-bool Shortfall::stands() const {
-  return !failed() && !(answer.bound > least_missing + noise * answer.error());
-}
 
 template <int Dim>
 Shortfall shortfall(const CornerAssembly<Dim>& assembly, CornerProgram<Dim> program) {
   add_missing_forces(assembly, program);
-  return {solve(program)};
+  Shortfall found{solve(program), least_missing};
+  if (found.failed()) return found;
+  double pressing = 0;
+  for (Eigen::Index k = 0; k < found.answer.x.size(); k += Dim)
+    pressing += std::abs(found.answer.x[k]);
+  constexpr double largest_cost = 1;
+  found.doubt +=
+      found.answer.gap * (1 + std::abs(found.answer.value)) + found.answer.inadmissible * (1 + largest_cost) * pressing;
+  return found;
 }
 
 template Shortfall shortfall(const CornerAssembly<2>&, CornerProgram<2>);

@@ -13,11 +13,13 @@ namespace {
 constexpr int most_steps = 80;
 constexpr double wanted_error = 1e-11;     // residuals and gap; relative
 constexpr double enough_digits = 1e-7;     // if more digits are lost than gained
-constexpr int steps_without_gain = 6;      // iterations without a better point
+constexpr int steps_without_gain = 6;      // iterations without a point that is better by `gain`
+constexpr double gain = 1;                 // of the error
 constexpr double no_optimum = 1e-8;        // τ over κ: the program has no optimum
 constexpr double to_the_boundary = 0.985;  // part of the step to it
-constexpr double own_ridge = 1e-15;        // of each row's own diagonal: light bodies keep their digits
-constexpr double refined_error = 1e-15;    // of a direction
+constexpr double least_step = 1e-9;
+constexpr double own_ridge = 1e-15;      // of each row's own diagonal: light bodies keep their digits
+constexpr double refined_error = 1e-15;  // of a direction
 constexpr int most_refinements = 4;
 
 // numbers by cone, by its given head, by body, and of the load
@@ -60,6 +62,7 @@ class Embedding {
   Multipliers solve_system(const Eigen::VectorXd& balance, const Eigen::VectorXd& heads, double load) const;
   Point direction(const Point& at, const Residuals& of, const Eigen::VectorXd& q, double of_tau, double weight) const;
   double step(const Point& at, const Point& direction) const;
+  bool inside(const Point& at) const;
   void judge(const Point& at, const Residuals& of, ConeProgramAnswer& answer) const;
 
   const ConeProgram<Freedoms, Width>& program;
@@ -325,6 +328,14 @@ double Embedding<Freedoms, Width>::step(const Point& at, const Point& direction)
   return most;
 }
 
+// whether rounding has left all forces and velocities within their cones
+template <int Freedoms, int Width>
+bool Embedding<Freedoms, Width>::inside(const Point& at) const {
+  for (int i = 0; i < count; ++i)
+    if (!(cone_determinant<Width>(part(at.x, i)) > 0 && cone_determinant<Width>(part(at.s, i)) > 0)) return false;
+  return true;
+}
+
 // keeps the point if it is better than the best so far
 template <int Freedoms, int Width>
 void Embedding<Freedoms, Width>::judge(const Point& at, const Residuals& of, ConeProgramAnswer& answer) const {
@@ -361,7 +372,7 @@ ConeProgramAnswer Embedding<Freedoms, Width>::solve() {
     const Residuals of = residuals(at);
     const double before = answer.error();
     judge(at, of, answer);
-    if (answer.error() < before || answer.iterations == 0) of_best = answer.iterations;
+    if (answer.error() < gain * before || answer.iterations == 0) of_best = answer.iterations;
     if (answer.error() <= wanted_error) break;
     if (answer.error() <= enough_digits && answer.iterations - of_best > steps_without_gain) break;
     if (at.tau < no_optimum * std::max(1.0, at.kappa)) {
@@ -393,15 +404,21 @@ ConeProgramAnswer Embedding<Freedoms, Width>::solve() {
     }
     const Point corrected =
         direction(at, of, q, -at.tau * at.kappa - affine.tau * affine.kappa + centring * mean, 1 - centring);
-    const double taken = std::min(1.0, to_the_boundary * step(at, corrected));
+    double taken = std::min(1.0, to_the_boundary * step(at, corrected));
+    const Eigen::VectorXd before_x = at.x, before_s = at.s;
     at.x += taken * corrected.x;
     at.s += taken * corrected.s;
+    while (!inside(at) && taken > least_step) {
+      taken *= 0.5;
+      at.x = before_x + taken * corrected.x;
+      at.s = before_s + taken * corrected.s;
+    }
+    if (!(taken > least_step)) break;
     at.dual.y += taken * corrected.dual.y;
     at.dual.heads += taken * corrected.dual.heads;
     at.dual.load += taken * corrected.dual.load;
     at.tau += taken * corrected.tau;
     at.kappa += taken * corrected.kappa;
-    if (!(taken > 1e-9)) break;
   }
   answer.status = answer.error() <= enough_digits ? ConeStatus::optimal : ConeStatus::stalled;
   return answer;

@@ -26,6 +26,10 @@ Vector<Width> cone_product(const Vector<Width>& x, const Vector<Width>& y) {
 // y of x ∘ y = product
 template <int Width>
 Vector<Width> cone_quotient(const Vector<Width>& product, const Vector<Width>& x) {
+  if constexpr (Width == 2) {  // by its rays
+    const double first = (product[0] + product[1]) / (x[0] + x[1]), second = (product[0] - product[1]) / (x[0] - x[1]);
+    return {0.5 * (first + second), 0.5 * (first - second)};
+  }
   const auto side = x.template tail<Width - 1>();
   Vector<Width> y;
   y[0] = (x[0] * product[0] - side.dot(product.template tail<Width - 1>())) / cone_determinant<Width>(x);
@@ -36,6 +40,12 @@ Vector<Width> cone_quotient(const Vector<Width>& product, const Vector<Width>& x
 // how many times `step` can be added to x, which is inside
 template <int Width>
 double step_to_boundary(const Vector<Width>& x, const Vector<Width>& step) {
+  if constexpr (Width == 2) {  // two rays
+    const auto to_ray = [](double at, double change) {
+      return change < 0 ? at / -change : std::numeric_limits<double>::max();
+    };
+    return std::fmin(to_ray(x[0] - x[1], step[0] - step[1]), to_ray(x[0] + x[1], step[0] + step[1]));
+  }
   const auto side = x.template tail<Width - 1>(), of_step = step.template tail<Width - 1>();
   const double square = cone_determinant<Width>(step), half = x[0] * step[0] - side.dot(of_step),
                rest = cone_determinant<Width>(x), under_root = half * half - square * rest;
@@ -58,6 +68,19 @@ struct ConeScaling {
   ConeScaling() = default;
   ConeScaling(const Vector<Width>& x, const Vector<Width>& s) {
     constexpr double tiny = 1e-300;
+    if constexpr (Width == 2) {  // each ray by itself
+      const auto turned = [](double first, double second) {
+        Matrix<2> matrix;
+        matrix << first + second, first - second, first - second, first + second;
+        return Matrix<2>(0.5 * matrix);
+      };
+      const double first = std::fmax(x[0] + x[1], tiny) / std::fmax(s[0] + s[1], tiny),
+                   second = std::fmax(x[0] - x[1], tiny) / std::fmax(s[0] - s[1], tiny);
+      square = turned(first, second);
+      scale = turned(std::sqrt(first), std::sqrt(second));
+      inverse = turned(1 / std::sqrt(first), 1 / std::sqrt(second));
+      return;
+    }
     const double of_x = std::sqrt(std::fmax(cone_determinant<Width>(x), tiny)),
                  of_s = std::sqrt(std::fmax(cone_determinant<Width>(s), tiny));
     const Vector<Width> unit_x = x / of_x, unit_s = s / of_s;
