@@ -170,7 +170,6 @@ TEST_F(Program, StrengthCountsWhereJointsAreBondedAndTheResultsCountTheBonds) {
   EXPECT_EQ(results("done")["bonds"]["whole"], 1);
 
   EXPECT_NE(run("check " + cubes_ + "--set stage.settle.bond=true").out.find("bonds nothing"), std::string::npos);
-  if (!is_built_in("glpk")) return;
   const Ended limit = run("limit " + squares_ +
                           "--out limit --set joint_properties.rock.cohesion=1e5 "
                           "--set joint_properties.rock.bonds=by_stage");
@@ -197,22 +196,15 @@ TEST_F(Program, QuietPrintsNothing) {
   expect_one_line(run("run " + cubes_ + "--out short --quiet --set stage.settle.step_limit=5"), 1, "incomplete");
 }
 
-TEST_F(Program, ExchangeablePartsAgreeOrReportThatTheyAreMissing) {
+TEST_F(Program, ExchangeablePartsAgree) {
   ASSERT_EQ(run("run " + cubes_ + "--out own").code, 0);
-  // the feature that must be built in, and the choice
-  const std::pair<std::string, std::string> choices[] = {
-      {"glpk", "contact.lp=glpk"}, {"", "contact.point=centroid"}, {"", "contact.overlap=bracketing"}};
-  for (const auto& [needs, choice] : choices) {
-    const bool built_in = is_built_in(needs);
+  for (const std::string choice : {"contact.point=centroid", "contact.overlap=bracketing"}) {
     const std::string folder = choice.substr(choice.find('=') + 1);
     const Ended ended = run("run " + cubes_ + "--out " + folder + " --set " + choice);
-    if (built_in) {
-      EXPECT_EQ(ended.code, 0) << ended.err;
-      EXPECT_NEAR(settlement(folder), settlement("own"), 1e-9);
-    } else {
-      expect_one_line(ended, 2, "is not built in");
-    }
+    EXPECT_EQ(ended.code, 0) << ended.err;
+    EXPECT_NEAR(settlement(folder), settlement("own"), 1e-9);
   }
+  expect_one_line(run("run " + cubes_ + "--out none --set contact.lp=glpk"), 2, "left the program together with GLPK");
 }
 
 // ---- check, slice, docs, the command line -------------------------------------------------------------------------

@@ -54,7 +54,6 @@ TEST_F(Messages, HelpShowsNoListIfEachValueNeedsItsOption) {
 }
 
 TEST_F(Messages, LimitAnalysisIsQuietWhenAsked) {
-  if (!is_built_in("glpk")) GTEST_SKIP() << "built without GLPK";
   write("scene.toml", halves() + settle_stage);
   const std::string dipping =
       "limit scene.toml --set joints.bed.dip=20 --set joints.bed.dip_direction=90 --out l --overwrite";

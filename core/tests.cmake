@@ -34,7 +34,7 @@ voussoir_test(unit.certainty LONG OPTIMISED LABEL unit
   LIBS voussoir_exact_referee Boost::headers fmt::fmt hwy::hwy)
 voussoir_test(unit.faces OPTIMISED LABEL unit SOURCES contact/region_integral_test.cpp step/face_forces_test.cpp
   LIBS voussoir_exact_referee cereal::cereal Boost::headers fmt::fmt)
-voussoir_test(unit.outside_solvers LABEL unit SOURCES solvers/outside_solvers_test.cpp
+voussoir_test(unit.outside_solvers LABEL unit SOURCES solvers/outside_solvers_test.cpp limit/referee_test.cpp
   LIBS voussoir_core ${outside_solvers} Boost::headers)
 voussoir_test(unit.newton LONG LABEL unit SOURCES step/static_solver*_test.cpp solvers/block_solver_test.cpp
   LIBS voussoir_core voussoir_oracle_algebra Boost::headers)
@@ -63,9 +63,7 @@ voussoir_test(unit.potential LONG LABEL unit SOURCES potential/*_test.cpp
   LIBS voussoir_core ${outside_cone_solver} Boost::headers)
 voussoir_test(unit.scene LABEL unit SOURCES scene/*_test.cpp LIBS voussoir_core voussoir_end_bytes Boost::headers fmt::fmt)
 voussoir_test(unit.output LABEL unit SOURCES output/*_test.cpp LIBS voussoir_core fmt::fmt nlohmann_json::nlohmann_json ZLIB::ZLIB)
-if(TARGET voussoir_limit)
-  voussoir_test(unit.limit LABEL unit SOURCES limit/*_test.cpp LIBS voussoir_limit Boost::headers)
-endif()
+voussoir_test(unit.limit LABEL unit SOURCES limit/*_test.cpp LIBS voussoir_core Boost::headers)
 voussoir_test(unit.step LONG LABEL unit
   SOURCES *_test.cpp load/*_test.cpp model/*_test.cpp run/*_test.cpp stage/*_test.cpp step/*_test.cpp testing/*_test.cpp
   LIBS voussoir_core voussoir_end_bytes voussoir_oracle_algebra Boost::headers fmt::fmt)

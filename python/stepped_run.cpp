@@ -42,10 +42,6 @@ namespace fs = std::filesystem;
 // Features of the program that are missing here are refused: a silently different result would be worse.
 void refuse_what_needs_the_program(const Scene& scene) {
   const Subject top{scene.tree.get(), ""};
-  if (const auto contact = child(top, "contact")) {
-    if (scene.settings.contact.lp == LpSolver::glpk)
-      refuse(*contact, "lp", "Python has no GLPK; write lp = \"own\", or run the scene with 'voussoir run'");
-  }
   const auto accuracy = child(top, "accuracy");
   if (!accuracy) return;
   const Node* budget = accuracy->node->find("budget");
@@ -54,7 +50,7 @@ void refuse_what_needs_the_program(const Scene& scene) {
 }
 
 std::vector<std::pair<std::string, bool>> features() {
-  return {{"glpk", false}, {"fast_arithmetic", fast_arithmetic()}};
+  return {{"fast_arithmetic", fast_arithmetic()}};
 }
 
 // Makes the folder ready for files of this run.

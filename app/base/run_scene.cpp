@@ -7,27 +7,13 @@
 #include "core/scene/judge_values.hpp"
 #include "core/scene/read_stages.hpp"
 #include "core/scene/scene.hpp"
-#ifdef VOUSSOIR_HAS_GLPK
-#include "core/solvers/glpk.hpp"
-#endif
 
 namespace voussoir {
 namespace {
 
 template <int Dim>
-void use_glpk([[maybe_unused]] Solvers<Dim>& solvers) {
-#ifdef VOUSSOIR_HAS_GLPK
-  solvers.feasibility = &solve_feasibility_glpk<Dim>;
-#else
-  throw BadInput(
-      "contact.lp = \"glpk\": GLPK is not built in; configure with -DVOUSSOIR_WITH_GLPK=ON, or write lp = \"own\"");
-#endif
-}
-
-template <int Dim>
 Prepared<Dim> prepare_to_run(const Scene& scene, int threads) {
   Prepared<Dim> prepared = prepare<Dim>(scene);
-  if (prepared.settings.contact.lp == LpSolver::glpk) use_glpk(prepared.model.solvers);
   prepared.settings.threads = threads;
   return prepared;
 }
@@ -91,12 +77,7 @@ SceneRun run_scene(const std::filesystem::path& path, const std::vector<std::str
 }
 
 std::vector<std::pair<std::string, bool>> features() {
-#ifdef VOUSSOIR_HAS_GLPK
-  const bool glpk = true;
-#else
-  const bool glpk = false;
-#endif
-  return {{"glpk", glpk}, {"fast_arithmetic", fast_arithmetic()}};
+  return {{"fast_arithmetic", fast_arithmetic()}};
 }
 
 }  // namespace voussoir

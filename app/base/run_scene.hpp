@@ -54,7 +54,7 @@ struct SceneRun {
 SceneRun run_scene(const std::filesystem::path& path, const std::vector<std::string>& overrides = {}, int threads = 1,
                    const ProgressHook& progress = {});
 
-// features built in besides the core: glpk, fast arithmetic
+// features built in besides the core: fast arithmetic
 std::vector<std::pair<std::string, bool>> features();
 
 }  // namespace voussoir

@@ -283,8 +283,7 @@ std::string solvers_text(const ContactSettings& contact) {
   const char* normal = contact.normal == ContactNormal::multipliers    ? "normal and overlap by multipliers"
                        : contact.overlap == OverlapSearch::closed_form ? "overlap by closed form"
                                                                        : "overlap by bracketing";
-  return fmt::format("linear program {}, contact point {}, {}", contact.lp == LpSolver::own ? "own" : "GLPK", point,
-                     normal);
+  return fmt::format("contact point {}, {}", point, normal);
 }
 
 // joints whose laws Newton's method does not support, if it is asked for

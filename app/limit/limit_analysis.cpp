@@ -6,130 +6,268 @@
 
 #include "app/limit/limit_words.hpp"
 #include "core/base/bad_input.hpp"
+#include "core/limit/without_dilation.hpp"
 #include "core/model/water_surfaces.hpp"
 
 namespace voussoir {
-
 namespace {
 
-const char* const associated_flow_caveat =
-    "associated flow: joints dilate as they slip, so this is an upper bound on strength; if blocks topple it may be "
-    "several degrees unsafe (Goodman & Bray's slope: 33.4 for 38.15); confirm it with 'voussoir run'";
-const char* const self_stress_caveat =
-    "this result may depend on self-stress, normal forces between walls that the loads do not cause: blocks that fall "
-    "in a run may be far from failure here; confirm it with 'voussoir run'";
-const char* const by_linear_programs = "bisection over linear programs";
+const char* const dilating_caveat =
+    "associated flow: forces and mechanism enclose the strength of joints that dilate as they slip; of joints that do "
+    "not it is an upper bound, often several degrees or tens of percent unsafe (Goodman & Bray's slope: 33.4 for 38.15 "
+    "degrees), without bound where blocks are held by their sides; confirm it with 'voussoir run'";
+const char* const pressed_caveat =
+    "carried by self-stress, normal forces between blocks that the loads do not ask for: without dilation nothing "
+    "says that they are there; confirm it with 'voussoir run'";
 
-bool has_cohesion(const Interface& face) {
-  return face.cohesion > 0;
-}
+constexpr double still = 1e-6;   // of the fastest block
+constexpr double twists = 1e-3;  // turning about a face's normal over its slip
 
-using FindStrength = CriticalStrength (*)(const Model<2>&, const std::vector<Interface>&,
-                                          const std::vector<std::string>&, const Loads&);
-
-CriticalStrength seek_strength(const LimitRequest& request, FindStrength find, LimitAnalysis& analysis) {
-  refuse_unknown_properties(request, analysis.model.properties);
-  const CriticalStrength found = find(analysis.model, analysis.interfaces, request.properties, analysis.water);
-  analysis.state = found.state;
-  if (found.self_stress) analysis.caveats.push_back(self_stress_caveat);
-  return found;
-}
-
-void seek_factor_of_safety(const LimitRequest& request, LimitAnalysis& analysis) {
-  tell_factor_of_safety(request, seek_strength(request, find_factor_of_safety, analysis),
-                        std::ranges::any_of(analysis.interfaces, has_cohesion), by_linear_programs, analysis);
-}
-
-void seek_friction(const LimitRequest& request, LimitAnalysis& analysis) {
-  tell_friction(request, seek_strength(request, find_critical_friction, analysis), by_linear_programs, analysis);
-}
-
-// the load whose factor is sought, in addition to gravity or instead of it
+// the load whose factor is sought
+template <int Dim>
 struct LiveLoad {
   std::string sought, if_any;  // if_any: the reason, or the repair, if any factor is carried
-  Loads loads;                 // none: gravity itself is sought
-  bool beside_gravity = true;
+  Loads<Dim> loads;
+  bool beside_gravity = true;  // else gravity itself is sought
 };
 
-LiveLoad pushed(const Model<2>& model, double direction, const char* side) {
-  return {fmt::format("horizontal acceleration to the {} at collapse, as a fraction of gravity", side),
+// a direction by its name; none: it has none in this dimension
+std::optional<Vector<2>> direction_of(LimitLoad load, const Vector<2>&) {
+  if (load == LimitLoad::left) return Vector<2>(-1, 0);
+  if (load == LimitLoad::right) return Vector<2>(1, 0);
+  return {};
+}
+
+std::optional<Vector<3>> direction_of(LimitLoad load, const Vector<3>&) {
+  switch (load) {
+    case LimitLoad::east:
+      return Vector<3>(1, 0, 0);
+    case LimitLoad::west:
+      return Vector<3>(-1, 0, 0);
+    case LimitLoad::north:
+      return Vector<3>(0, 1, 0);
+    case LimitLoad::south:
+      return Vector<3>(0, -1, 0);
+    case LimitLoad::up:
+      return Vector<3>(0, 0, 1);
+    case LimitLoad::down:
+      return Vector<3>(0, 0, -1);
+    default:
+      return {};
+  }
+}
+
+template <int Dim>
+LiveLoad<Dim> live_load(LimitLoad load, const Model<Dim>& model, const Loads<Dim>& gravity, const StagePlan* analysed) {
+  const std::string& name = limit_loads[static_cast<std::size_t>(load)];
+  if (load == LimitLoad::gravity) return {sought_of_gravity, any_gravity, gravity, false};
+  if (load == LimitLoad::applied) {
+    Change forces;
+    forces.force = analysed->change.force;
+    return {sought_of_applied(*analysed), any_applied, loads_of_applied_forces(apply(model, forces))};
+  }
+  const std::optional<Vector<Dim>> towards = direction_of(load, model.gravity);
+  if (!towards)
+    throw BadInput(fmt::format("--load {}: the scene has dimension = {}; state gravity, applied, {}", name, Dim,
+                               Dim == 2 ? "left or right" : "east, west, north, south, up or down"));
+  const bool upright = load == LimitLoad::up || load == LimitLoad::down;
+  return {fmt::format("{} at collapse, as a fraction of gravity",
+                      upright ? "acceleration " + name : "horizontal acceleration to the " + name),
           "it presses the blocks against fixed ones, or wedges them there",
-          loads_of_acceleration(model, {direction * model.gravity.norm(), 0})};
+          loads_of_acceleration(model, Vector<Dim>(*towards * model.gravity.norm()))};
 }
 
-LiveLoad applied(const Model<2>& model, const StagePlan& stage) {
-  Change forces;
-  forces.force = stage.change.force;
-  return {sought_of_applied(stage), any_applied, loads_of_applied_forces(apply(model, forces))};
+// "faces of blocks 3 and 4, 5 and 8, and 7 more"
+template <int Dim>
+std::string names_of_faces(const LimitAnalysis<Dim>& analysis, const std::vector<int>& faces) {
+  constexpr std::size_t most_named = 3;
+  std::string names = "faces of blocks ";
+  for (std::size_t k = 0; k < std::min(faces.size(), most_named); ++k) {
+    const CornerFace<Dim>& face = analysis.assembly.faces[faces[k]];
+    names += fmt::format("{}{} and {}", k == 0 ? "" : ", ", face.body_a, face.body_b);
+  }
+  if (faces.size() > most_named) names += fmt::format(", and {} more", faces.size() - most_named);
+  return names;
 }
 
-LiveLoad live_load(LimitLoad load, const Model<2>& model, const StagePlan* analysed) {
-  if (load == LimitLoad::left) return pushed(model, -1, "left");
-  if (load == LimitLoad::right) return pushed(model, 1, "right");
-  if (load == LimitLoad::applied) return applied(model, *analysed);
-  if (load == LimitLoad::gravity) return {sought_of_gravity, any_gravity, {}, false};
-  throw BadInput(fmt::format("--load {}: the scene has dimension = 2; state gravity, left, right or applied",
-                             limit_loads[static_cast<std::size_t>(load)]));
+template <int Dim>
+void warn_of_self_stress(const std::vector<int>& faces, LimitAnalysis<Dim>& analysis) {
+  if (faces.empty()) return;
+  analysis.caveats.push_back(fmt::format(
+      "this result may depend on self-stress, normal forces that the loads do not cause, between {}: blocks "
+      "that fall in a run may be far from failure here; confirm it with 'voussoir run'",
+      names_of_faces(analysis, faces)));
 }
 
-Loads with_water(const LimitAnalysis& analysis, Loads loads) {
-  for (std::size_t b = 0; b < analysis.water.size(); ++b)
-    loads[b] += analysis.water[b];
-  return loads;
-}
-
-// Water grows with the factor of gravity, as in a run.
-void seek_factor(const LiveLoad& live, LimitAnalysis& analysis) {
+template <int Dim>
+void seek_factor(const LiveLoad<Dim>& live, const Loads<Dim>& gravity, LimitAnalysis<Dim>& analysis) {
   analysis.sought = live.sought;
-  const Model<2>& model = analysis.model;
-  const Loads gravity = with_water(analysis, loads_of_acceleration(model, model.gravity)),
-              nothing = loads_of_acceleration(model, Vector<2>::Zero());
-  const LoadFactor found = live.beside_gravity ? find_load_factor(model, analysis.interfaces, gravity, live.loads)
-                                               : find_load_factor(model, analysis.interfaces, nothing, gravity);
-  analysis.state = found.state;
+  LoadFactor<Dim> found =
+      find_load_factor(analysis.assembly, live.beside_gravity ? gravity : Loads<Dim>(gravity.size()), live.loads);
+  analysis.state = std::move(found.state);
   analysis.evidence = found.evidence;
-  if (found.self_stress) analysis.caveats.push_back(self_stress_caveat);
-  tell_load_factor(found.status, found.factor, "linear program", live.if_any, analysis);
+  tell_load_factor(found.status, found.factor, "cone program", live.if_any, analysis);
+  if (found.status == LimitStatus::carries_any && live.beside_gravity) analysis.caveats.push_back(pressed_caveat);
+  warn_of_self_stress(found.self_stress, analysis);
+}
+
+void refuse_envelopes(const std::vector<JointProperties>& properties) {
+  for (const JointProperties& p : properties)
+    if (p.follows_barton_bandis())
+      throw BadInput(
+          fmt::format("--without-dilation: joint_properties '{}' follow Barton and Bandis' envelope, which is followed "
+                      "with dilation only; leave out --without-dilation",
+                      p.name));
+}
+
+// of the same load: what forces that agree with a mechanism without dilation carry
+template <int Dim>
+void seek_factor_without_dilation(const LiveLoad<Dim>& live, const Loads<Dim>& gravity, LimitAnalysis<Dim>& analysis) {
+  const FactorWithoutDilation<Dim> found = find_factor_without_dilation(
+      analysis.assembly, live.beside_gravity ? gravity : Loads<Dim>(gravity.size()), live.loads);
+  analysis.evidence.programs += found.programs;
+  if (found.status == LimitStatus::carries_any)
+    return analysis.caveats.push_back("without dilation: normal forces alone, without friction, carry any factor");
+  if (found.status != LimitStatus::found)
+    return analysis.caveats.push_back("without dilation: no mechanism was found, as forces grow without bound");
+  const auto add = [&](const char* name, const EndOfFactor& end) {
+    const std::optional<double> bar = found.settled ? std::optional(end.error) : std::nullopt;
+    analysis.values.emplace_back(name, Value{end.factor, "1", bar, "joints that slip without opening"});
+  };
+  add("collapse_factor_least", found.least);
+  if (!found.unbounded) add("collapse_factor_largest", found.largest);
+  analysis.caveats.push_back(fmt::format(
+      "without dilation: of the lowest mechanism that was found, in {} rounds from loose joints; nothing proves that "
+      "there is no lower one{}",
+      found.rounds, found.settled ? "" : ", and its slips did not settle: take the numbers as estimates"));
+  if (found.unbounded)
+    analysis.caveats.push_back(
+        "without dilation: no factor is the largest, as normal forces between blocks that the loads do not ask for may "
+        "hold any load");
+  else if (found.largest.factor - found.least.factor > found.largest.error + found.least.error)
+    analysis.caveats.push_back(
+        "without dilation: from the least to the largest factor blocks are held by forces that the loads do not ask "
+        "for. Of columns held by their sides the least was right, of toppling slopes the largest; confirm it with "
+        "'voussoir run'");
+  if (found.least.factor < 0)
+    analysis.caveats.push_back(
+        "without dilation: a negative factor means that gravity alone brings blocks down, unless such forces hold "
+        "them");
+}
+
+template <int Dim>
+void seek_strength(const LimitRequest& request, const Loads<Dim>& gravity, LimitAnalysis<Dim>& analysis) {
+  const char* const rule = "bracket by cone programs";
+  refuse_unknown_properties(request, analysis.model.properties);
+  const std::vector<bool> chosen = faces_of(analysis.assembly, request.properties);
+  CriticalStrength<Dim> found = request.factor ? find_factor_of_safety(analysis.assembly, gravity, chosen)
+                                               : find_critical_friction(analysis.assembly, gravity, chosen);
+  analysis.state = std::move(found.state);
+  const bool cohesive =
+      std::ranges::any_of(analysis.assembly.faces, [](const CornerFace<Dim>& face) { return face.cohesion > 0; });
+  request.factor ? tell_factor_of_safety(request, found, cohesive, rule, analysis)
+                 : tell_friction(request, found, rule, analysis);
+  warn_of_self_stress(found.self_stress, analysis);
+}
+
+// Forces at corners resist a turn about a face's normal at its largest radius; a spread pressure resists it less.
+void warn_of_twist(LimitAnalysis<3>& analysis) {
+  if (analysis.state.velocities.empty()) return;
+  int count = 0;
+  std::string first;
+  for (const CornerFace<3>& face : analysis.assembly.faces) {
+    const auto speed_at = [&](int body, const Vector<3>& place) -> Vector<3> {
+      const BodyVelocity<3>& motion = analysis.state.velocities[body];
+      return motion.velocity + motion.spin.cross(place - analysis.assembly.bodies[body].centroid);
+    };
+    Vector<3> mean = Vector<3>::Zero();
+    for (const Vector<3>& corner : face.corners)
+      mean += corner / static_cast<double>(face.corners.size());
+    double radius = 0, slip = 0;
+    for (const Vector<3>& corner : face.corners) {
+      radius = std::max(radius, (corner - mean).norm());
+      slip = std::max(slip, (speed_at(face.body_b, corner) - speed_at(face.body_a, corner)).norm());
+    }
+    const double turn =
+        std::abs((analysis.state.velocities[face.body_b].spin - analysis.state.velocities[face.body_a].spin)
+                     .dot(face.normal)) *
+        radius;
+    if (slip <= still || turn <= twists * slip) continue;
+    if (count++ == 0) first = fmt::format("{} and {}", face.body_a, face.body_b);
+  }
+  if (count > 0)
+    analysis.caveats.push_back(
+        fmt::format("{} in the mechanism (the first: of blocks {}): the pressure on such a face is not determined, and "
+                    "forces at its corners carry up to 1.85 times what a uniform one does",
+                    count == 1 ? "a face twists" : fmt::format("{} faces twist", count), first));
+}
+
+void warn_of_twist(const LimitAnalysis<2>&) {}
+
+// water grows with the factor of gravity, as in a run
+template <int Dim>
+Loads<Dim> gravity_and_water(const Model<Dim>& model) {
+  Loads<Dim> loads = loads_of_acceleration(model, model.gravity);
+  if (model.waters.empty()) return loads;
+  const Loads<Dim> water = water_loads_at_reference<Dim>(model);
+  for (std::size_t b = 0; b < loads.size(); ++b)
+    loads[b] += water[b];
+  return loads;
 }
 
 }  // namespace
 
-LimitAnalysis analyse_limit(const LoadedScene& scene, const LimitRequest& request) {
-  const Prepared<2>& prepared = std::get<Prepared<2>>(scene.prepared);
+template <int Dim>
+LimitAnalysis<Dim> analyse_limit(const LoadedScene& scene, const LimitRequest& request) {
+  const Prepared<Dim>& prepared = std::get<Prepared<Dim>>(scene.prepared);
   refuse_what_limit_leaves_out(prepared);
-  if (request.without_dilation)
-    throw BadInput(
-        "--without-dilation: the scene has dimension = 2, and only analysis in space answers for joints that do not "
-        "dilate; state dimension = 3, or use 'voussoir run'");
-  LimitAnalysis analysis;
-  analysis.caveats = {associated_flow_caveat};
+  LimitAnalysis<Dim> analysis;
+  analysis.caveats = {dilating_caveat};
   analysis.title = scene.title;
   analysis.input_hash = scene.hash;
   analysis.model = prepared.model;
-  analysis.interfaces = find_interfaces(analysis.model, request.cohesion);
-  if (!analysis.model.waters.empty()) analysis.water = water_loads_at_reference<2>(analysis.model);
-  std::vector<bool> touched(analysis.model.bodies.size()), cohesive(analysis.model.properties.size());
-  for (const Interface& face : analysis.interfaces) {
-    touched[face.body_a] = touched[face.body_b] = true;
-    if (has_cohesion(face)) cohesive[face.properties] = true;
-  }
-  warn_of_unsupported(analysis.model, touched, analysis.warnings);
-  warn_of_strengths(analysis.model.properties, cohesive, analysis.warnings);
+  const Model<Dim>& model = analysis.model;
+  if (request.without_dilation) refuse_envelopes(model.properties);
   const StagePlan* analysed = stage_of_forces(prepared.stages, request);
+  analysis.bound = request.load || request.factor
+                       ? "upper bound: joints that do not dilate as they slip carry no more, and may carry far less"
+                       : "lower bound: joints that do not dilate as they slip need as much friction or more";
+  const Loads<Dim> gravity = gravity_and_water(model);
+  std::optional<LiveLoad<Dim>> live;
+  if (request.load) live = live_load(*request.load, model, gravity, analysed);
+  double acceleration = acceleration_of(model, gravity);
+  if (acceleration == 0 && live) acceleration = acceleration_of(model, live->loads);
+  analysis.assembly = corner_assembly(model, acceleration > 0 ? acceleration : 1, request.cohesion);
+
+  std::vector<bool> touched(model.bodies.size()), cohesive(model.properties.size());
+  for (const CornerFace<Dim>& face : analysis.assembly.faces) {
+    touched[face.body_a] = touched[face.body_b] = true;
+    if (face.cohesion > 0) cohesive[face.properties] = true;
+  }
+  warn_of_unsupported(model, touched, analysis.warnings);
+  warn_of_strengths(model.properties, cohesive, analysis.warnings);
   warn_of_changes(prepared.stages, analysed, analysis.warnings);
 
-  if (request.load)
-    seek_factor(live_load(*request.load, analysis.model, analysed), analysis);
+  if (live)
+    seek_factor(*live, gravity, analysis);
   else
-    request.factor ? seek_factor_of_safety(request, analysis) : seek_friction(request, analysis);
+    seek_strength(request, gravity, analysis);
+  const bool empty = analysis.status == LimitStatus::nothing_free || analysis.status == LimitStatus::no_load;
+  if (request.without_dilation && !empty) seek_factor_without_dilation(*live, gravity, analysis);
   tell_envelope(analysis);
-  refuse_empty(analysis, analysis.model.gravity.isZero(0), analysed);
+  refuse_empty(analysis, model.gravity.isZero(0), analysed);
   if (analysis.status == LimitStatus::solver_failed)
-    analysis.message = "GLPK did not solve a linear program; blocks of very different size are the usual cause";
+    analysis.message =
+        "a cone program lost its digits before its bounds met; blocks of very different size are the "
+        "usual cause";
   analysis.answered =
       analysis.status == LimitStatus::found || (!request.load && analysis.status == LimitStatus::carries_any);
-  analysis.mechanism = describe_mechanism(analysis.model, analysis.state.velocities);
+  analysis.mechanism = describe_mechanism(model, analysis.state.velocities);
+  warn_of_twist(analysis);
   return analysis;
 }
+
+template LimitAnalysis<2> analyse_limit(const LoadedScene&, const LimitRequest&);
+template LimitAnalysis<3> analyse_limit(const LoadedScene&, const LimitRequest&);
 
 }  // namespace voussoir

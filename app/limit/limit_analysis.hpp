@@ -1,4 +1,4 @@
-// Limit analysis of a scene in the plane: from the loaded scene to values and messages, without files. Cases call it.
+// Limit analysis of a scene: from the loaded scene to values and messages, without files. Cases call it.
 #pragma once
 
 #include "app/base/run_scene.hpp"
@@ -7,16 +7,16 @@
 
 namespace voussoir {
 
+template <int Dim>
 struct LimitAnalysis : LimitAnswer {
-  Model<2> model;
-  Loads water;  // by body, at full gravity; none of a scene without water
-  std::vector<Interface> interfaces;
-  LimitState state;
-  Mechanism mechanism;
+  Model<Dim> model;
+  CornerAssembly<Dim> assembly;
+  LimitState<Dim> state;
+  Mechanism<Dim> mechanism;
 };
 
-// Of a scene in the plane. Throws BadInput if there is nothing to analyse: no free block, no gravity, no applied force,
-// an unknown name.
-LimitAnalysis analyse_limit(const LoadedScene& scene, const LimitRequest& request = {});
+// Throws BadInput if there is nothing to analyse: no free block, no gravity, no applied force, an unknown name.
+template <int Dim>
+LimitAnalysis<Dim> analyse_limit(const LoadedScene& scene, const LimitRequest& request = {});
 
 }  // namespace voussoir

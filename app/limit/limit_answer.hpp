@@ -17,7 +17,7 @@ struct LimitRequest {
   std::vector<std::string> properties;  // whose friction is sought, or whose strength is divided; none: all
   bool factor = false;                  // the factor of safety is sought instead
   bool cohesion = false;                // also joints that only a stage bonds have their cohesion
-  bool without_dilation = false;        // of a load in space: also the factor of joints that do not dilate
+  bool without_dilation = false;        // of a load: also the factor of joints that do not dilate
 };
 
 struct LimitAnswer {
@@ -26,6 +26,7 @@ struct LimitAnswer {
   LimitStatus status = LimitStatus::found;
   bool answered = false;  // a value was found, that no friction is needed included
   std::string message;    // the reason and the repair if no value was found, or the meaning of the value; else empty
+  std::string bound;      // what the value bounds where joints do not dilate
   std::vector<std::string> caveats;  // limitations of any result, and of this one
   std::vector<std::pair<std::string, Value>> values;
   Evidence evidence;

@@ -2,17 +2,13 @@
 
 #include <fmt/format.h>
 
-#include "app/base/arguments.hpp"
-#include "app/limit/limit_loads.hpp"
-#include "core/base/bad_input.hpp"
-#ifdef VOUSSOIR_HAS_GLPK
 #include <algorithm>
 
+#include "app/base/arguments.hpp"
 #include "app/base/message.hpp"
 #include "app/limit/limit_files.hpp"
-#include "app/limit/limit_space.hpp"
+#include "app/limit/limit_loads.hpp"
 #include "app/run_folder/claimed_folder.hpp"
-#endif
 
 namespace voussoir {
 namespace {
@@ -29,14 +25,6 @@ struct LimitArguments {
   bool overwrite = false;
   bool quiet = false;
 };
-
-#ifndef VOUSSOIR_HAS_GLPK
-
-ExitCode limit_command(const LimitArguments&) {
-  throw BadInput("limit analysis needs GLPK, which is not built in; configure with -DVOUSSOIR_WITH_GLPK=ON");
-}
-
-#else
 
 namespace fs = std::filesystem;
 
@@ -72,74 +60,50 @@ void print_values(const LimitAnswer& analysis) {
   }
 }
 
-void print_mechanism(const LimitAnalysis& analysis) {
-  const Mechanism& mechanism = analysis.mechanism;
-  const auto free = std::count_if(analysis.model.bodies.begin(), analysis.model.bodies.end(),
-                                  [](const Body<2>& body) { return body.present && !body.fixed; });
+// of a block: motion, and where its centre of rotation is
+std::string describe(const BlockMotion<2>& motion) {
+  return fmt::format(
+      "{:>9.4f} {:>9.4f} {:>7.2f} %  {}", motion.speed, motion.turning, 100 * motion.rotation_fraction,
+      motion.centre ? fmt::format("({:.4g}, {:.4g})", (*motion.centre)[0], (*motion.centre)[1]) : "translates");
+}
+
+std::string describe(const BlockMotion<3>& motion) {
+  return fmt::format("{:>9.4f} {:>9.4f} {:>7.2f} % ", motion.speed, motion.turning, 100 * motion.rotation_fraction);
+}
+
+template <int Dim>
+void print_mechanism(const LimitAnalysis<Dim>& analysis) {
+  constexpr std::size_t most_lines = 40;
+  const Mechanism<Dim>& mechanism = analysis.mechanism;
+  const auto free =
+      std::ranges::count_if(analysis.model.bodies, [](const Body<Dim>& body) { return body.present && !body.fixed; });
   if (mechanism.moving.empty()) return line("mechanism", "none");
   line("mechanism",
        fmt::format("{} of {} free blocks move, {} of them rotate; {:.3g} % of the kinetic energy is rotation",
                    mechanism.moving.size(), free, mechanism.turning, 100 * mechanism.rotation_fraction));
-  line("", fmt::format("{:>6} {:>10} {:>10}  {:>9} {:>9} {:>9}  {}", "block", "x m", "y m", "speed", "turning",
-                       "rotation", "centre m"));
-  for (const BlockMotion& motion : mechanism.moving) {
-    const Body<2>& body = analysis.model.bodies[motion.body];
-    const Vector<2> place = analysis.model.origin + body.reference;
-    const std::string centre =
-        motion.centre ? fmt::format("({:.4g}, {:.4g})", (*motion.centre)[0], (*motion.centre)[1]) : "translates";
-    line("", fmt::format("{:>6} {:>10.4g} {:>10.4g}  {:>9.4f} {:>9.4f} {:>7.2f} %  {}{}", motion.body, place[0],
-                         place[1], motion.speed, motion.turning, 100 * motion.rotation_fraction, centre,
-                         body.name.empty() ? "" : " " + body.name));
+  line("", fmt::format("{:>6} {:>10} {:>10} {}  {:>9} {:>9} {:>9}  {}", "block", "x m", "y m",
+                       Dim == 3 ? fmt::format("{:>10}", "z m") : "", "speed", "turning", "rotation",
+                       Dim == 2 ? "centre m" : ""));
+  for (std::size_t k = 0; k < std::min(mechanism.moving.size(), most_lines); ++k) {
+    const BlockMotion<Dim>& motion = mechanism.moving[k];
+    const Body<Dim>& body = analysis.model.bodies[motion.body];
+    std::string place;
+    for (const double x : Vector<Dim>(analysis.model.origin + body.reference))
+      place += fmt::format(" {:>10.4g}", x);
+    line("",
+         fmt::format("{:>6}{}  {}{}{}", motion.body, place, describe(motion), body.name.empty() ? "" : " ", body.name));
   }
+  if (mechanism.moving.size() > most_lines) line("", "… all of them in results.json");
   line("",
        "speed of the centroid, turning: speed of the farthest corner about it; their sum is 1 for the fastest block");
 }
 
-void print_head(const LimitAnswer& analysis) {
+template <int Dim>
+void print_analysis(const LimitAnalysis<Dim>& analysis, const fs::path& folder) {
+  const Evidence& evidence = analysis.evidence;
   fmt::print("{}limit analysis\n", analysis.title.empty() ? "" : analysis.title + " - ");
   line("sought", analysis.sought);
   print_values(analysis);
-}
-
-void print_end(const LimitAnswer& analysis, const fs::path& folder) {
-  for (const std::string& caveat : analysis.caveats)
-    line(&caveat == &analysis.caveats.front() ? "caveat" : "", caveat);
-  fmt::print("results: {}\n", folder.string());
-}
-
-void print_analysis(const LimitAnalysis& analysis, const fs::path& folder) {
-  const Evidence& evidence = analysis.evidence;
-  print_head(analysis);
-  line("proof",
-       fmt::format("gap between the bounds {:.2g}, forces out of balance {:.2g} of a block's weight, joints closed at "
-                   "{:.2g} of the speed",
-                   evidence.gap, evidence.out_of_balance, evidence.inadmissible));
-  line("", fmt::format("{} linear programs over {} interfaces", evidence.programs, analysis.interfaces.size()));
-  print_mechanism(analysis);
-  print_end(analysis, folder);
-}
-
-void print_mechanism_in_space(const LimitAnalysisInSpace& analysis) {
-  constexpr std::size_t most_lines = 20;
-  if (analysis.moving.empty()) return line("mechanism", "none");
-  const auto free =
-      std::ranges::count_if(analysis.model.bodies, [](const Body<3>& body) { return body.present && !body.fixed; });
-  line("mechanism",
-       fmt::format("{} of {} free blocks move, {} of them rotate", analysis.moving.size(), free, analysis.turning));
-  line("", fmt::format("{:>6} {:>10} {:>10} {:>10}  {:>9} {:>9}", "block", "x m", "y m", "z m", "speed", "turning"));
-  for (std::size_t k = 0; k < std::min(analysis.moving.size(), most_lines); ++k) {
-    const BlockMotionInSpace& motion = analysis.moving[k];
-    const Body<3>& body = analysis.model.bodies[motion.body];
-    const Vector<3> place = analysis.model.origin + body.reference;
-    line("", fmt::format("{:>6} {:>10.4g} {:>10.4g} {:>10.4g}  {:>9.4f} {:>9.4f}  {}", motion.body, place[0], place[1],
-                         place[2], motion.speed, motion.turning, body.name));
-  }
-  if (analysis.moving.size() > most_lines) line("", "… all of them in results.json");
-}
-
-void print_analysis(const LimitAnalysisInSpace& analysis, const fs::path& folder) {
-  const Evidence& evidence = analysis.evidence;
-  print_head(analysis);
   if (!analysis.values.empty()) {
     line("bound", analysis.bound);
     line("enclosed", fmt::format("for joints that dilate: forces and mechanism differ by {:.2g}, forces out of balance "
@@ -147,12 +111,14 @@ void print_analysis(const LimitAnalysisInSpace& analysis, const fs::path& folder
                                  evidence.gap, evidence.out_of_balance, evidence.inadmissible));
   }
   std::size_t corners = 0;
-  for (const CornerFace& face : analysis.assembly.faces)
+  for (const CornerFace<Dim>& face : analysis.assembly.faces)
     corners += face.corners.size();
   line("solved", fmt::format("{} cone program{} over {} interfaces, {} corners", evidence.programs,
                              evidence.programs == 1 ? "" : "s", analysis.assembly.faces.size(), corners));
-  print_mechanism_in_space(analysis);
-  print_end(analysis, folder);
+  print_mechanism(analysis);
+  for (const std::string& caveat : analysis.caveats)
+    line(&caveat == &analysis.caveats.front() ? "caveat" : "", caveat);
+  fmt::print("results: {}\n", folder.string());
 }
 
 ExitCode exit_code(const LimitAnswer& analysis) {
@@ -160,8 +126,8 @@ ExitCode exit_code(const LimitAnswer& analysis) {
   return analysis.answered ? ExitCode::done : ExitCode::incomplete;
 }
 
-template <class Analysis>
-ExitCode answer(const LimitArguments& arguments, const LoadedScene& scene, const Analysis& analysis,
+template <int Dim>
+ExitCode answer(const LimitArguments& arguments, const LoadedScene& scene, const LimitAnalysis<Dim>& analysis,
                 const std::vector<std::string>& files) {
   const fs::path folder = results_folder(arguments);
   const ClaimedFolder claim(folder, {"limit", files}, scene.files, arguments.overwrite);
@@ -175,14 +141,11 @@ ExitCode answer(const LimitArguments& arguments, const LoadedScene& scene, const
 ExitCode limit_command(const LimitArguments& arguments) {
   const LoadedScene scene = load_scene(arguments.scene.scene, arguments.scene.overrides);
   const LimitRequest request = request_of(arguments);
-  if (scene.dimension == 2)
-    return answer(arguments, scene, analyse_limit(scene, request),
-                  {"results.json", "limit.svg", "blocks.vtp", "mechanism.vtp", "forces.vtp"});
-  return answer(arguments, scene, analyse_limit_in_space(scene, request),
-                {"results.json", "blocks.vtp", "mechanism.vtp", "forces.vtp"});
+  std::vector<std::string> files{"results.json", "blocks.vtp", "mechanism.vtp", "forces.vtp"};
+  if (scene.dimension == 3) return answer(arguments, scene, analyse_limit<3>(scene, request), files);
+  files.push_back("limit.svg");
+  return answer(arguments, scene, analyse_limit<2>(scene, request), files);
 }
-
-#endif
 
 }  // namespace
 
@@ -224,7 +187,7 @@ void add_limit(CLI::App& program, Action& action) {
                     "always have theirs); it is plastic, and tension is left out");
   command
       ->add_flag("--without-dilation", arguments.without_dilation,
-                 "in space: also the factor of the load for joints that slip without opening, some hundred programs")
+                 "also the factor of the load for joints that slip without opening, some hundred programs")
       ->needs(load);
   add_overwrite(command, arguments.overwrite);
   command->add_flag("--quiet", arguments.quiet, "no warnings and no summary");

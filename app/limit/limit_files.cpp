@@ -19,36 +19,31 @@ constexpr double drawn_motion = 0.08;  // of the picture's larger side: the draw
 constexpr double drawn_force = 0.12;   // of it: the length of the largest force
 constexpr double drawn_margin = 0.08;  // of it: the margin around the free blocks
 
+template <int Dim>
 struct Frame {
-  Vector<2> low, high;  // m, model coordinates
+  Vector<Dim> low, high;  // m, model coordinates
   double extent() const { return (high - low).maxCoeff(); }
 };
 
-Frame frame_of(const Model<2>& model) {
-  Frame frame{Vector<2>::Constant(std::numeric_limits<double>::infinity()),
-              Vector<2>::Constant(-std::numeric_limits<double>::infinity())};
-  for (const Body<2>& body : model.bodies) {
+template <int Dim>
+Frame<Dim> frame_of(const Model<Dim>& model) {
+  Frame<Dim> frame{Vector<Dim>::Constant(std::numeric_limits<double>::infinity()),
+                   Vector<Dim>::Constant(-std::numeric_limits<double>::infinity())};
+  for (const Body<Dim>& body : model.bodies) {
     if (body.fixed || !body.present) continue;
-    for (const Polytope<2>& part : body.parts)
-      for (const Vector<2>& vertex : part.vertices) {
+    for (const Polytope<Dim>& part : body.parts)
+      for (const Vector<Dim>& vertex : part.vertices) {
         frame.low = frame.low.cwiseMin(body.reference + vertex);
         frame.high = frame.high.cwiseMax(body.reference + vertex);
       }
   }
-  const Vector<2> margin = Vector<2>::Constant(drawn_margin * frame.extent());
+  const Vector<Dim> margin = Vector<Dim>::Constant(drawn_margin * frame.extent());
   return {frame.low - margin, frame.high + margin};
 }
 
-bool moves(const LimitAnalysis& analysis, int body) {
+bool moves(const LimitAnalysis<2>& analysis, int body) {
   const auto& moving = analysis.mechanism.moving;
-  return std::any_of(moving.begin(), moving.end(), [&](const BlockMotion& m) { return m.body == body; });
-}
-
-// the force on body_b at an end, N
-Vector<2> force_at(const LimitAnalysis& analysis, std::size_t i, std::size_t k) {
-  const Vector<2>& n = analysis.interfaces[i].normal;
-  const EndForce& force = analysis.state.forces[i][k];
-  return force.normal * n + force.shear * Vector<2>(-n[1], n[0]);
+  return std::any_of(moving.begin(), moving.end(), [&](const BlockMotion<2>& m) { return m.body == body; });
 }
 
 // ---- the figure ----------------------------------------------------------------------------------------------------
@@ -57,10 +52,10 @@ constexpr double picture_width = 370, gap = 20, caption_height = 28;  // px
 
 class Picture {
  public:
-  Picture(const Frame& frame, int place) : frame_(frame), left_(place * (picture_width + gap)) {
+  Picture(const Frame<2>& frame, int place) : frame_(frame), left_(place * (picture_width + gap)) {
     scale_ = picture_width / (frame.high[0] - frame.low[0]);
   }
-  static double height(const Frame& frame) {
+  static double height(const Frame<2>& frame) {
     return picture_width * (frame.high[1] - frame.low[1]) / (frame.high[0] - frame.low[0]);
   }
   void begin(const std::string& caption) {
@@ -93,7 +88,7 @@ class Picture {
   std::string text;
 
  private:
-  Frame frame_;
+  Frame<2> frame_;
   double left_, scale_;
 };
 
@@ -102,27 +97,27 @@ constexpr const char* free_style = "fill=\"#ffffff\" stroke=\"#606060\"";
 constexpr const char* moved_style = "fill=\"#d55e00\" fill-opacity=\"0.25\" stroke=\"#d55e00\"";
 constexpr const char* left_style = "fill=\"none\" stroke=\"#909090\" stroke-dasharray=\"3 3\"";
 
-void draw_forces(const LimitAnalysis& analysis, const Frame& frame, Picture& picture) {
+void draw_forces(const LimitAnalysis<2>& analysis, const Frame<2>& frame, Picture& picture) {
   for (const Body<2>& body : analysis.model.bodies)
     for (const Polytope<2>& part : body.parts)
       if (body.present)
         picture.polygon(part, body.reference, Matrix<2>::Identity(), body.fixed ? fixed_style : free_style);
   double largest = 0;
-  for (std::size_t i = 0; i < analysis.state.forces.size(); ++i)
-    for (std::size_t k = 0; k < 2; ++k)
-      largest = std::max(largest, force_at(analysis, i, k).norm());
+  for (const std::vector<Vector<2>>& of_face : analysis.state.forces)
+    for (const Vector<2>& force : of_face)
+      largest = std::max(largest, force.norm());
   if (largest == 0) return;
   picture.text += "<g fill=\"none\" stroke=\"#0072b2\" stroke-width=\"2\">\n";
   for (std::size_t i = 0; i < analysis.state.forces.size(); ++i)
     for (std::size_t k = 0; k < 2; ++k) {
-      const Vector<2> half = 0.5 * drawn_force * frame.extent() / largest * force_at(analysis, i, k);
-      const Vector<2>& end = analysis.interfaces[i].ends[k];
+      const Vector<2> half = 0.5 * drawn_force * frame.extent() / largest * analysis.state.forces[i][k];
+      const Vector<2>& end = analysis.assembly.faces[i].corners[k];
       if (half.norm() > 0) picture.line(end - half, end + half);
     }
   picture.text += "</g>\n";
 }
 
-void draw_mechanism(const LimitAnalysis& analysis, const Frame& frame, Picture& picture) {
+void draw_mechanism(const LimitAnalysis<2>& analysis, const Frame<2>& frame, Picture& picture) {
   const double far = drawn_motion * frame.extent();
   for (const bool moving : {false, true})  // moving blocks are drawn over the others
     for (std::size_t b = 0; b < analysis.model.bodies.size(); ++b) {
@@ -132,34 +127,24 @@ void draw_mechanism(const LimitAnalysis& analysis, const Frame& frame, Picture& 
         const char* rest_style = body.fixed ? fixed_style : moving ? left_style : free_style;
         picture.polygon(part, body.reference, Matrix<2>::Identity(), rest_style);
         if (!moving) continue;
-        const BodyVelocity& v = analysis.state.velocities[b];
-        picture.polygon(part, body.reference + far * v.velocity, matrix(Rotation<2>{far * v.spin}), moved_style);
+        const BodyVelocity<2>& v = analysis.state.velocities[b];
+        picture.polygon(part, body.reference + far * v.velocity, matrix(Rotation<2>{far * v.spin[0]}), moved_style);
       }
     }
 }
 
 // ---- ParaView ------------------------------------------------------------------------------------------------------
 
-State<2> moved_along(const LimitAnalysis& analysis, double distance) {
-  State<2> state = initial_state<2>(analysis.model);
+template <int Dim>
+State<Dim> moved_along(const LimitAnalysis<Dim>& analysis, double distance) {
+  State<Dim> state = initial_state<Dim>(analysis.model);
   for (std::size_t b = 0; b < analysis.state.velocities.size(); ++b) {
-    const BodyVelocity& v = analysis.state.velocities[b];
-    state.bodies.motions[b].displacement = distance * v.velocity;
-    state.bodies.motions[b].rotation.angle = distance * v.spin;
-    state.bodies.motions[b].velocity = v.velocity;
-    state.bodies.motions[b].angular_momentum = angular_momentum<2>(analysis.model.bodies[b], {}, Spin<2>(v.spin));
-  }
-  return state;
-}
-
-State<3> moved_along(const LimitAnalysisInSpace& analysis, double distance) {
-  State<3> state = initial_state<3>(analysis.model);
-  for (std::size_t b = 0; b < analysis.state.velocities.size(); ++b) {
-    const MotionInSpace& v = analysis.state.velocities[b];
-    state.bodies.motions[b].displacement = distance * v.velocity;
-    state.bodies.motions[b].rotation = turned(Rotation<3>(), Spin<3>(distance * v.spin));
-    state.bodies.motions[b].velocity = v.velocity;
-    state.bodies.motions[b].angular_momentum = angular_momentum<3>(analysis.model.bodies[b], {}, v.spin);
+    const BodyVelocity<Dim>& v = analysis.state.velocities[b];
+    Motion<Dim>& motion = state.bodies.motions[b];
+    motion.displacement = distance * v.velocity;
+    motion.rotation = turned(Rotation<Dim>(), Spin<Dim>(distance * v.spin));
+    motion.velocity = v.velocity;
+    motion.angular_momentum = angular_momentum<Dim>(analysis.model.bodies[b], {}, v.spin);
   }
   return state;
 }
@@ -187,33 +172,36 @@ class ForcePoints {
       force_{"force", 3, false, {}};
 };
 
-PolyData force_points(const LimitAnalysis& analysis) {
-  ForcePoints points;
-  const auto in_space = [](const Vector<2>& p) { return Vector<3>(p[0], p[1], 0); };
-  for (std::size_t i = 0; i < analysis.state.forces.size(); ++i)
-    for (std::size_t k = 0; k < 2; ++k) {
-      const Interface& face = analysis.interfaces[i];
-      points.add(face.body_a, face.body_b, in_space(analysis.model.origin + face.ends[k]), in_space(face.normal),
-                 in_space(force_at(analysis, i, k)));
-    }
-  return points.data();
+Vector<3> in_space(const Vector<2>& p) {
+  return {p[0], p[1], 0};
 }
 
-PolyData force_points(const LimitAnalysisInSpace& analysis) {
+Vector<3> in_space(const Vector<3>& p) {
+  return p;
+}
+
+template <int Dim>
+PolyData force_points(const LimitAnalysis<Dim>& analysis) {
   ForcePoints points;
   for (std::size_t i = 0; i < analysis.state.forces.size(); ++i) {
-    const CornerFace& face = analysis.assembly.faces[i];
+    const CornerFace<Dim>& face = analysis.assembly.faces[i];
     for (std::size_t k = 0; k < face.corners.size(); ++k)
-      points.add(face.body_a, face.body_b, analysis.model.origin + face.corners[k], face.normal,
-                 analysis.state.forces[i][k]);
+      points.add(face.body_a, face.body_b, in_space(Vector<Dim>(analysis.model.origin + face.corners[k])),
+                 in_space(face.normal), in_space(analysis.state.forces[i][k]));
   }
   return points.data();
 }
 
+void write_figure(const LimitAnalysis<2>& analysis, const std::filesystem::path& folder) {
+  write_file(folder / "limit.svg", limit_svg(analysis));
+}
+
+void write_figure(const LimitAnalysis<3>&, const std::filesystem::path&) {}
+
 }  // namespace
 
-std::string limit_svg(const LimitAnalysis& analysis) {
-  const Frame frame = frame_of(analysis.model);
+std::string limit_svg(const LimitAnalysis<2>& analysis) {
+  const Frame<2> frame = frame_of(analysis.model);
   Picture forces(frame, 0), mechanism(frame, 1);
   forces.begin("forces at the joints' ends");
   draw_forces(analysis, frame, forces);
@@ -230,27 +218,19 @@ std::string limit_svg(const LimitAnalysis& analysis) {
          forces.text + mechanism.text + "</svg>\n";
 }
 
-void write_limit_files(const LimitAnalysis& analysis, const std::filesystem::path& folder) {
-  const double far = drawn_motion * frame_of(analysis.model).extent();
-  write_file(folder / "limit.svg", limit_svg(analysis));
-  write_file(folder / "blocks.vtp", vtp(block_faces<2>(analysis.model, moved_along(analysis, 0), 0)));
-  write_file(folder / "mechanism.vtp", vtp(block_faces<2>(analysis.model, moved_along(analysis, far), 0)));
+template <int Dim>
+void write_limit_files(const LimitAnalysis<Dim>& analysis, const std::filesystem::path& folder) {
+  write_figure(analysis, folder);
+  const auto blocks = [&](double distance) {
+    return vtp(block_faces<Dim>(analysis.model, moved_along(analysis, distance), 0));
+  };
+  write_file(folder / "blocks.vtp", blocks(0));
+  write_file(folder / "mechanism.vtp", blocks(drawn_motion * frame_of(analysis.model).extent()));
   write_file(folder / "forces.vtp", vtp(force_points(analysis)));
   write_results(folder, limit_json(analysis));  // last: if it exists, all else is complete
 }
 
-void write_limit_files(const LimitAnalysisInSpace& analysis, const std::filesystem::path& folder) {
-  Vector<3> low = Vector<3>::Constant(std::numeric_limits<double>::infinity()), high = -low;
-  for (const CornerFace& face : analysis.assembly.faces)
-    for (const Vector<3>& corner : face.corners) {
-      low = low.cwiseMin(corner);
-      high = high.cwiseMax(corner);
-    }
-  const double far = analysis.assembly.faces.empty() ? 0 : drawn_motion * (high - low).maxCoeff();
-  write_file(folder / "blocks.vtp", vtp(block_faces<3>(analysis.model, moved_along(analysis, 0), 0)));
-  write_file(folder / "mechanism.vtp", vtp(block_faces<3>(analysis.model, moved_along(analysis, far), 0)));
-  write_file(folder / "forces.vtp", vtp(force_points(analysis)));
-  write_results(folder, limit_json(analysis));
-}
+template void write_limit_files(const LimitAnalysis<2>&, const std::filesystem::path&);
+template void write_limit_files(const LimitAnalysis<3>&, const std::filesystem::path&);
 
 }  // namespace voussoir

@@ -30,63 +30,39 @@ Json values_json(const LimitAnswer& analysis) {
   return values;
 }
 
-Json mechanism_json(const LimitAnalysis& analysis) {
+Json spin_json(const Spin<2>& spin) {
+  return spin[0];
+}
+
+Json spin_json(const Spin<3>& spin) {
+  return point(spin);
+}
+
+template <int Dim>
+Json mechanism_json(const LimitAnalysis<Dim>& analysis) {
   Json blocks = Json::array();
-  for (const BlockMotion& motion : analysis.mechanism.moving) {
-    const Body<2>& body = analysis.model.bodies[motion.body];
-    const BodyVelocity& v = analysis.state.velocities[motion.body];
-    blocks.push_back({{"body", motion.body},
-                      {"name", body.name},
-                      {"centroid_m", point(analysis.model.origin + body.reference)},
-                      {"velocity", point(v.velocity)},
-                      {"spin_per_m", v.spin},
-                      {"rotation_share", motion.rotation_fraction},
-                      {"centre_m", motion.centre ? point(*motion.centre) : Json()}});
+  for (const BlockMotion<Dim>& motion : analysis.mechanism.moving) {
+    const Body<Dim>& body = analysis.model.bodies[motion.body];
+    const BodyVelocity<Dim>& v = analysis.state.velocities[motion.body];
+    Json block = {{"body", motion.body},
+                  {"name", body.name},
+                  {"centroid_m", point(analysis.model.origin + body.reference)},
+                  {"velocity", point(v.velocity)},
+                  {"spin_per_m", spin_json(v.spin)},
+                  {"rotation_share", motion.rotation_fraction}};
+    if (Dim == 2) block["centre_m"] = motion.centre ? point(*motion.centre) : Json();
+    blocks.push_back(block);
   }
   return {{"rotation_share", analysis.mechanism.rotation_fraction},
           {"turning", analysis.mechanism.turning},
           {"moving", blocks}};
 }
 
-Json interfaces_json(const LimitAnalysis& analysis) {
-  Json list = Json::array();
-  for (std::size_t i = 0; i < analysis.interfaces.size(); ++i) {
-    const Interface& face = analysis.interfaces[i];
-    Json entry = {{"bodies", {face.body_a, face.body_b}},
-                  {"properties", analysis.model.properties[face.properties].name},
-                  {"normal", point(face.normal)},
-                  {"ends", Json::array()}};
-    for (std::size_t k = 0; k < 2; ++k) {
-      Json end = {{"point_m", point(analysis.model.origin + face.ends[k])}};
-      if (!analysis.state.forces.empty()) {
-        end["normal_N"] = analysis.state.forces[i][k].normal;
-        end["shear_N"] = analysis.state.forces[i][k].shear;
-      }
-      entry["ends"].push_back(end);
-    }
-    list.push_back(entry);
-  }
-  return list;
-}
-
-Json mechanism_json(const LimitAnalysisInSpace& analysis) {
-  Json blocks = Json::array();
-  for (const BlockMotionInSpace& motion : analysis.moving) {
-    const Body<3>& body = analysis.model.bodies[motion.body];
-    const MotionInSpace& v = analysis.state.velocities[motion.body];
-    blocks.push_back({{"body", motion.body},
-                      {"name", body.name},
-                      {"centroid_m", point(analysis.model.origin + body.reference)},
-                      {"velocity", point(v.velocity)},
-                      {"spin_per_m", point(v.spin)}});
-  }
-  return {{"turning", analysis.turning}, {"moving", blocks}};
-}
-
-Json interfaces_json(const LimitAnalysisInSpace& analysis) {
+template <int Dim>
+Json interfaces_json(const LimitAnalysis<Dim>& analysis) {
   Json list = Json::array();
   for (std::size_t i = 0; i < analysis.assembly.faces.size(); ++i) {
-    const CornerFace& face = analysis.assembly.faces[i];
+    const CornerFace<Dim>& face = analysis.assembly.faces[i];
     Json entry = {{"bodies", {face.body_a, face.body_b}},
                   {"properties", analysis.model.properties[face.properties].name},
                   {"normal", point(face.normal)},
@@ -94,7 +70,7 @@ Json interfaces_json(const LimitAnalysisInSpace& analysis) {
     for (std::size_t k = 0; k < face.corners.size(); ++k) {
       Json corner = {{"point_m", point(analysis.model.origin + face.corners[k])}};
       if (!analysis.state.forces.empty()) {
-        const Vector<3>& force = analysis.state.forces[i][k];
+        const Vector<Dim>& force = analysis.state.forces[i][k];
         const double normal = force.dot(face.normal);
         corner["normal_N"] = normal;
         corner["shear_N"] = point(force - normal * face.normal);
@@ -106,12 +82,14 @@ Json interfaces_json(const LimitAnalysisInSpace& analysis) {
   return list;
 }
 
-// what plane and space share; `programs`: the name of their number
-Json answer_json(const LimitAnswer& analysis, const char* programs) {
+}  // namespace
+
+template <int Dim>
+std::string limit_json(const LimitAnalysis<Dim>& analysis) {
   const Evidence& evidence = analysis.evidence;
   Json json;
   json["schema"] = "voussoir.limit";
-  json["schema_version"] = 1;
+  json["schema_version"] = 2;
   json["title"] = analysis.title;
   json["input_hash"] = analysis.input_hash;
   json["warnings"] = analysis.warnings;
@@ -127,33 +105,18 @@ Json answer_json(const LimitAnswer& analysis, const char* programs) {
   json["evidence"] = {{"gap", evidence.gap},
                       {"out_of_balance", evidence.out_of_balance},
                       {"inadmissible", evidence.inadmissible},
-                      {programs, evidence.programs}};
+                      {"cone_programs", evidence.programs}};
   if (evidence.rounds_of_tangents > 0)
     json["evidence"]["envelope"] = {{"rounds_of_tangents", evidence.rounds_of_tangents},
                                     {"agree", evidence.tangents_agree}};
-  return json;
-}
-
-std::string text_of(Json json) {
+  json["bound"] = analysis.bound;
+  if (analysis.values.empty()) json["evidence"] = {{"cone_programs", evidence.programs}};
+  json["mechanism"] = mechanism_json(analysis);
+  json["interfaces"] = interfaces_json(analysis);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace
-
-std::string limit_json(const LimitAnalysis& analysis) {
-  Json json = answer_json(analysis, "linear_programs");
-  json["mechanism"] = mechanism_json(analysis);
-  json["interfaces"] = interfaces_json(analysis);
-  return text_of(json);
-}
-
-std::string limit_json(const LimitAnalysisInSpace& analysis) {
-  Json json = answer_json(analysis, "cone_programs");
-  json["bound"] = analysis.bound;
-  if (analysis.values.empty()) json["evidence"] = {{"cone_programs", analysis.evidence.programs}};
-  json["mechanism"] = mechanism_json(analysis);
-  json["interfaces"] = interfaces_json(analysis);
-  return text_of(json);
-}
+template std::string limit_json(const LimitAnalysis<2>&);
+template std::string limit_json(const LimitAnalysis<3>&);
 
 }  // namespace voussoir

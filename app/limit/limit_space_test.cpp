@@ -25,7 +25,6 @@ class LimitSpace : public Program {
 };
 
 TEST_F(LimitSpace, PushesAColumnInAnyDirection) {
-  if (!is_built_in("glpk")) GTEST_SKIP();
   write_column();
   for (const auto& [direction, factor] : {std::pair("east", 0.25), {"west", 0.25}, {"north", 0.5}, {"south", 0.5}}) {
     const Ended ended = limit(std::string("--load ") + direction);
@@ -55,7 +54,6 @@ TEST_F(LimitSpace, PushesAColumnInAnyDirection) {
 }
 
 TEST_F(LimitSpace, SaysWhyThereIsNoNumber) {
-  if (!is_built_in("glpk")) GTEST_SKIP();
   write_column();
   for (const char* load : {"down", "gravity"}) {
     const Ended any = limit(std::string("--load ") + load);
@@ -76,7 +74,6 @@ TEST_F(LimitSpace, SaysWhyThereIsNoNumber) {
 
 // the wedge's line plunges under its friction angle without dilation, 33.357°: with it, less friction is enough
 TEST_F(LimitSpace, FindsFrictionAndFactorOfAWedge) {
-  if (!is_built_in("glpk")) GTEST_SKIP();
   const std::string wedge = "'" + (fs::path(VOUSSOIR_SOURCE_DIR) / "cases/wedge/scene.toml").string() + "' ";
   const Ended friction = run("limit " + wedge + "--overwrite --out out");
   EXPECT_EQ(friction.code, 0) << friction.err;
@@ -88,7 +85,6 @@ TEST_F(LimitSpace, FindsFrictionAndFactorOfAWedge) {
 }
 
 TEST_F(LimitSpace, CountsAppliedForcesAndCohesion) {
-  if (!is_built_in("glpk")) GTEST_SKIP();
   write_column("");
   std::string text = read(folder_ / "column.toml");
   write("column.toml", text +
@@ -103,7 +99,6 @@ TEST_F(LimitSpace, CountsAppliedForcesAndCohesion) {
 
 // the column alone topples; between walls that slip only, forces that nothing asks for may hold it
 TEST_F(LimitSpace, AnswersForJointsThatDoNotDilate) {
-  if (!is_built_in("glpk")) GTEST_SKIP();
   write_column();
   const Ended alone = limit("--load east --without-dilation");
   EXPECT_EQ(alone.code, 0) << alone.out << alone.err;
@@ -137,7 +132,6 @@ TEST_F(LimitSpace, AnswersForJointsThatDoNotDilate) {
 
 // Barton and Bandis' envelope at the stress of the column, 40 kPa: F of the push is tan φ(σ) W over it
 TEST_F(LimitSpace, FollowsTheEnvelopeOfBartonAndBandis) {
-  if (!is_built_in("glpk")) GTEST_SKIP();
   write_column();
   const std::string text = read(folder_ / "column.toml");
   const std::size_t end = text.find("friction_deg = 35") + std::string("friction_deg = 35").size();

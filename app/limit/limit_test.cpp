@@ -11,7 +11,6 @@ using namespace program;
 
 TEST_F(Program, LimitFindsProvesAndDraws) {
   const std::string slump = "'" + (fs::path(VOUSSOIR_SOURCE_DIR) / "cases/slump/scene.toml").string() + "' ";
-  if (!is_built_in("glpk")) return expect_one_line(run("limit " + slump), 2, "-DVOUSSOIR_WITH_GLPK=ON");
   const Ended ended = run("limit " + slump + "--out out");
   EXPECT_EQ(ended.code, 0) << ended.err;
   for (const char* part : {"critical_friction 15.335", "7 of 21 free blocks move", "associated flow", "gap between"})
@@ -57,7 +56,6 @@ TEST_F(Program, LimitFindsProvesAndDraws) {
 
 // with friction alone the factor of safety is the ratio of the tangents; cohesion adds to it if requested
 TEST_F(Program, LimitFindsTheFactorOfSafety) {
-  if (!is_built_in("glpk")) GTEST_SKIP();
   const std::string slump = "'" + (fs::path(VOUSSOIR_SOURCE_DIR) / "cases/slump/scene.toml").string() +
                             "' --set joint_properties.rock.friction_deg=30 --overwrite --out out ";
   const auto factor = [&](const std::string& options) {
@@ -81,7 +79,6 @@ TEST_F(Program, LimitFindsTheFactorOfSafety) {
 
 // under water a block has its buoyant weight: this leaves friction's part of the factor and raises that of cohesion
 TEST_F(Program, LimitCountsWater) {
-  if (!is_built_in("glpk")) GTEST_SKIP();
   write("plane.toml", R"(
 dimension = 2
 gravity = [0, -10]
@@ -106,7 +103,6 @@ stage = [{ name = "settle", kind = "settle" }]
 }
 
 TEST_F(Program, LimitFindsTheFactorOfAppliedForces) {
-  if (!is_built_in("glpk")) GTEST_SKIP();
   // a column of 1 x 3 m and 75 kN/m, pushed at 2 m: it tips at 75 kN / 4
   const std::string column =
       "dimension = 2\ngravity = [0, -10]\ndensity = 2500\n"

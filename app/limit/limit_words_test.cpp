@@ -30,7 +30,6 @@ constexpr const char* not_asked_for =
     "may depend on self-stress, normal forces between walls that the loads do not cause";
 
 TEST_F(LimitWords, OfParallelWallsAreNoAngleAndNoFactor) {
-  if (!is_built_in("glpk")) GTEST_SKIP();
   write_slot(0);
   for (const std::string option : {"", "--factor"}) {
     const Ended ended = limit(option);
@@ -45,7 +44,6 @@ TEST_F(LimitWords, OfParallelWallsAreNoAngleAndNoFactor) {
 }
 
 TEST_F(LimitWords, OfASlotThatOpensDownwardsAreACaveat) {
-  if (!is_built_in("glpk")) GTEST_SKIP();
   write_slot(0.2);
   const Ended ended = limit("--factor");
   EXPECT_EQ(ended.code, 0);
@@ -61,7 +59,6 @@ TEST_F(LimitWords, OfASlotThatOpensDownwardsAreACaveat) {
 
 // If the strength that is needed is less than the search resolves, there is no number either.
 TEST_F(LimitWords, OfNextToNoStrengthAreNoInfinity) {
-  if (!is_built_in("glpk")) GTEST_SKIP();
   write("plane.toml",
         "dimension = 2\ngravity = [1e-8, -10]\ndensity = 2000\n"
         "blocks = [{ name = \"base\", box = { min = [-2, -1], max = [2, 0] }, fixed = true },\n"

@@ -363,7 +363,6 @@ with = [{ key = "density", values = [2000, 4000] }, { key = "joint_properties.ro
 
 // `voussoir limit` as the run: on a plane the critical friction is its dip
 TEST_F(Study, MayRunLimitAnalysis) {
-  if (!is_built_in("glpk")) GTEST_SKIP();
   write("plane.toml", R"(
 preset = "thesis"
 dimension = 2

@@ -16,13 +16,6 @@ namespace fs = std::filesystem;
 
 inline const fs::path scenes = fs::path(VOUSSOIR_SOURCE_DIR) / "app/testing";
 
-// an empty name: a feature of every build
-inline bool is_built_in(const std::string& part) {
-  for (const auto& [name, is_there] : features())
-    if (name == part) return is_there;
-  return true;
-}
-
 inline std::vector<std::string> lines_of(const std::string& text) {
   std::istringstream stream(text);
   std::vector<std::string> lines;

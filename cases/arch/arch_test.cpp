@@ -44,8 +44,9 @@ bool carried(double thickness) {
   const LoadedScene scene =
       load_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / "scene.toml", variant(thickness, stiffness));
   const Model<2>& model = std::get<Prepared<2>>(scene.prepared).model;
-  const LoadFactor found = find_load_factor(model, find_interfaces(model), loads_of_acceleration(model, model.gravity),
-                                            loads_of_acceleration(model, {1, 0}));
+  const LoadFactor<2> found =
+      find_load_factor(corner_assembly(model, model.gravity.norm()), loads_of_acceleration(model, model.gravity),
+                       loads_of_acceleration<2>(model, {1, 0}));
   if (found.status != LimitStatus::found && found.status != LimitStatus::carries_nothing)
     throw std::runtime_error("limit analysis of the arch");
   return found.status == LimitStatus::found;

@@ -25,8 +25,8 @@ reference::SlopeCollapse without_dilation() {
   return reference::elastoplastic_collapse(slope, 60 * degree, 5 * degree, 0.0005 * degree);
 }
 
-LimitAnalysis by_limit_analysis() {
-  return analyse_limit(load_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / "scene.toml"));
+LimitAnalysis<2> by_limit_analysis() {
+  return analyse_limit<2>(load_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / "scene.toml"));
 }
 
 double expected_deg(const reference::SlopeCollapse& collapse) {
@@ -64,27 +64,27 @@ class Outlines {
   std::ofstream out_;
 };
 
-double largest_corner_speed(const LimitAnalysis& analysis) {
+double largest_corner_speed(const LimitAnalysis<2>& analysis) {
   double largest = 0;
-  for (const BlockMotion& moving : analysis.mechanism.moving) {
-    const BodyVelocity& v = analysis.state.velocities[moving.body];
+  for (const BlockMotion<2>& moving : analysis.mechanism.moving) {
+    const BodyVelocity<2>& v = analysis.state.velocities[moving.body];
     for (const Vector<2>& corner : analysis.model.bodies[moving.body].parts.front().vertices)
-      largest = std::max(largest, (v.velocity + cross(Spin<2>(v.spin), corner)).norm());
+      largest = std::max(largest, (v.velocity + cross(v.spin, corner)).norm());
   }
   return largest;
 }
 
-void draw(const LimitAnalysis& analysis, const reference::SlopeCollapse& collapse) {
+void draw(const LimitAnalysis<2>& analysis, const reference::SlopeCollapse& collapse) {
   Outlines fixed("fixed.csv"), free("free.csv"), mechanism("mechanism.csv"), plastic("plastic.csv");
   const Model<2>& model = analysis.model;
   const double far = drawn_motion / largest_corner_speed(analysis);
   for (const Body<2>& body : model.bodies)
     (body.fixed ? fixed : free).add(model, body, {0, 0}, 0);
   std::vector<const Body<2>*> outer;  // from the base upwards
-  for (const BlockMotion& moving : analysis.mechanism.moving) {
+  for (const BlockMotion<2>& moving : analysis.mechanism.moving) {
     const Body<2>& body = model.bodies[moving.body];
-    const BodyVelocity& v = analysis.state.velocities[moving.body];
-    mechanism.add(model, body, far * v.velocity, far * v.spin);
+    const BodyVelocity<2>& v = analysis.state.velocities[moving.body];
+    mechanism.add(model, body, far * v.velocity, far * v.spin[0]);
     outer.push_back(&body);
   }
   std::sort(outer.begin(), outer.end(), [](const auto* a, const auto* b) { return a->reference[1] < b->reference[1]; });
@@ -95,7 +95,7 @@ void draw(const LimitAnalysis& analysis, const reference::SlopeCollapse& collaps
 
 TEST(Slump, FailsAtTheAngleOfBlocksThatDoNotDilate) {
   CaseReport report("slump", {"critical friction, limit analysis", "blocks that move, limit analysis"});
-  const LimitAnalysis analysis = by_limit_analysis();
+  const LimitAnalysis<2> analysis = by_limit_analysis();
   ASSERT_EQ(analysis.status, LimitStatus::found);
   const reference::SlopeCollapse collapse = without_dilation();
   const double expected = expected_deg(collapse);
@@ -118,12 +118,12 @@ TEST(Slump, FailsAtTheAngleOfBlocksThatDoNotDilate) {
   // only the outer layer moves, and its blocks rotate alike
   int outer = 0;
   double least = 1e300, most = -1e300;
-  for (const BlockMotion& moving : analysis.mechanism.moving) {
+  for (const BlockMotion<2>& moving : analysis.mechanism.moving) {
     const Vector<2> place = analysis.model.origin + analysis.model.bodies[moving.body].reference;
     EXPECT_TRUE(in_outer_layer(place)) << "block " << moving.body;
     ++outer;
-    least = std::min(least, analysis.state.velocities[moving.body].spin);
-    most = std::max(most, analysis.state.velocities[moving.body].spin);
+    least = std::min(least, analysis.state.velocities[moving.body].spin[0]);
+    most = std::max(most, analysis.state.velocities[moving.body].spin[0]);
   }
   report.record({"blocks that move, limit analysis",
                  "1",

@@ -92,14 +92,15 @@ std::vector<std::vector<int>> layered_blocks(const Variant& v, const Model<2>& m
   return layers;
 }
 
-double farthest_corner(const Body<2>& body, const BodyVelocity& motion) {
+double farthest_corner(const Body<2>& body, const BodyVelocity<2>& motion) {
   double largest = 0;
   for (const Vector<2>& corner : body.parts.front().vertices)
-    largest = std::max(largest, (motion.velocity + cross(Spin<2>(motion.spin), corner)).norm());
+    largest = std::max(largest, (motion.velocity + cross(motion.spin, corner)).norm());
   return largest;
 }
 
-Manner manner_of(const Variant& v, const Model<2>& model, double friction, const std::vector<BodyVelocity>& motions) {
+Manner manner_of(const Variant& v, const Model<2>& model, double friction,
+                 const std::vector<BodyVelocity<2>>& motions) {
   Manner manner{friction, describe_mechanism(model, motions).rotation_fraction, 0, std::vector<int>(v.layers)};
   double most = 0;
   for (std::size_t b = 0; b < motions.size(); ++b)
@@ -113,7 +114,7 @@ Manner manner_of(const Variant& v, const Model<2>& model, double friction, const
 }
 
 Manner by_limit_analysis(const Variant& v, const std::filesystem::path& scene) {
-  const LimitAnalysis analysis = analyse_limit(load_scene(scene));
+  const LimitAnalysis<2> analysis = analyse_limit<2>(load_scene(scene));
   if (analysis.status != LimitStatus::found) throw std::runtime_error(v.name() + ": " + analysis.message);
   return manner_of(v, analysis.model, analysis.values.front().second.value, analysis.state.velocities);
 }
@@ -121,18 +122,18 @@ Manner by_limit_analysis(const Variant& v, const std::filesystem::path& scene) {
 Manner without_dilation(const Variant& v, const Model<2>& model) {
   const reference::SlopeCollapse collapse = reference::elastoplastic_collapse(v.slope(), reference_bracket * degree);
   const std::vector<std::vector<int>> layers = layered_blocks(v, model);
-  std::vector<BodyVelocity> motions(model.bodies.size());
+  std::vector<BodyVelocity<2>> motions(model.bodies.size());
   for (const reference::SlopeBlockMotion& block : collapse.motion)
-    motions[layers.at(block.layer).at(block.row)] = {{block.x, block.y}, block.turn};
+    motions[layers.at(block.layer).at(block.row)] = {{block.x, block.y}, Spin<2>(block.turn)};
   return manner_of(v, model, 0.5 * (collapse.stands + collapse.collapses) / degree, motions);
 }
 
 Manner by_distinct_elements(const Variant& v, const Collapse<2>& collapse) {
-  std::vector<BodyVelocity> motions(collapse.model().bodies.size());
+  std::vector<BodyVelocity<2>> motions(collapse.model().bodies.size());
   for (const CollapsedBlock& block : motions_at_collapse(collapse))
     motions[block.body] = {collapse.failed.bodies.motions[block.body].displacement -
                                collapse.settled.bodies.motions[block.body].displacement,
-                           block.turn};
+                           Spin<2>(block.turn)};
   return manner_of(v, collapse.model(), value(collapse.run, "critical_friction"), motions);
 }
 

@@ -31,14 +31,15 @@ const std::vector<Cut> cuts{
 const std::vector<Cut> wet_cuts{
     {"wet.toml", "3 blocks"}, {"wet_80.toml", "33 blocks, 80 m"}, {"wet_40.toml", "114 blocks, 40 m"}};
 
-LimitAnalysis analyse(const std::string& scene, const std::vector<std::string>& overrides,
-                      const LimitRequest& request = {{}, {"slide"}}) {
-  LimitAnalysis found = analyse_limit(load_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / scene, overrides), request);
+LimitAnalysis<2> analyse(const std::string& scene, const std::vector<std::string>& overrides,
+                         const LimitRequest& request = {{}, {"slide"}}) {
+  LimitAnalysis<2> found =
+      analyse_limit<2>(load_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / scene, overrides), request);
   if (found.status != LimitStatus::found) throw std::runtime_error(scene + ": " + found.message);
   return found;
 }
 
-double answer(const LimitAnalysis& analysis) {
+double answer(const LimitAnalysis<2>& analysis) {
   return analysis.values.front().second.value;
 }
 
@@ -113,7 +114,7 @@ TEST(Vaiont, CrossJointsIntoTheSlope) {
                  {1e-5, 0},
                  "as for vertical ones"},
                 answer(analyse("scene.toml", leaning(71.25))));
-  const LimitAnalysis steep = analyse("scene.toml", leaning(50));
+  const LimitAnalysis<2> steep = analyse("scene.toml", leaning(50));
   report.record({"critical friction, cross joints 50°",
                  "deg",
                  Kind::limit,
@@ -145,7 +146,7 @@ void write_blocks(const Model<2>& model, const std::string& file, bool fixed) {
 }
 
 TEST(VaiontFigure, HasItsBlocks) {
-  const LimitAnalysis analysis = analyse("beds_80.toml", {});
+  const LimitAnalysis<2> analysis = analyse("beds_80.toml", {});
   write_blocks(analysis.model, "fixed.csv", true);
   write_blocks(analysis.model, "free.csv", false);
   std::vector<double> x, y;

@@ -10,8 +10,6 @@
 
 namespace voussoir {
 
-enum class LpSolver { own, glpk };
-
 // the point of the overlap at which a contact acts. chebyshev: at the point of the program min s (Eq. 3.27);
 // central_path: at that of its logarithmic barrier (solvers/central_path.hpp), which does not jump
 enum class ContactPoint { analytic_centre, centroid, chebyshev, central_path };
@@ -28,7 +26,6 @@ enum class ContactNormal { potential, multipliers };
 enum class ContactFace { point, integrated };
 
 struct ContactSettings {
-  LpSolver lp = LpSolver::own;
   ContactPoint point = ContactPoint::analytic_centre;
   ContactNormal normal = ContactNormal::potential;     // multipliers: with point = central_path
   OverlapSearch overlap = OverlapSearch::closed_form;  // of normal = potential

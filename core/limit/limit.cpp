@@ -183,7 +183,7 @@ CriticalStrength<Dim> find_strength(const CornerAssembly<Dim>& assembly, const L
   CornerAssembly<Dim> trial = assembly;
   strength.weaken(std::min(strength.strongest, stronger * found.stands), trial);
   found.self_stress = may_rest_on_self_stress(trial, loads, found.state.velocities);
-  if (found.self_stress) found.collapses = std::max(0.0, found.collapses - doubt_of_jams * strength.tolerance);
+  if (!found.self_stress.empty()) found.collapses = std::max(0.0, found.collapses - doubt_of_jams * strength.tolerance);
   return found;
 }
 

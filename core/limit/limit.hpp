@@ -36,9 +36,9 @@ template <int Dim>
 struct LoadFactor {
   LimitStatus status = LimitStatus::found;
   double factor = 0;  // of the live load
-  // The load may be supported by normal forces which it does not require: at 0.99 of the factor faces that move in the
-  // mechanism can have self-stress, and without them the load is not supported.
-  bool self_stress = false;
+  // Not empty: the load may be supported by normal forces which it does not require. At 0.99 of the factor these faces,
+  // which move in the mechanism, can have self-stress, and without it the load is not supported.
+  std::vector<int> self_stress;
   LimitState<Dim> state;
   Evidence evidence;
 };
@@ -54,8 +54,8 @@ struct StrengthBracket {
   LimitStatus status = LimitStatus::found;
   double collapses = 0, stands = 0;  // friction angle in rad, or factor of safety
   double missing = 0;  // at `collapses`: the least sum of added forces, over their bodies' weights, for equilibrium
-  bool self_stress = false;  // as in LoadFactor, at 1.01 times the strength
-  Evidence evidence;         // gap: of the missing force at `collapses`; out_of_balance at `stands`
+  std::vector<int> self_stress;  // as in LoadFactor, at 1.01 times the strength
+  Evidence evidence;             // gap: of the missing force at `collapses`; out_of_balance at `stands`
 };
 
 template <int Dim>

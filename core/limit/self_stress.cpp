@@ -54,24 +54,17 @@ OfCorners corners_with_self_stress(const CornerAssembly<Dim>& assembly) {
 }  // namespace
 
 template <int Dim>
-std::vector<bool> faces_with_self_stress(const CornerAssembly<Dim>& assembly) {
-  std::vector<bool> faces;
-  for (const std::vector<bool>& corners : corners_with_self_stress(assembly))
-    faces.push_back(std::ranges::find(corners, true) != corners.end());
-  return faces;
-}
-
-template <int Dim>
-bool may_rest_on_self_stress(const CornerAssembly<Dim>& assembly, const Loads<Dim>& loads,
-                             const std::vector<BodyVelocity<Dim>>& velocities) {
+std::vector<int> may_rest_on_self_stress(const CornerAssembly<Dim>& assembly, const Loads<Dim>& loads,
+                                         const std::vector<BodyVelocity<Dim>>& velocities) {
   const OfCorners possible = corners_with_self_stress(assembly);
   const CornerProgram<Dim> all = corner_program(assembly, loads);
   CornerProgram<Dim> without = all;
   without.cones.clear();
-  bool moves = false;
+  std::vector<int> moving;
   auto cone = all.cones.begin();
   for (std::size_t f = 0; f < assembly.faces.size(); ++f) {
     const CornerFace<Dim>& face = assembly.faces[f];
+    bool moves = false;
     for (std::size_t k = 0; k < face.corners.size(); ++k) {
       if (!possible[f][k])
         without.cones.push_back(*cone);
@@ -80,8 +73,10 @@ bool may_rest_on_self_stress(const CornerAssembly<Dim>& assembly, const Loads<Di
       ++cone;
       if (face.cohesion > 0) without.cones.push_back(*cone++);
     }
+    if (moves) moving.push_back(static_cast<int>(f));
   }
-  return moves && !shortfall(assembly, without).stands();
+  if (!moving.empty() && shortfall(assembly, without).stands()) moving.clear();
+  return moving;
 }
 
 template <int Dim>
@@ -107,10 +102,10 @@ bool carried_by_any_friction(const CornerAssembly<Dim>& assembly, const Loads<Di
   return !found.failed() && found.answer.value < nearly_nothing;
 }
 
-template std::vector<bool> faces_with_self_stress(const CornerAssembly<2>&);
-template std::vector<bool> faces_with_self_stress(const CornerAssembly<3>&);
-template bool may_rest_on_self_stress(const CornerAssembly<2>&, const Loads<2>&, const std::vector<BodyVelocity<2>>&);
-template bool may_rest_on_self_stress(const CornerAssembly<3>&, const Loads<3>&, const std::vector<BodyVelocity<3>>&);
+template std::vector<int> may_rest_on_self_stress(const CornerAssembly<2>&, const Loads<2>&,
+                                                  const std::vector<BodyVelocity<2>>&);
+template std::vector<int> may_rest_on_self_stress(const CornerAssembly<3>&, const Loads<3>&,
+                                                  const std::vector<BodyVelocity<3>>&);
 template bool carried_by_any_friction(const CornerAssembly<2>&, const Loads<2>&, const std::vector<bool>&);
 template bool carried_by_any_friction(const CornerAssembly<3>&, const Loads<3>&, const std::vector<bool>&);
 

@@ -7,16 +7,11 @@
 
 namespace voussoir {
 
-// Which faces can have normal forces in equilibrium without any load, with their friction and without cohesion. Also
-// none if the solver gives up.
+// The faces that can have normal forces in equilibrium without any load and move in the mechanism, if the loads are not
+// supported without the forces there; else none. No velocities: all such faces count.
 template <int Dim>
-std::vector<bool> faces_with_self_stress(const CornerAssembly<Dim>& assembly);
-
-// Whether faces with possible self-stress move in the mechanism, and the loads are not supported without the forces at
-// them. No velocities: all such faces count.
-template <int Dim>
-bool may_rest_on_self_stress(const CornerAssembly<Dim>& assembly, const Loads<Dim>& loads,
-                             const std::vector<BodyVelocity<Dim>>& velocities);
+std::vector<int> may_rest_on_self_stress(const CornerAssembly<Dim>& assembly, const Loads<Dim>& loads,
+                                         const std::vector<BodyVelocity<Dim>>& velocities);
 
 // Whether loads that are not supported are, as soon as the faces that `gain` friction have any: faces with self-stress
 // then carry any force, and may in turn make self-stress in others possible.

@@ -29,7 +29,7 @@ struct RunRecord {
   std::string title;
   int dimension = 3;
   std::string input_hash;                              // hash of the canonical effective scene
-  std::vector<std::pair<std::string, bool>> features;  // parts built in: glpk, fast_arithmetic
+  std::vector<std::pair<std::string, bool>> features;  // parts built in: fast_arithmetic
   std::vector<std::string> warnings;                   // implausible values reported before the run
   int threads = 1;
   std::vector<AccuracyRound> rounds = {};

@@ -335,6 +335,7 @@ TEST(BadOverrides, AreReportedWithTheirText) {
                              {"joints.A.dip", "joints.A.dip", "has no '='"},
                              {"=3", "", "no such key"},
                              {"contact.centre=ipopt", "contact.centre", "has left the program together with Ipopt"},
+                             {"contact.lp=glpk", "contact.lp", "has left the program together with GLPK"},
                              {"joints.A.dip=", "joints.A.dip", "not valid TOML"},
                              {"joints.A.dip=65deg", "joints.A.dip=65deg", "not valid TOML"},
                              {"joints.A.dip=nan", "joints.A.dip = nan", "must be a finite number"},

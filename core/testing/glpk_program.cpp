@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/limit/linear_program.hpp"
 #include "core/solvers/glpk_environment.hpp"
+#include "core/testing/linear_program.hpp"
 
 namespace voussoir {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/limit/linear_program.hpp"
+#include "core/testing/linear_program.hpp"
 
 #include <algorithm>
 #include <cmath>

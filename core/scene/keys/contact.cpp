@@ -7,10 +7,6 @@ namespace voussoir::keys {
 // clang-format off
 KeyTable contact_keys() {
   return {"contact", {
-    {.key = "lp", .members = {one_of(&ContactSettings::lp, {{"own", LpSolver::own}, {"glpk", LpSolver::glpk}})},
-     .example = "\"glpk\"",
-     .meaning = "solver of the linear program that decides whether two blocks overlap",
-     .breaks = "glpk is slow, a reference only"},
     {.key = "point", .members = {one_of(&ContactSettings::point,
          {{"analytic_centre", ContactPoint::analytic_centre}, {"centroid", ContactPoint::centroid},
           {"chebyshev", ContactPoint::chebyshev}, {"central_path", ContactPoint::central_path}})},
