@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "app/limit/limit_words.hpp"
+#include "app/limit/without_dilation_words.hpp"
 #include "core/base/bad_input.hpp"
 #include "core/limit/without_dilation.hpp"
 #include "core/model/water_surfaces.hpp"
@@ -120,39 +121,17 @@ void refuse_envelopes(const std::vector<JointProperties>& properties) {
                       p.name));
 }
 
-// of the same load: what forces that agree with a mechanism without dilation carry
+template <int Dim>
+void keep_mechanism(LimitState<Dim> state, LimitAnalysis<Dim>& analysis) {
+  if (!state.forces.empty()) analysis.state = std::move(state);
+}
+
 template <int Dim>
 void seek_factor_without_dilation(const LiveLoad<Dim>& live, const Loads<Dim>& gravity, LimitAnalysis<Dim>& analysis) {
-  const FactorWithoutDilation<Dim> found = find_factor_without_dilation(
+  FactorWithoutDilation<Dim> found = find_factor_without_dilation(
       analysis.assembly, live.beside_gravity ? gravity : Loads<Dim>(gravity.size()), live.loads);
-  analysis.evidence.programs += found.programs;
-  if (found.status == LimitStatus::carries_any)
-    return analysis.caveats.push_back("without dilation: normal forces alone, without friction, carry any factor");
-  if (found.status != LimitStatus::found)
-    return analysis.caveats.push_back("without dilation: no mechanism was found, as forces grow without bound");
-  const auto add = [&](const char* name, const EndOfFactor& end) {
-    const std::optional<double> bar = found.settled ? std::optional(end.error) : std::nullopt;
-    analysis.values.emplace_back(name, Value{end.factor, "1", bar, "joints that slip without opening"});
-  };
-  add("collapse_factor_least", found.least);
-  if (!found.unbounded) add("collapse_factor_largest", found.largest);
-  analysis.caveats.push_back(fmt::format(
-      "without dilation: of the lowest mechanism that was found, in {} rounds from loose joints; nothing proves that "
-      "there is no lower one{}",
-      found.rounds, found.settled ? "" : ", and its slips did not settle: take the numbers as estimates"));
-  if (found.unbounded)
-    analysis.caveats.push_back(
-        "without dilation: no factor is the largest, as normal forces between blocks that the loads do not ask for may "
-        "hold any load");
-  else if (found.largest.factor - found.least.factor > found.largest.error + found.least.error)
-    analysis.caveats.push_back(
-        "without dilation: from the least to the largest factor blocks are held by forces that the loads do not ask "
-        "for. Of columns held by their sides the least was right, of toppling slopes the largest; confirm it with "
-        "'voussoir run'");
-  if (found.least.factor < 0)
-    analysis.caveats.push_back(
-        "without dilation: a negative factor means that gravity alone brings blocks down, unless such forces hold "
-        "them");
+  tell_factor_ends(found, analysis);
+  keep_mechanism(std::move(found.state), analysis);
 }
 
 template <int Dim>
@@ -160,14 +139,21 @@ void seek_strength(const LimitRequest& request, const Loads<Dim>& gravity, Limit
   const char* const rule = "bracket by cone programs";
   refuse_unknown_properties(request, analysis.model.properties);
   const std::vector<bool> chosen = faces_of(analysis.assembly, request.properties);
-  CriticalStrength<Dim> found = request.factor ? find_factor_of_safety(analysis.assembly, gravity, chosen)
-                                               : find_critical_friction(analysis.assembly, gravity, chosen);
-  analysis.state = std::move(found.state);
+  const CriticalStrength<Dim> dilating = request.factor ? find_factor_of_safety(analysis.assembly, gravity, chosen)
+                                                        : find_critical_friction(analysis.assembly, gravity, chosen);
+  analysis.state = dilating.state;
   const bool cohesive =
       std::ranges::any_of(analysis.assembly.faces, [](const CornerFace<Dim>& face) { return face.cohesion > 0; });
-  request.factor ? tell_factor_of_safety(request, found, cohesive, rule, analysis)
-                 : tell_friction(request, found, rule, analysis);
-  warn_of_self_stress(found.self_stress, analysis);
+  request.factor ? tell_factor_of_safety(request, dilating, cohesive, rule, analysis)
+                 : tell_friction(request, dilating, rule, analysis);
+  warn_of_self_stress(dilating.self_stress, analysis);
+  const bool sought = dilating.status == LimitStatus::found || dilating.status == LimitStatus::not_attained;
+  if (!request.without_dilation || !sought) return;
+  StrengthWithoutDilation<Dim> found =
+      request.factor ? find_factor_of_safety_without_dilation(analysis.assembly, gravity, chosen, dilating)
+                     : find_critical_friction_without_dilation(analysis.assembly, gravity, chosen, dilating);
+  tell_strength_ends(request, found, analysis);
+  keep_mechanism(std::move(found.state), analysis);
 }
 
 // Forces at corners resist a turn about a face's normal at its largest radius; a spread pressure resists it less.
@@ -253,15 +239,16 @@ LimitAnalysis<Dim> analyse_limit(const LoadedScene& scene, const LimitRequest& r
   else
     seek_strength(request, gravity, analysis);
   const bool empty = analysis.status == LimitStatus::nothing_free || analysis.status == LimitStatus::no_load;
-  if (request.without_dilation && !empty) seek_factor_without_dilation(*live, gravity, analysis);
+  if (live && request.without_dilation && !empty) seek_factor_without_dilation(*live, gravity, analysis);
   tell_envelope(analysis);
   refuse_empty(analysis, model.gravity.isZero(0), analysed);
   if (analysis.status == LimitStatus::solver_failed)
     analysis.message =
         "a cone program lost its digits before its bounds met; blocks of very different size are the "
         "usual cause";
-  analysis.answered =
-      analysis.status == LimitStatus::found || (!request.load && analysis.status == LimitStatus::carries_any);
+  if (!request.without_dilation)
+    analysis.answered =
+        analysis.status == LimitStatus::found || (!request.load && analysis.status == LimitStatus::carries_any);
   analysis.mechanism = describe_mechanism(model, analysis.state.velocities);
   warn_of_twist(analysis);
   return analysis;

@@ -185,10 +185,8 @@ void add_limit(CLI::App& program, Action& action) {
                     "include the cohesion of all joint_properties, also of those that only a stage bonds (those with "
                     "bonds = \"as_sliced\" "
                     "always have theirs); it is plastic, and tension is left out");
-  command
-      ->add_flag("--without-dilation", arguments.without_dilation,
-                 "also the factor of the load for joints that slip without opening, some hundred programs")
-      ->needs(load);
+  command->add_flag("--without-dilation", arguments.without_dilation,
+                    "the answer of joints that slip without opening first: hundreds of programs");
   add_overwrite(command, arguments.overwrite);
   command->add_flag("--quiet", arguments.quiet, "no warnings and no summary");
 }

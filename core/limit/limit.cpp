@@ -2,43 +2,28 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <stdexcept>
 
 #include "core/limit/follow_envelope.hpp"
 #include "core/limit/self_stress.hpp"
 #include "core/limit/shortfall.hpp"
-#include "text/angle.hpp"
+#include "core/limit/strength.hpp"
 
 namespace voussoir {
 namespace {
 
-constexpr double most_of_weight = 1e6;             // a structure that supports more supports any load
-constexpr double roughest = 89 * degree;           // beyond it a cone is a half-space
-constexpr double angle_tolerance = 1e-6 * degree;  // width of the bracket
-constexpr double most_strength = 1000.0 / 1001;    // of s/(1 + s), s the part of the strength that is left
-constexpr double strength_tolerance = 2e-8;
-constexpr double newton_doubt = 0.15;  // times the square of a step: how far its end may be from the root
-constexpr double farther = 4;          // from a predicted root at every trial that stands
-constexpr double jammed = 1e4;         // of the lighter body's weight: forces that no load alone requires
-constexpr double doubt_of_jams = 10;   // tolerances: nearer to the critical strength their forces exceed all digits
-constexpr double stronger = 1.01;      // of the strength: where self-stress is sought
+constexpr double most_of_weight = 1e6;  // a structure that supports more supports any load
+constexpr double newton_doubt = 0.15;   // times the square of a step: how far its end may be from the root
+constexpr double farther = 4;           // from a predicted root at every trial that stands
+constexpr double force_of_jams = 1e4;   // of the lighter body's weight: forces that no load alone requires
+constexpr double doubt_of_jams = 10;    // tolerances: nearer to the critical strength their forces exceed all digits
+constexpr double stronger = 1.01;       // of the strength: where self-stress is sought
 
 template <int Dim>
 bool nothing_free(const CornerAssembly<Dim>& assembly) {
   return std::ranges::none_of(assembly.bodies, &CornerBody<Dim>::moves);
 }
-
-// a measure of strength from 0 up, and its use by faces
-template <int Dim>
-struct Strength {
-  double strongest, tolerance;
-  const std::vector<bool>& chosen;  // faces
-  std::function<void(double at, CornerAssembly<Dim>& trial)> weaken;
-  // the change of what is missing with the measure
-  std::function<double(double at, const std::vector<Sensitivity>& of_faces)> slope;
-};
 
 // The bracket is closed by Newton's method on what is missing, from the collapsing side: to either side of the root
 // that it predicts, by halves where that leads out of the bracket or gains too little.
@@ -95,7 +80,7 @@ CriticalStrength<Dim> bracket_strength(const CornerAssembly<Dim>& assembly, cons
   int stood = 0;  // trials, since one collapsed: the root is then lower than predicted
   bool asked = false;
   while (result.stands - result.collapses > strength.tolerance) {
-    if (!asked && pressing > jammed) {
+    if (!asked && pressing > force_of_jams) {
       asked = true;
       strength.weaken(0, trial);
       if (carried_by_any_friction(trial, loads, strength.chosen))
@@ -147,11 +132,12 @@ LoadFactor<Dim> find_straight_load_factor(const CornerAssembly<Dim>& assembly, c
   const bool grows =
       program.right_side.isZero(0) &&
       std::ranges::none_of(assembly.faces, [](const CornerFace<Dim>& face) { return face.cohesion > 0; });
-  const ConeProgramAnswer answer = grows ? shortfall(assembly, corner_program(assembly, live)).answer : solve(program);
+  const Shortfall lacking = grows ? shortfall(assembly, corner_program(assembly, live)) : Shortfall{solve(program)};
+  const ConeProgramAnswer& answer = lacking.answer;
   ++result.evidence.programs;
   if (answer.status == ConeStatus::stalled || answer.status == ConeStatus::infeasible)
     return result.status = LimitStatus::solver_failed, result;
-  const bool nothing = grows && !Shortfall{answer}.stands();
+  const bool nothing = grows && !lacking.stands();
   if (!nothing && (grows || answer.status == ConeStatus::unbounded || answer.factor >= most_of_weight))
     result.status = LimitStatus::carries_any;
   else if (!nothing)
@@ -190,29 +176,9 @@ CriticalStrength<Dim> find_strength(const CornerAssembly<Dim>& assembly, const L
 template <int Dim>
 CriticalStrength<Dim> find_straight_factor(const CornerAssembly<Dim>& assembly, const Loads<Dim>& loads,
                                            const std::vector<bool>& chosen) {
-  Strength<Dim> strength{most_strength, strength_tolerance, chosen, {}, {}};
-  strength.weaken = [&](double fraction, CornerAssembly<Dim>& trial) {
-    const double left = fraction / (1 - fraction);
-    for (std::size_t f = 0; f < trial.faces.size(); ++f) {
-      if (!chosen[f]) continue;
-      trial.faces[f].friction = std::atan(left * std::tan(assembly.faces[f].friction));
-      trial.faces[f].cohesion = left * assembly.faces[f].cohesion;
-    }
-  };
-  strength.slope = [&](double fraction, const std::vector<Sensitivity>& of_faces) {
-    const double left = fraction / (1 - fraction);
-    double sum = 0;
-    for (std::size_t f = 0; f < of_faces.size(); ++f) {
-      if (!chosen[f]) continue;
-      const double tangent = std::tan(assembly.faces[f].friction), weaker = left * tangent;
-      sum += of_faces[f].friction * tangent / (1 + weaker * weaker);
-      if (left > 0) sum += of_faces[f].cohesion / left;
-    }
-    return sum / ((1 - fraction) * (1 - fraction));
-  };
-  CriticalStrength<Dim> found = find_strength(assembly, loads, strength);
-  for (double* end : {&found.collapses, &found.stands})
-    *end = *end > 0 ? (1 - *end) / *end : std::numeric_limits<double>::infinity();
+  CriticalStrength<Dim> found = find_strength(assembly, loads, remaining_strength(assembly, chosen));
+  found.collapses = factor_at(found.collapses);
+  found.stands = factor_at(found.stands);
   return found;
 }
 
@@ -297,17 +263,7 @@ LoadFactor<Dim> find_load_factor(const CornerAssembly<Dim>& assembly, const Load
 template <int Dim>
 CriticalStrength<Dim> find_critical_friction(const CornerAssembly<Dim>& assembly, const Loads<Dim>& loads,
                                              const std::vector<bool>& chosen) {
-  Strength<Dim> strength{roughest, angle_tolerance, chosen, {}, {}};
-  strength.weaken = [&](double friction, CornerAssembly<Dim>& trial) {
-    for (std::size_t f = 0; f < trial.faces.size(); ++f)
-      if (chosen[f]) trial.faces[f].friction = friction;
-  };
-  strength.slope = [&](double, const std::vector<Sensitivity>& of_faces) {
-    double sum = 0;
-    for (std::size_t f = 0; f < of_faces.size(); ++f)
-      if (chosen[f]) sum += of_faces[f].friction;
-    return sum;
-  };
+  const Strength<Dim> strength = friction_of<Dim>(chosen);
   const RoughCorners<Dim> rough{assembly};
   return FollowEnvelope(rough).repeat(
       rough.on_faces([&](const CornerAssembly<Dim>& trial) { return find_strength(trial, loads, strength); }),

@@ -7,6 +7,7 @@
 
 #include "core/limit/limit.hpp"
 #include "core/limit/mechanism.hpp"
+#include "core/limit/without_dilation.hpp"
 #include "core/scene/scene.hpp"
 #include "core/testing/limit_models.hpp"
 #include "text/angle.hpp"
@@ -363,22 +364,38 @@ double toe_force(double friction) {
   return push;
 }
 
-// Limit equilibrium finds 38.15; with associated flow the slope is stable at 33.4: the limitation of every result.
-TEST(Toppling, ShowsTheErrorOfAssociatedFlow) {
-  EXPECT_GT(toe_force(38.1 * degree), 0);
-  EXPECT_EQ(toe_force(38.2 * degree), 0) << "the geometry is Goodman & Bray's";
+// Limit equilibrium finds 38.15, and so does limit analysis of joints that do not dilate; those that do stand at 33.4.
+TEST(Toppling, OfJointsThatDoNotDilateIsGoodmanAndBrays) {
+  double stands = 38.2 * degree, falls = 38.1 * degree;
+  ASSERT_GT(toe_force(falls), 0);
+  ASSERT_EQ(toe_force(stands), 0) << "the geometry is Goodman & Bray's";
+  for (int k = 0; k < 60; ++k) {
+    const double middle = 0.5 * (stands + falls);
+    (toe_force(middle) > 0 ? falls : stands) = middle;
+  }
 
   const Model<2> model = toppling_slope();
   const CornerAssembly<2> assembly = assembly_of(model);
-  const CriticalStrength<2> found = critical_friction(model);
-  ASSERT_EQ(found.status, LimitStatus::found);
-  EXPECT_NEAR(found.stands / degree, 33.4, 0.05);
+  const CriticalStrength<2> dilating = critical_friction(model);
+  ASSERT_EQ(dilating.status, LimitStatus::found);
+  EXPECT_NEAR(dilating.stands / degree, 33.445414603, 2e-6);
   // the three columns at the toe slide, the next ones up to the crest topple
-  const Mechanism<2> mechanism = describe_mechanism(model, found.state.velocities);
+  const Mechanism<2> mechanism = describe_mechanism(model, dilating.state.velocities);
   ASSERT_EQ(mechanism.moving.size(), 10u);
   for (const BlockMotion<2>& motion : mechanism.moving)
     EXPECT_EQ(motion.rotation_fraction > 1e-3, std::stoi(model.bodies[motion.body].name.substr(7)) > 3);
-  expect_proven(model, assembly, found);
+  expect_proven(model, assembly, dilating);
+
+  const StrengthWithoutDilation<2> found = find_critical_friction_without_dilation(
+      assembly, loads_of_acceleration(model, model.gravity), faces_of(assembly, {}), dilating);
+  ASSERT_EQ(found.status, LimitStatus::found);
+  ASSERT_TRUE(found.weakest && found.strongest);
+  EXPECT_TRUE(found.settled);
+  for (const EndOfFactor& end : {*found.weakest, *found.strongest}) {
+    EXPECT_NEAR(end.factor / degree, stands / degree, 1e-6);
+    EXPECT_LE(std::abs(end.factor - stands), end.error);
+    EXPECT_LE(end.error / degree, 2e-4);
+  }
 }
 
 }  // namespace

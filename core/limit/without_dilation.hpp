@@ -6,6 +6,8 @@
 // mechanism that was found; nothing proves that there is no lower one.
 #pragma once
 
+#include <optional>
+
 #include "core/limit/limit.hpp"
 
 namespace voussoir {
@@ -14,14 +16,17 @@ struct EndOfFactor {
   double factor = 0, error = 0;
 };
 
-template <int Dim>
-struct FactorWithoutDilation {
+struct FactorEnds {
   LimitStatus status = LimitStatus::found;
   bool settled = false;          // the slips agree with the mechanism
   EndOfFactor least, largest;    // of forces that agree with the mechanism
   bool unbounded = false;        // there is no largest: self-stress may hold any load
   int rounds = 0, programs = 0;  // of the fixed points; solved
-  LimitState<Dim> state;         // forces of the least factor, and the mechanism
+};
+
+template <int Dim>
+struct FactorWithoutDilation : FactorEnds {
+  LimitState<Dim> state;  // forces of the least factor, and the mechanism
 };
 
 // Of the live loads, in addition to the dead ones, as find_load_factor; a negative factor: the dead loads alone are not
@@ -29,5 +34,32 @@ struct FactorWithoutDilation {
 template <int Dim>
 FactorWithoutDilation<Dim> find_factor_without_dilation(const CornerAssembly<Dim>& assembly, const Loads<Dim>& dead,
                                                         const Loads<Dim>& live);
+
+// The strength of joints that do not dilate at which loads are just supported: where the largest and where the least
+// factor of a further load in the direction of the mechanism of joints that dilate vanish.
+struct StrengthEnds {
+  LimitStatus status = LimitStatus::found;  // carries_nothing: not even at the strongest
+  bool settled = false;
+  std::optional<EndOfFactor> weakest, strongest;  // friction angle in rad, or factor of safety; none: beyond the range
+  int rounds = 0, programs = 0;
+};
+
+template <int Dim>
+struct StrengthWithoutDilation : StrengthEnds {
+  LimitState<Dim> state;  // at the strongest, or where there is none at the weakest
+};
+
+// `dilating`: what find_critical_friction or find_factor_of_safety found of the same loads and faces: joints that do
+// not dilate need as much strength or more.
+template <int Dim>
+StrengthWithoutDilation<Dim> find_critical_friction_without_dilation(const CornerAssembly<Dim>& assembly,
+                                                                     const Loads<Dim>& loads,
+                                                                     const std::vector<bool>& chosen,
+                                                                     const CriticalStrength<Dim>& dilating);
+template <int Dim>
+StrengthWithoutDilation<Dim> find_factor_of_safety_without_dilation(const CornerAssembly<Dim>& assembly,
+                                                                    const Loads<Dim>& loads,
+                                                                    const std::vector<bool>& chosen,
+                                                                    const CriticalStrength<Dim>& dilating);
 
 }  // namespace voussoir

@@ -82,6 +82,38 @@ TEST(WithoutDilation, ADrawerFalls) {
   EXPECT_NEAR(found.least.factor, -1, 1e-6);
 }
 
+// Hoek & Bray's closed form, whether the wedge may turn or not; joints that dilate need 25.807 and 12.199 degrees.
+TEST(WithoutDilation, FrictionOfWedges) {
+  struct Shape {
+    double plunge, half, face, friction;
+  };
+  for (const Shape& shape : {Shape{38, 45, 70, 28.918559285}, {25, 30, 60, 13.124268123}})
+    for (const bool turns : {false, true}) {
+      const auto planes = symmetric(shape.plunge, shape.half);
+      const CornerScene scene = wedge(planes[0], planes[1], Plane{shape.face, 0}.normal(), 30, turns);
+      const std::vector<bool> all(scene.assembly.faces.size(), true);
+      const StrengthWithoutDilation<3> found =
+          find_critical_friction_without_dilation(scene.assembly, scene.dead, all, scene.friction());
+      ASSERT_TRUE(found.weakest && found.strongest);
+      EXPECT_TRUE(found.settled);
+      for (const EndOfFactor& end : {*found.weakest, *found.strongest}) {
+        EXPECT_NEAR(to_degrees(end.factor), shape.friction, 1e-5);
+        EXPECT_LE(std::abs(to_degrees(end.factor) - shape.friction), to_degrees(end.error));
+      }
+      const CriticalStrength<3> dilating = find_factor_of_safety(scene.assembly, scene.dead, all);
+      const StrengthWithoutDilation<3> factor =
+          find_factor_of_safety_without_dilation(scene.assembly, scene.dead, all, dilating);
+      ASSERT_TRUE(factor.weakest && factor.strongest);
+      const double exact = std::tan(30 * degree) / std::tan(shape.friction * degree);
+      EXPECT_NEAR(factor.strongest->factor, exact, 1e-6);
+      EXPECT_LE(std::abs(factor.strongest->factor - exact), factor.strongest->error);
+    }
+  // no friction supports a drawer without forces that it does not ask for; with them any does
+  const CornerScene walls = drawer();
+  EXPECT_FALSE(
+      find_critical_friction_without_dilation(walls.assembly, walls.dead, {true, true}, walls.friction()).strongest);
+}
+
 TEST(WithoutDilation, HasNothingToFind) {
   CornerScene scene;
   EXPECT_EQ(find_factor_without_dilation(scene.assembly, scene.dead, scene.live).status, LimitStatus::nothing_free);

@@ -1,0 +1,126 @@
+#include "app/limit/without_dilation_words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "text/angle.hpp"
+
+namespace voussoir {
+namespace {
+
+const char* const rule_of_ends = "joints that slip without opening";
+constexpr double one_number = 0.01;  // of the ends: the plain name then holds their mean
+
+// of NAME: what joints that dilate carry, under another name
+void rename_bound(const std::string& name, const char* bound, LimitAnswer& answer) {
+  for (auto& [known, value] : answer.values)
+    if (known == name) {
+      known = name + bound;
+      value.divides.clear();
+    }
+}
+
+struct NamedEnds {
+  std::string name, unit;
+  std::optional<EndOfFactor> least, largest;
+  bool settled;
+};
+
+// in front of all other values
+void add_ends(const NamedEnds& ends, LimitAnswer& answer) {
+  std::vector<std::pair<std::string, Value>> first;
+  const auto add = [&](const std::string& name, double value, double error) {
+    const std::optional<double> bar = ends.settled ? std::optional(error) : std::nullopt;
+    first.emplace_back(name, Value{value, ends.unit, bar, rule_of_ends});
+  };
+  answer.answered = false;
+  if (ends.least && ends.largest) {
+    const double apart = ends.largest->factor - ends.least->factor,
+                 mean = 0.5 * (ends.least->factor + ends.largest->factor),
+                 error = std::max(ends.least->error, ends.largest->error);
+    if (std::abs(apart) <= std::max(one_number * std::abs(mean), error))
+      add(ends.name, mean, 0.5 * std::abs(apart) + error);
+    answer.answered = ends.settled && std::abs(apart) <= ends.least->error + ends.largest->error;
+  }
+  if (ends.least) add(ends.name + "_least", ends.least->factor, ends.least->error);
+  if (ends.largest) add(ends.name + "_largest", ends.largest->factor, ends.largest->error);
+  answer.values.insert(answer.values.begin(), first.begin(), first.end());
+}
+
+void tell_how(int rounds, bool settled, LimitAnswer& answer) {
+  answer.caveats.push_back(fmt::format(
+      "without dilation: of the lowest mechanism that was found, in {} rounds from loose joints; nothing proves that "
+      "there is no lower one{}",
+      rounds, settled ? "" : ", and its slips did not settle: take the numbers as estimates"));
+}
+
+const char* const held_between =
+    "without dilation: from the least to the largest blocks are held by forces that the loads do not ask for. Of "
+    "columns "
+    "held by their sides the end that is less favourable was right, of toppling slopes the other; confirm it with "
+    "'voussoir run'";
+
+}  // namespace
+
+void tell_factor_ends(const FactorEnds& found, LimitAnswer& answer) {
+  answer.evidence.programs += found.programs;
+  rename_bound("collapse_factor", "_upper_bound", answer);
+  answer.answered = false;
+  if (found.status == LimitStatus::carries_any) {
+    answer.caveats.push_back("without dilation: normal forces alone, without friction, carry any factor");
+    return;
+  }
+  if (found.status != LimitStatus::found) {
+    answer.caveats.push_back("without dilation: no mechanism was found, as forces grow without bound");
+    return;
+  }
+  add_ends({"collapse_factor", "1", found.least, found.unbounded ? std::nullopt : std::optional(found.largest),
+            found.settled},
+           answer);
+  tell_how(found.rounds, found.settled, answer);
+  if (found.unbounded)
+    answer.caveats.push_back(
+        "without dilation: no factor is the largest, as normal forces between blocks that the loads do not ask for may "
+        "hold any load");
+  else if (found.largest.factor - found.least.factor > found.largest.error + found.least.error)
+    answer.caveats.push_back(held_between);
+  if (found.least.factor < 0)
+    answer.caveats.push_back(
+        "without dilation: a negative factor means that gravity alone brings blocks down, unless such forces hold "
+        "them");
+}
+
+void tell_strength_ends(const LimitRequest& request, const StrengthEnds& found, LimitAnswer& answer) {
+  answer.evidence.programs += found.programs;
+  const std::string name = request.factor ? "factor_of_safety" : "critical_friction";
+  rename_bound(name, request.factor ? "_upper_bound" : "_lower_bound", answer);
+  answer.answered = false;
+  answer.message.clear();
+  if (!found.strongest)
+    answer.message =
+        request.factor
+            ? "not even a thousand times the strength is enough without dilation, unless forces that the loads do not "
+              "ask for hold blocks"
+            : "no friction up to 89 degrees is enough without dilation, unless forces that the loads do not ask for "
+              "hold "
+              "blocks";
+  if (found.status == LimitStatus::carries_nothing) return tell_how(found.rounds, found.settled, answer);
+  if (found.status != LimitStatus::found) {
+    answer.caveats.push_back("without dilation: no mechanism was found, as forces grow without bound");
+    return;
+  }
+  const auto in_degrees = [](std::optional<EndOfFactor> end) {
+    if (end) end = EndOfFactor{to_degrees(end->factor), to_degrees(end->error)};
+    return end;
+  };
+  if (request.factor)
+    add_ends({name, "1", found.strongest, found.weakest, found.settled}, answer);
+  else
+    add_ends({name, "deg", in_degrees(found.weakest), in_degrees(found.strongest), found.settled}, answer);
+  tell_how(found.rounds, found.settled, answer);
+  if (!answer.answered && found.strongest) answer.caveats.push_back(held_between);
+}
+
+}  // namespace voussoir

@@ -1,0 +1,166 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/limit/strength.hpp"
+#include "core/limit/without_dilation.hpp"
+
+namespace voussoir {
+namespace {
+
+constexpr double first_step = 0.01;  // of the range of the measure: from what joints that dilate need
+constexpr double longer = 2.5;       // each further step
+constexpr int most_trials_of_an_end = 25;
+constexpr double accurate = 3;  // times a factor's error: a trial whose factor is nearer to zero is the root
+
+// factors at a strength
+struct TrialWithoutDilation {
+  double at = 0;
+  EndOfFactor least, largest;  // infinite where forces grow without bound
+  bool settled = true;
+};
+
+// a load on every body along the mechanism's momentum, as large as its weight
+template <int Dim>
+Loads<Dim> load_along(const CornerAssembly<Dim>& assembly, const std::vector<BodyVelocity<Dim>>& velocities) {
+  Vector<Dim> momentum = Vector<Dim>::Zero();
+  for (std::size_t b = 0; b < velocities.size(); ++b)
+    if (assembly.bodies[b].moves()) momentum += assembly.bodies[b].weight * velocities[b].velocity;
+  Loads<Dim> loads(assembly.bodies.size());
+  if (momentum.norm() > 0)
+    for (std::size_t b = 0; b < loads.size(); ++b)
+      if (assembly.bodies[b].moves()) loads[b].force = assembly.bodies[b].weight * momentum.normalized();
+  return loads;
+}
+
+template <int Dim>
+class SearchWithoutDilation {
+ public:
+  SearchWithoutDilation(const CornerAssembly<Dim>& assembly, const Loads<Dim>& loads, const Strength<Dim>& strength,
+                        const CriticalStrength<Dim>& dilating, double needed)
+      : trial_(assembly),
+        loads_(loads),
+        live_(load_along(assembly, dilating.state.velocities)),
+        strength_(strength),
+        needed_(needed) {}
+
+  StrengthWithoutDilation<Dim> find() {
+    const bool driven = std::ranges::any_of(live_, [](const Load<Dim>& load) { return !load.force.isZero(0); });
+    if (!driven) return result_.status = LimitStatus::carries_nothing, result_;
+    if (!add(needed_)) return result_;
+    for (double step = first_step * strength_.strongest; trials_.back().least.factor < 0; step *= longer) {
+      const double next = std::min(needed_ + step, strength_.strongest);
+      if (!add(next)) return result_;
+      if (next == strength_.strongest) break;
+    }
+    result_.weakest = root_of(&TrialWithoutDilation::largest);
+    result_.strongest = root_of(&TrialWithoutDilation::least);
+    result_.settled = std::ranges::all_of(trials_, &TrialWithoutDilation::settled);
+    if (!result_.weakest && !result_.strongest) result_.status = LimitStatus::carries_nothing;
+    return result_;
+  }
+
+ private:
+  // solves at a strength; false: no mechanism was found there
+  bool add(double at) {
+    strength_.weaken(at, trial_);
+    FactorWithoutDilation<Dim> found = find_factor_without_dilation(trial_, loads_, live_);
+    result_.rounds += found.rounds;
+    result_.programs += found.programs;
+    constexpr EndOfFactor unbounded{std::numeric_limits<double>::infinity(), 0};
+    TrialWithoutDilation trial{at, found.least, found.unbounded ? unbounded : found.largest, found.settled};
+    if (found.status == LimitStatus::carries_any)
+      trial = {at, unbounded, unbounded, true};
+    else if (found.status != LimitStatus::found)
+      return result_.status = found.status, false;
+    if (trials_.empty() || trial.least.factor <= 0) result_.state = std::move(found.state);
+    trials_.push_back(trial);
+    std::ranges::sort(trials_, {}, &TrialWithoutDilation::at);
+    return true;
+  }
+
+  // Where an end of the factor vanishes, by the rule of false position with halved ordinates (Illinois) between the
+  // trials on either side.
+  std::optional<EndOfFactor> root_of(EndOfFactor TrialWithoutDilation::*end) {
+    double halved_low = 1, halved_high = 1;
+    int last_side = 0;
+    for (int k = 0; k < most_trials_of_an_end; ++k) {
+      const auto above = std::ranges::find_if(trials_, [&](const auto& trial) { return (trial.*end).factor > 0; });
+      if (above == trials_.end()) return {};
+      if (above == trials_.begin()) return EndOfFactor{above->at, strength_.tolerance};  // as joints that dilate
+      const TrialWithoutDilation low = *(above - 1), high = *above;
+      const EndOfFactor at_low = low.*end, at_high = high.*end;
+      const double width = high.at - low.at;
+      double next = low.at + 0.5 * width;
+      if (std::isfinite(at_high.factor)) {
+        const double slope = (at_high.factor - at_low.factor) / width, root = low.at - at_low.factor / slope;
+        const bool near_low = -at_low.factor <= accurate * at_low.error,
+                   near_high = at_high.factor <= accurate * at_high.error;
+        if (near_low || near_high || width <= strength_.tolerance)
+          return EndOfFactor{root, strength_.tolerance + std::min(width, (at_low.error + at_high.error) / slope +
+                                                                             std::min(root - low.at, high.at - root))};
+        const double weighted = halved_low * at_low.factor, other = halved_high * at_high.factor;
+        next = low.at - weighted * width / (other - weighted);
+      } else if (width <= strength_.tolerance) {
+        return EndOfFactor{next, width};
+      }
+      if (!add(std::clamp(next, low.at + 0.01 * width, high.at - 0.01 * width))) return {};
+      const auto added = std::ranges::find_if(trials_, [&](const auto& trial) { return trial.at > low.at; });
+      const int side = ((*added).*end).factor > 0 ? 1 : -1;
+      halved_low = side == 1 && last_side == 1 ? 0.5 * halved_low : 1;
+      halved_high = side == -1 && last_side == -1 ? 0.5 * halved_high : 1;
+      last_side = side;
+    }
+    return {};
+  }
+
+  CornerAssembly<Dim> trial_;
+  const Loads<Dim>& loads_;
+  Loads<Dim> live_;
+  const Strength<Dim>& strength_;
+  double needed_;
+  std::vector<TrialWithoutDilation> trials_;  // by strength
+  StrengthWithoutDilation<Dim> result_;
+};
+
+}  // namespace
+
+template <int Dim>
+StrengthWithoutDilation<Dim> find_critical_friction_without_dilation(const CornerAssembly<Dim>& assembly,
+                                                                     const Loads<Dim>& loads,
+                                                                     const std::vector<bool>& chosen,
+                                                                     const CriticalStrength<Dim>& dilating) {
+  const Strength<Dim> strength = friction_of<Dim>(chosen);
+  return SearchWithoutDilation<Dim>(assembly, loads, strength, dilating, dilating.collapses).find();
+}
+
+template <int Dim>
+StrengthWithoutDilation<Dim> find_factor_of_safety_without_dilation(const CornerAssembly<Dim>& assembly,
+                                                                    const Loads<Dim>& loads,
+                                                                    const std::vector<bool>& chosen,
+                                                                    const CriticalStrength<Dim>& dilating) {
+  const Strength<Dim> strength = remaining_strength(assembly, chosen);
+  StrengthWithoutDilation<Dim> found =
+      SearchWithoutDilation<Dim>(assembly, loads, strength, dilating, 1 / (1 + dilating.collapses)).find();
+  for (std::optional<EndOfFactor>* end : {&found.weakest, &found.strongest})
+    if (*end) {
+      const double factor = factor_at((*end)->factor);
+      *end = EndOfFactor{factor, (*end)->error * (1 + factor) * (1 + factor)};
+    }
+  return found;
+}
+
+template StrengthWithoutDilation<2> find_critical_friction_without_dilation(const CornerAssembly<2>&, const Loads<2>&,
+                                                                            const std::vector<bool>&,
+                                                                            const CriticalStrength<2>&);
+template StrengthWithoutDilation<3> find_critical_friction_without_dilation(const CornerAssembly<3>&, const Loads<3>&,
+                                                                            const std::vector<bool>&,
+                                                                            const CriticalStrength<3>&);
+template StrengthWithoutDilation<2> find_factor_of_safety_without_dilation(const CornerAssembly<2>&, const Loads<2>&,
+                                                                           const std::vector<bool>&,
+                                                                           const CriticalStrength<2>&);
+template StrengthWithoutDilation<3> find_factor_of_safety_without_dilation(const CornerAssembly<3>&, const Loads<3>&,
+                                                                           const std::vector<bool>&,
+                                                                           const CriticalStrength<3>&);
+
+}  // namespace voussoir
