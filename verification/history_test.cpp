@@ -46,7 +46,7 @@ TEST_F(History, IsReadInTheOrderOfVersions) {
   EXPECT_EQ(history[0].version, "0.9.0");
   EXPECT_EQ(history[1].version, "0.10.0");
   EXPECT_EQ(history[1].math_functions, "abc");
-  EXPECT_EQ(math_functions_in("voussoir 1\nglpk            yes\nmath functions  0abc, a hash of\n"), "0abc");
+  EXPECT_EQ(math_functions_in("voussoir 1\nfast_arithmetic no\nmath functions  0abc, a hash of\n"), "0abc");
   EXPECT_EQ(math_functions_in("voussoir 1\n"), "");
   EXPECT_EQ(history[1].rows.size(), 3u);
   EXPECT_DOUBLE_EQ(*history[1].rows[0].error, 30.02 - 30.0);
