@@ -25,6 +25,7 @@ struct LimitAnswer {
   std::string sought;  // "critical friction angle of all joints", "factor of safety of all joints", …
   LimitStatus status = LimitStatus::found;
   bool answered = false;  // a value was found, that no friction is needed included
+  bool enclosed = false;  // without dilation: both ends of an interval were found
   std::string message;    // the reason and the repair if no value was found, or the meaning of the value; else empty
   std::string bound;      // what the value bounds where joints do not dilate
   std::vector<std::string> caveats;  // limitations of any result, and of this one

@@ -42,6 +42,7 @@ void add_ends(const NamedEnds& ends, LimitAnswer& answer) {
                  error = std::max(ends.least->error, ends.largest->error);
     if (std::abs(apart) <= std::max(one_number * std::abs(mean), error))
       add(ends.name, mean, 0.5 * std::abs(apart) + error);
+    answer.enclosed = ends.settled;
     answer.answered = ends.settled && std::abs(apart) <= ends.least->error + ends.largest->error;
   }
   if (ends.least) add(ends.name + "_least", ends.least->factor, ends.least->error);

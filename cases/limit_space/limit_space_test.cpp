@@ -141,7 +141,7 @@ TEST(LimitSpace, WedgesArePushedOut) {
 TEST(LimitSpace, BlocksOnInclinesSlideOrTopple) {
   CaseReport report("limit_space");
   struct Push {
-    reference::InclinedBlock block;
+    reference::BlockPushedOnIncline block;
     double azimuth;
   };
   for (const Push& push : {Push{{1, 1, 0.5, 20 * degree, 35 * degree}, 0},

@@ -60,14 +60,18 @@ struct BodyVelocity {
   Spin<Dim> spin = Spin<Dim>::Zero();          // 1/m
 };
 
+// Loads on each body, by id, in the reference configuration.
+template <int Dim>
+using Loads = std::vector<Load<Dim>>;
+
 template <int Dim>
 using CornerProgram = ConeProgram<freedoms<Dim>, Dim>;
 
 // Equilibrium under dead loads (by body): of every corner a cone of friction and, where there is cohesion, one of a
 // given size for it. `live` without loads: none.
 template <int Dim>
-CornerProgram<Dim> corner_program(const CornerAssembly<Dim>& assembly, const std::vector<Load<Dim>>& dead,
-                                  const std::vector<Load<Dim>>& live = {});
+CornerProgram<Dim> corner_program(const CornerAssembly<Dim>& assembly, const Loads<Dim>& dead,
+                                  const Loads<Dim>& live = {});
 
 // sin φ of every cone of friction, in the program's order; 0 of those of cohesion
 template <int Dim>

@@ -20,9 +20,6 @@ struct LimitState {
   std::vector<BodyVelocity<Dim>> velocities;  // by body; zero for fixed ones; all zero if nothing collapses
 };
 
-// Loads on each body, by id, in the reference configuration.
-template <int Dim>
-using Loads = std::vector<Load<Dim>>;
 template <int Dim>
 Loads<Dim> loads_of_acceleration(const Model<Dim>& model, const Vector<Dim>& acceleration);  // m/s²
 template <int Dim>

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/limit/limit.hpp"
+#include "core/limit/corner_cones.hpp"
 
 namespace voussoir {
 

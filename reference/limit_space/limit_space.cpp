@@ -66,7 +66,7 @@ std::optional<double> plain_push(const Wedge& wedge, const Vector3& direction, d
   return push(needed, friction);
 }
 
-double push_on_incline(const InclinedBlock& block, double azimuth) {
+double push_on_incline(const BlockPushedOnIncline& block, double azimuth) {
   const double s = std::sin(block.dip), c = std::cos(block.dip);
   const auto fails = [&](double factor) {
     const double down = s + factor * c * std::cos(azimuth), aside = factor * std::sin(azimuth),

@@ -24,11 +24,11 @@ std::optional<double> plain_push(const Wedge& wedge, const Vector3& direction, d
 // A block `along` x `across` x `height` on a plane that dips by `dip`, pushed by an acceleration (fraction of gravity),
 // horizontal, at the angle `azimuth` from the dip direction: it slides, or topples about one of its four edges. The
 // least positive factor; with and without dilation alike.
-struct InclinedBlock {
+struct BlockPushedOnIncline {
   double along = 1, across = 1, height = 1;
   double dip = 0, friction = 0;
 };
-double push_on_incline(const InclinedBlock& block, double azimuth);
+double push_on_incline(const BlockPushedOnIncline& block, double azimuth);
 
 // A wall in running bond on a rigid floor, `courses` of `bricks` of length x height, half bricks at the ends of every
 // other course, pushed in its plane: the bricks from one brick of a course up to the free end, and all that rest on
