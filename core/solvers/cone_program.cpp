@@ -21,6 +21,7 @@ constexpr double least_step = 1e-9;
 constexpr double own_ridge = 1e-15;      // of each row's own diagonal: light bodies keep their digits
 constexpr double refined_error = 1e-15;  // of a direction
 constexpr int most_refinements = 4;
+constexpr int most_conjugate_steps = 8;
 
 // numbers by cone, by its given head, by body, and of the load
 struct Multipliers {
@@ -36,6 +37,7 @@ class Embedding {
 
  private:
   using Numbers = Vector<Width>;
+  using Algebra = ConeAlgebra<Width>;
   struct Point {
     Eigen::VectorXd x, s;
     Multipliers dual;  // its load: λ's own value
@@ -48,24 +50,27 @@ class Embedding {
 
   auto part(Eigen::VectorXd& x, int i) const { return x.template segment<Width>(Width * i); }
   auto part(const Eigen::VectorXd& x, int i) const { return x.template segment<Width>(Width * i); }
-  bool given(int i) const { return program.cones[i].head > 0; }
+  bool given(int i) const { return heads[i] > 0; }
+  double head(const Eigen::VectorXd& x, int i) const { return Algebra::head().dot(part(x, i)); }
 
   Eigen::VectorXd forces(const Eigen::VectorXd& x) const;      // A x
   Eigen::VectorXd velocities(const Eigen::VectorXd& y) const;  // A' y
   Eigen::VectorXd velocities(const Multipliers& dual) const;   // A' y, and the heads'
   Eigen::VectorXd scaled(const Eigen::VectorXd& x) const;      // W² x
+  Eigen::VectorXd reduced(const Eigen::VectorXd& x) const;     // of it what heads that are given leave
   double cost_of(const Eigen::VectorXd& x) const;              // c' x
   double right_of(const Multipliers& dual) const;              // b' y
   Residuals residuals(const Point& at) const;
   bool factorise(const Point& at);
-  Multipliers solve_normal(Eigen::VectorXd balance, const Eigen::VectorXd& heads) const;
+  Eigen::VectorXd solve_balance(const Eigen::VectorXd& right) const;
+  Multipliers solve_normal(const Eigen::VectorXd& balance, const Eigen::VectorXd& heads) const;
   Multipliers solve_system(const Eigen::VectorXd& balance, const Eigen::VectorXd& heads, double load) const;
   Point direction(const Point& at, const Residuals& of, const Eigen::VectorXd& q, double of_tau, double weight) const;
   double step(const Point& at, const Point& direction) const;
   bool inside(const Point& at) const;
   void judge(const Point& at, const Residuals& of, ConeProgramAnswer& answer) const;
 
-  const ConeProgram<Freedoms, Width>& program;
+  const ConeProgram<Freedoms, Width> program;  // in the algebra's own numbers
   int count, bodies;
   bool has_load;
   BlockMatrix<Freedoms> normal;
@@ -77,7 +82,8 @@ class Embedding {
 
   // of an iteration
   std::vector<ConeScaling<Width>> scaling;
-  Multipliers of_live, of_tau;  // M⁻¹ of the load, and the system's answer to τ
+  std::vector<Numbers> of_head;  // of given heads: W² h / h·W² h
+  Multipliers of_live, of_tau;   // M⁻¹ of the load, and the system's answer to τ
   double live_power = 0, tau_pivot = 0;
 };
 
@@ -93,8 +99,17 @@ BlockMatrix<Freedoms> normal_pattern(const ConeProgram<Freedoms, Width>& program
 }
 
 template <int Freedoms, int Width>
+ConeProgram<Freedoms, Width> in_own_numbers(ConeProgram<Freedoms, Width> program) {
+  for (ForceCone<Freedoms, Width>& cone : program.cones)
+    for (auto* on : {&cone.on_a, &cone.on_b})
+      for (int row = 0; row < Freedoms; ++row)
+        on->row(row) = ConeAlgebra<Width>::own(on->row(row).transpose()).transpose().eval();
+  return program;
+}
+
+template <int Freedoms, int Width>
 Embedding<Freedoms, Width>::Embedding(const ConeProgram<Freedoms, Width>& of_program)
-    : program(of_program),
+    : program(in_own_numbers(of_program)),
       count(static_cast<int>(program.cones.size())),
       bodies(static_cast<int>(program.right_side.size()) / Freedoms),
       has_load((program.live.array() != 0).any()),
@@ -103,7 +118,8 @@ Embedding<Freedoms, Width>::Embedding(const ConeProgram<Freedoms, Width>& of_pro
       factors(plan, true),
       cost(Eigen::VectorXd::Zero(Width * count)),
       heads(Eigen::VectorXd::Zero(count)),
-      scaling(count) {
+      scaling(count),
+      of_head(count) {
   for (int i = 0; i < count; ++i) {
     const ForceCone<Freedoms, Width>& cone = program.cones[i];
     const int a = cone.body_a, b = cone.body_b;
@@ -112,12 +128,13 @@ Embedding<Freedoms, Width>::Embedding(const ConeProgram<Freedoms, Width>& of_pro
     };
     places.push_back({a < 0 ? -1 : place(a, a), b < 0 ? -1 : place(b, b),
                       a < 0 || b < 0 ? -1 : place(std::max(a, b), std::min(a, b))});
-    cost[Width * i] = cone.cost;
+    part(cost, i) = cone.cost * Algebra::head();
     heads[i] = cone.head;
   }
   size_of_right +=
       std::max(program.right_side.size() ? program.right_side.cwiseAbs().maxCoeff() : 0, count ? heads.maxCoeff() : 0);
-  size_of_cost += count ? cost.cwiseAbs().maxCoeff() : 0;
+  for (const ForceCone<Freedoms, Width>& cone : program.cones)
+    size_of_cost = std::max(size_of_cost, 1 + std::abs(cone.cost));
 }
 
 template <int Freedoms, int Width>
@@ -148,7 +165,7 @@ template <int Freedoms, int Width>
 Eigen::VectorXd Embedding<Freedoms, Width>::velocities(const Multipliers& dual) const {
   Eigen::VectorXd all = velocities(dual.y);
   for (int i = 0; i < count; ++i)
-    if (given(i)) all[Width * i] += dual.heads[i];
+    if (given(i)) part(all, i) += dual.heads[i] * Algebra::head();
   return all;
 }
 
@@ -157,6 +174,14 @@ Eigen::VectorXd Embedding<Freedoms, Width>::scaled(const Eigen::VectorXd& x) con
   Eigen::VectorXd all(x.size());
   for (int i = 0; i < count; ++i)
     part(all, i).noalias() = scaling[i].square * part(x, i);
+  return all;
+}
+
+template <int Freedoms, int Width>
+Eigen::VectorXd Embedding<Freedoms, Width>::reduced(const Eigen::VectorXd& x) const {
+  Eigen::VectorXd all = scaled(x);
+  for (int i = 0; i < count; ++i)
+    if (given(i)) part(all, i) -= of_head[i] * head(all, i);
   return all;
 }
 
@@ -177,7 +202,7 @@ typename Embedding<Freedoms, Width>::Residuals Embedding<Freedoms, Width>::resid
   of.dual = cost * at.tau - velocities(at.dual) - at.s;
   of.heads = Eigen::VectorXd::Zero(count);
   for (int i = 0; i < count; ++i)
-    if (given(i)) of.heads[i] = heads[i] * at.tau - at.x[Width * i];
+    if (given(i)) of.heads[i] = heads[i] * at.tau - head(at.x, i);
   of.load = has_load ? -at.tau - program.live.dot(at.dual.y) : 0;
   of.gap = at.kappa + cost_of(at.x) - (has_load ? at.dual.load : 0) - right_of(at.dual);
   return of;
@@ -190,9 +215,13 @@ bool Embedding<Freedoms, Width>::factorise(const Point& at) {
   for (Block& block : normal.blocks)
     block.setZero();
   for (int i = 0; i < count; ++i) {
-    scaling[i] = ConeScaling<Width>(part(at.x, i), part(at.s, i));
+    scaling[i] = Algebra::scaling(part(at.x, i), part(at.s, i));
     Matrix<Width> square = scaling[i].square;
-    if (given(i)) square -= (square.col(0) * square.row(0) / square(0, 0)).eval();
+    if (given(i)) {
+      const Numbers weighted = square * Algebra::head();
+      of_head[i] = weighted / Algebra::head().dot(weighted);
+      square -= (of_head[i] * weighted.transpose()).eval();
+    }
     const ForceCone<Freedoms, Width>& cone = program.cones[i];
     const FixedMatrix<Freedoms, Width> of_a = cone.on_a * square, of_b = cone.on_b * square;
     if (cone.body_a >= 0) normal.blocks[places[i][0]].noalias() += of_a * cone.on_a.transpose();
@@ -218,8 +247,8 @@ bool Embedding<Freedoms, Width>::factorise(const Point& at) {
   Eigen::VectorXd more_heads = none, fewer_heads = none;
   for (int i = 0; i < count; ++i)
     if (given(i)) {
-      more_heads[i] = heads[i] + scaled_cost[Width * i];
-      fewer_heads[i] = heads[i] - scaled_cost[Width * i];
+      more_heads[i] = heads[i] + head(scaled_cost, i);
+      fewer_heads[i] = heads[i] - head(scaled_cost, i);
     }
   const Eigen::VectorXd of_cost = forces(scaled_cost);
   of_tau = solve_system(program.right_side + of_cost, more_heads, has_load ? -1 : 0);
@@ -228,32 +257,51 @@ bool Embedding<Freedoms, Width>::factorise(const Point& at) {
   return true;
 }
 
-// M⁻¹, with the heads eliminated; once refined_error
+// M⁻¹ by conjugate gradients, preconditioned by the factors: one step where these are exact, and one more for each
+// pivot that rounding has spoilt.
 template <int Freedoms, int Width>
-Multipliers Embedding<Freedoms, Width>::solve_normal(Eigen::VectorXd balance, const Eigen::VectorXd& of_heads) const {
-  Multipliers sum{Eigen::VectorXd::Zero(balance.size()), Eigen::VectorXd::Zero(count), 0};
-  Eigen::VectorXd left_heads = of_heads;
-  for (int round = 0; round < 2; ++round) {
-    Eigen::VectorXd right = balance, given_away = Eigen::VectorXd::Zero(Width * count);
-    for (int i = 0; i < count; ++i)
-      if (given(i)) part(given_away, i) = scaling[i].square.col(0) * (left_heads[i] / scaling[i].square(0, 0));
-    if (heads.any()) right -= forces(given_away);
-    Multipliers more{factors.solve(right), Eigen::VectorXd::Zero(count), 0};
-    const Eigen::VectorXd speeds = velocities(more.y);
-    for (int i = 0; i < count; ++i)
-      if (given(i)) {
-        const Matrix<Width>& square = scaling[i].square;
-        more.heads[i] = (left_heads[i] - square.col(0).dot(part(speeds, i))) / square(0, 0);
-      }
-    sum.y += more.y;
-    sum.heads += more.heads;
-    if (round > 0) break;
-    const Eigen::VectorXd carried = scaled(velocities(more));
-    balance -= forces(carried);
-    for (int i = 0; i < count; ++i)
-      if (given(i)) left_heads[i] -= carried[Width * i];
+Eigen::VectorXd Embedding<Freedoms, Width>::solve_balance(const Eigen::VectorXd& right) const {
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(right.size()), left = right;
+  const double enough = refined_error * (right.size() ? right.cwiseAbs().maxCoeff() : 0);
+  Eigen::VectorXd towards, aim = factors.solve(left);
+  double slope = left.dot(aim);
+  for (int step = 0; step < most_conjugate_steps && slope > 0; ++step) {
+    if (step == 0) towards = aim;
+    const Eigen::VectorXd change = forces(reduced(velocities(towards)));
+    const double curvature = towards.dot(change);
+    if (!(curvature > 0)) break;
+    const double length = slope / curvature;
+    y += length * towards;
+    left -= length * change;
+    if (left.cwiseAbs().maxCoeff() <= enough) break;
+    aim = factors.solve(left);
+    const double before = slope;
+    slope = left.dot(aim);
+    towards = aim + (slope / before) * towards;
   }
-  return sum;
+  return y;
+}
+
+// of M and the given heads, which are eliminated
+template <int Freedoms, int Width>
+Multipliers Embedding<Freedoms, Width>::solve_normal(const Eigen::VectorXd& balance,
+                                                     const Eigen::VectorXd& of_heads) const {
+  Eigen::VectorXd right = balance;
+  if (heads.any()) {
+    Eigen::VectorXd given_away = Eigen::VectorXd::Zero(Width * count);
+    for (int i = 0; i < count; ++i)
+      if (given(i)) part(given_away, i) = of_head[i] * of_heads[i];
+    right -= forces(given_away);
+  }
+  Multipliers answer{solve_balance(right), Eigen::VectorXd::Zero(count), 0};
+  if (!heads.any()) return answer;
+  const Eigen::VectorXd speeds = velocities(answer.y);
+  for (int i = 0; i < count; ++i)
+    if (given(i)) {
+      const Numbers weighted = scaling[i].square * Algebra::head();
+      answer.heads[i] = of_heads[i] / Algebra::head().dot(weighted) - of_head[i].dot(part(speeds, i));
+    }
+  return answer;
 }
 
 // of [M live; live' 0]
@@ -282,8 +330,8 @@ typename Embedding<Freedoms, Width>::Point Embedding<Freedoms, Width>::direction
   Eigen::VectorXd of_heads = Eigen::VectorXd::Zero(count), fewer_heads = of_heads;
   for (int i = 0; i < count; ++i)
     if (given(i)) {
-      of_heads[i] = weight * of.heads[i] - aim[Width * i];
-      fewer_heads[i] = heads[i] - scaled_cost[Width * i];
+      of_heads[i] = weight * of.heads[i] - head(aim, i);
+      fewer_heads[i] = heads[i] - head(scaled_cost, i);
     }
   const Multipliers first = solve_system(weight * of.balance - forces(aim), of_heads, weight * of.load);
   Point step;
@@ -300,7 +348,7 @@ typename Embedding<Freedoms, Width>::Point Embedding<Freedoms, Width>::direction
         weight * of.balance - forces(step.x) - program.live * step.dual.load + program.right_side * step.tau;
     Eigen::VectorXd left_heads = Eigen::VectorXd::Zero(count);
     for (int i = 0; i < count; ++i)
-      if (given(i)) left_heads[i] = weight * of.heads[i] - step.x[Width * i] + heads[i] * step.tau;
+      if (given(i)) left_heads[i] = weight * of.heads[i] - head(step.x, i) + heads[i] * step.tau;
     const double load = has_load ? weight * of.load - program.live.dot(step.dual.y) - step.tau : 0;
     const double largest = std::max({balance.size() ? balance.cwiseAbs().maxCoeff() : 0,
                                      count ? left_heads.cwiseAbs().maxCoeff() : 0, std::abs(load)});
@@ -321,8 +369,8 @@ template <int Freedoms, int Width>
 double Embedding<Freedoms, Width>::step(const Point& at, const Point& direction) const {
   double most = std::numeric_limits<double>::max();
   for (int i = 0; i < count; ++i)
-    most = std::min({most, step_to_boundary<Width>(part(at.x, i), part(direction.x, i)),
-                     step_to_boundary<Width>(part(at.s, i), part(direction.s, i))});
+    most = std::min({most, Algebra::steps_to_boundary(part(at.x, i), part(direction.x, i)),
+                     Algebra::steps_to_boundary(part(at.s, i), part(direction.s, i))});
   if (direction.tau < 0) most = std::min(most, at.tau / -direction.tau);
   if (direction.kappa < 0) most = std::min(most, at.kappa / -direction.kappa);
   return most;
@@ -332,7 +380,7 @@ double Embedding<Freedoms, Width>::step(const Point& at, const Point& direction)
 template <int Freedoms, int Width>
 bool Embedding<Freedoms, Width>::inside(const Point& at) const {
   for (int i = 0; i < count; ++i)
-    if (!(cone_determinant<Width>(part(at.x, i)) > 0 && cone_determinant<Width>(part(at.s, i)) > 0)) return false;
+    if (!Algebra::inside(part(at.x, i)) || !Algebra::inside(part(at.s, i))) return false;
   return true;
 }
 
@@ -363,7 +411,7 @@ ConeProgramAnswer Embedding<Freedoms, Width>::solve() {
   Point at;
   at.x = Eigen::VectorXd::Zero(Width * count);
   for (int i = 0; i < count; ++i)
-    at.x[Width * i] = 1;
+    part(at.x, i) = Algebra::identity();
   at.s = at.x;
   at.dual = {Eigen::VectorXd::Zero(program.right_side.size()), Eigen::VectorXd::Zero(count), 0};
   ConeProgramAnswer answer;
@@ -384,7 +432,7 @@ ConeProgramAnswer Embedding<Freedoms, Width>::solve() {
     }
     if (!factorise(at)) break;
 
-    const double mean = (at.x.dot(at.s) + at.tau * at.kappa) / (count + 1);
+    const double mean = (at.x.dot(at.s) + at.tau * at.kappa) / (Algebra::degree * count + 1);
     Eigen::VectorXd v(Width * count);
     for (int i = 0; i < count; ++i)
       part(v, i).noalias() = scaling[i].scale * part(at.s, i);
@@ -392,15 +440,15 @@ ConeProgramAnswer Embedding<Freedoms, Width>::solve() {
     const double length = std::min(1.0, step(at, affine)),
                  left = ((at.x + length * affine.x).dot(at.s + length * affine.s) +
                          (at.tau + length * affine.tau) * (at.kappa + length * affine.kappa)) /
-                        (count + 1),
+                        (Algebra::degree * count + 1),
                  ratio = std::clamp(left / mean, 0.0, 1.0), centring = std::max(ratio * ratio * ratio, 1e-8);
     Eigen::VectorXd q(Width * count);
     for (int i = 0; i < count; ++i) {
       const Numbers own = part(v, i), of_x = scaling[i].inverse * part(affine.x, i),
                     of_s = scaling[i].scale * part(affine.s, i);
-      Numbers aim = -cone_product<Width>(own, own) - cone_product<Width>(of_x, of_s);
-      aim[0] += centring * mean;
-      part(q, i) = cone_quotient<Width>(aim, own);
+      const Numbers aim =
+          -Algebra::product(own, own) - Algebra::product(of_x, of_s) + centring * mean * Algebra::identity();
+      part(q, i) = Algebra::quotient(aim, own);
     }
     const Point corrected =
         direction(at, of, q, -at.tau * at.kappa - affine.tau * affine.kappa + centring * mean, 1 - centring);
@@ -428,7 +476,10 @@ ConeProgramAnswer Embedding<Freedoms, Width>::solve() {
 
 template <int Freedoms, int Width>
 ConeProgramAnswer solve(const ConeProgram<Freedoms, Width>& program) {
-  return Embedding<Freedoms, Width>(program).solve();
+  ConeProgramAnswer answer = Embedding<Freedoms, Width>(program).solve();
+  for (Eigen::Index i = 0; i < answer.x.size(); i += Width)
+    answer.x.template segment<Width>(i) = ConeAlgebra<Width>::stated(answer.x.template segment<Width>(i)).eval();
+  return answer;
 }
 
 template ConeProgramAnswer solve(const ConeProgram<3, 2>&);

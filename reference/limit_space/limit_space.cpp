@@ -41,6 +41,8 @@ Vector3 resultant(double factor, const Vector3& direction) {
 }  // namespace
 
 double dilating_friction(const Vector3& normal_a, const Vector3& normal_b, const Vector3& force) {
+  const Vector3 away = combine(1, normal_a, 1, normal_b);
+  if (dot(away, force) >= 0) return std::asin(std::min(1.0, 0.5 * std::sqrt(dot(away, away))));
   const double size = std::sqrt(dot(force, force));
   const Vector3 along = combine(1 / size, force, 0, force);
   const auto across = [&](const Vector3& normal) { return combine(1, normal, -dot(normal, along), along); };

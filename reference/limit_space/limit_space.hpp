@@ -12,7 +12,8 @@ namespace voussoir::reference {
 // The friction angle, equal on all planes, at which a block above them that only translates is just supported against
 // a resultant, if its joints dilate: it moves along a unit v across the resultant with v·n >= sin φ on every plane, so
 // sin φ is the distance of the origin from the convex hull of the normals' projections across the resultant. Normals
-// are units that point into the block. Derived for any number of planes; here the hull of two or one.
+// are units that point into the block. Derived for any number of planes; here the hull of two or one. A resultant that
+// pulls the block off both at once moves it along n_A + n_B: sin φ = |n_A + n_B|/2.
 double dilating_friction(const Vector3& normal_a, const Vector3& normal_b, const Vector3& resultant);
 
 // The acceleration, a fraction of gravity, along a unit direction at which a wedge on two planes of one friction angle
