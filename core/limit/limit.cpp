@@ -79,18 +79,20 @@ CriticalStrength<Dim> bracket_strength(const CornerAssembly<Dim>& assembly, cons
 
   int stood = 0;  // trials, since one collapsed: the root is then lower than predicted
   bool asked = false;
+  const auto is_jammed = [&] {
+    if (asked) return false;
+    asked = true;
+    strength.weaken(0, trial);
+    return carried_by_any_friction(trial, loads, strength.chosen);
+  };
   while (result.stands - result.collapses > strength.tolerance) {
-    if (!asked && pressing > force_of_jams) {
-      asked = true;
-      strength.weaken(0, trial);
-      if (carried_by_any_friction(trial, loads, strength.chosen))
-        return result.status = LimitStatus::not_attained, result;
-    }
+    if (pressing > force_of_jams && is_jammed()) return result.status = LimitStatus::not_attained, result;
     const double step = root - result.collapses, aside = 0.3 * strength.tolerance + newton_doubt * step * step;
     double next = stood == 0 ? root + aside : root - std::pow(farther, stood - 1) * aside;
     if (!(next > result.collapses && next < result.stands)) next = 0.5 * (result.collapses + result.stands);
     const Shortfall found = at(next);
     if (found.failed()) {  // near the critical strength of jammed blocks
+      if (is_jammed()) return result.status = LimitStatus::not_attained, result;
       if (result.stands > stronger * result.collapses) result.status = LimitStatus::solver_failed;
       break;
     }

@@ -21,7 +21,12 @@ constexpr double least_step = 1e-9;
 constexpr double own_ridge = 1e-15;      // of each row's own diagonal: light bodies keep their digits
 constexpr double refined_error = 1e-15;  // of a direction
 constexpr int most_refinements = 4;
+constexpr double spoilt_digits = 1e-10;  // of a right side
 constexpr int most_conjugate_steps = 8;
+
+double largest(const Eigen::VectorXd& numbers) {
+  return numbers.size() ? numbers.cwiseAbs().maxCoeff() : 0;
+}
 
 // numbers by cone, by its given head, by body, and of the load
 struct Multipliers {
@@ -32,7 +37,8 @@ struct Multipliers {
 template <int Freedoms, int Width>
 class Embedding {
  public:
-  explicit Embedding(const ConeProgram<Freedoms, Width>& of_program);
+  // thorough: every system to rounding, by conjugate gradients too
+  Embedding(const ConeProgram<Freedoms, Width>& of_program, bool is_thorough);
   ConeProgramAnswer solve();
 
  private:
@@ -57,19 +63,18 @@ class Embedding {
   Eigen::VectorXd velocities(const Eigen::VectorXd& y) const;  // A' y
   Eigen::VectorXd velocities(const Multipliers& dual) const;   // A' y, and the heads'
   Eigen::VectorXd scaled(const Eigen::VectorXd& x) const;      // W² x
-  Eigen::VectorXd reduced(const Eigen::VectorXd& x) const;     // of it what heads that are given leave
-  double cost_of(const Eigen::VectorXd& x) const;              // c' x
   double right_of(const Multipliers& dual) const;              // b' y
   Residuals residuals(const Point& at) const;
   bool factorise(const Point& at);
-  Eigen::VectorXd solve_balance(const Eigen::VectorXd& right) const;
   Multipliers solve_normal(const Eigen::VectorXd& balance, const Eigen::VectorXd& heads) const;
+  Multipliers eliminate_heads(const Eigen::VectorXd& balance, const Eigen::VectorXd& heads) const;
   Multipliers solve_system(const Eigen::VectorXd& balance, const Eigen::VectorXd& heads, double load) const;
   Point direction(const Point& at, const Residuals& of, const Eigen::VectorXd& q, double of_tau, double weight) const;
   double step(const Point& at, const Point& direction) const;
   bool inside(const Point& at) const;
   void judge(const Point& at, const Residuals& of, ConeProgramAnswer& answer) const;
 
+  const bool thorough;
   const ConeProgram<Freedoms, Width> program;  // in the algebra's own numbers
   int count, bodies;
   bool has_load;
@@ -108,8 +113,9 @@ ConeProgram<Freedoms, Width> in_own_numbers(ConeProgram<Freedoms, Width> program
 }
 
 template <int Freedoms, int Width>
-Embedding<Freedoms, Width>::Embedding(const ConeProgram<Freedoms, Width>& of_program)
-    : program(in_own_numbers(of_program)),
+Embedding<Freedoms, Width>::Embedding(const ConeProgram<Freedoms, Width>& of_program, bool is_thorough)
+    : thorough(is_thorough),
+      program(in_own_numbers(of_program)),
       count(static_cast<int>(program.cones.size())),
       bodies(static_cast<int>(program.right_side.size()) / Freedoms),
       has_load((program.live.array() != 0).any()),
@@ -131,8 +137,7 @@ Embedding<Freedoms, Width>::Embedding(const ConeProgram<Freedoms, Width>& of_pro
     part(cost, i) = cone.cost * Algebra::head();
     heads[i] = cone.head;
   }
-  size_of_right +=
-      std::max(program.right_side.size() ? program.right_side.cwiseAbs().maxCoeff() : 0, count ? heads.maxCoeff() : 0);
+  size_of_right += std::max(largest(program.right_side), largest(heads));
   for (const ForceCone<Freedoms, Width>& cone : program.cones)
     size_of_cost = std::max(size_of_cost, 1 + std::abs(cone.cost));
 }
@@ -178,19 +183,6 @@ Eigen::VectorXd Embedding<Freedoms, Width>::scaled(const Eigen::VectorXd& x) con
 }
 
 template <int Freedoms, int Width>
-Eigen::VectorXd Embedding<Freedoms, Width>::reduced(const Eigen::VectorXd& x) const {
-  Eigen::VectorXd all = scaled(x);
-  for (int i = 0; i < count; ++i)
-    if (given(i)) part(all, i) -= of_head[i] * head(all, i);
-  return all;
-}
-
-template <int Freedoms, int Width>
-double Embedding<Freedoms, Width>::cost_of(const Eigen::VectorXd& x) const {
-  return cost.dot(x);
-}
-
-template <int Freedoms, int Width>
 double Embedding<Freedoms, Width>::right_of(const Multipliers& dual) const {
   return program.right_side.dot(dual.y) + heads.dot(dual.heads);
 }
@@ -204,7 +196,7 @@ typename Embedding<Freedoms, Width>::Residuals Embedding<Freedoms, Width>::resid
   for (int i = 0; i < count; ++i)
     if (given(i)) of.heads[i] = heads[i] * at.tau - head(at.x, i);
   of.load = has_load ? -at.tau - program.live.dot(at.dual.y) : 0;
-  of.gap = at.kappa + cost_of(at.x) - (has_load ? at.dual.load : 0) - right_of(at.dual);
+  of.gap = at.kappa + cost.dot(at.x) - (has_load ? at.dual.load : 0) - right_of(at.dual);
   return of;
 }
 
@@ -257,35 +249,60 @@ bool Embedding<Freedoms, Width>::factorise(const Point& at) {
   return true;
 }
 
-// M⁻¹ by conjugate gradients, preconditioned by the factors: one step where these are exact, and one more for each
-// pivot that rounding has spoilt.
-template <int Freedoms, int Width>
-Eigen::VectorXd Embedding<Freedoms, Width>::solve_balance(const Eigen::VectorXd& right) const {
-  Eigen::VectorXd y = Eigen::VectorXd::Zero(right.size()), left = right;
-  const double enough = refined_error * (right.size() ? right.cwiseAbs().maxCoeff() : 0);
-  Eigen::VectorXd towards, aim = factors.solve(left);
-  double slope = left.dot(aim);
-  for (int step = 0; step < most_conjugate_steps && slope > 0; ++step) {
-    if (step == 0) towards = aim;
-    const Eigen::VectorXd change = forces(reduced(velocities(towards)));
-    const double curvature = towards.dot(change);
-    if (!(curvature > 0)) break;
-    const double length = slope / curvature;
-    y += length * towards;
-    left -= length * change;
-    if (left.cwiseAbs().maxCoeff() <= enough) break;
-    aim = factors.solve(left);
-    const double before = slope;
-    slope = left.dot(aim);
-    towards = aim + (slope / before) * towards;
-  }
-  return y;
-}
-
-// of M and the given heads, which are eliminated
+// M⁻¹, with the heads eliminated, refined once; if thorough, by conjugate gradients where rounding has spoilt pivots: a
+// step for each of them. Where M has no full rank, they would add motions that nothing resists.
 template <int Freedoms, int Width>
 Multipliers Embedding<Freedoms, Width>::solve_normal(const Eigen::VectorXd& balance,
                                                      const Eigen::VectorXd& of_heads) const {
+  Multipliers sum = eliminate_heads(balance, of_heads);
+  Eigen::VectorXd left, left_heads;
+  const auto find_left = [&] {
+    const Eigen::VectorXd carried = scaled(velocities(sum));
+    left = balance - forces(carried);
+    left_heads = of_heads;
+    for (int i = 0; i < count; ++i)
+      if (given(i)) left_heads[i] -= head(carried, i);
+  };
+  const auto add = [&](const Multipliers& more, double times) {
+    sum.y += times * more.y;
+    sum.heads += times * more.heads;
+  };
+  const auto slope_of = [&](const Multipliers& aim) { return left.dot(aim.y) + left_heads.dot(aim.heads); };
+  find_left();
+  add(eliminate_heads(left, left_heads), 1);
+  if (!thorough) return sum;
+  find_left();
+  const double size = std::max(largest(balance), largest(of_heads));
+  double least = std::max(largest(left), largest(left_heads));
+  if (least <= spoilt_digits * size) return sum;
+  Multipliers best = sum;
+
+  Multipliers aim = eliminate_heads(left, left_heads), towards = aim;
+  double slope = slope_of(aim);
+  for (int step = 0; step < most_conjugate_steps && slope > 0; ++step) {
+    const Eigen::VectorXd speeds = velocities(towards);
+    const double curvature = speeds.dot(scaled(speeds));
+    if (!(curvature > 0)) break;
+    add(towards, slope / curvature);
+    find_left();
+    if (const double now = std::max(largest(left), largest(left_heads)); now < least) {
+      least = now;
+      best = sum;
+    }
+    if (least <= refined_error * size) break;
+    aim = eliminate_heads(left, left_heads);
+    const double before = slope;
+    slope = slope_of(aim);
+    towards.y = aim.y + slope / before * towards.y;
+    towards.heads = aim.heads + slope / before * towards.heads;
+  }
+  return best;
+}
+
+// by the factors of M
+template <int Freedoms, int Width>
+Multipliers Embedding<Freedoms, Width>::eliminate_heads(const Eigen::VectorXd& balance,
+                                                        const Eigen::VectorXd& of_heads) const {
   Eigen::VectorXd right = balance;
   if (heads.any()) {
     Eigen::VectorXd given_away = Eigen::VectorXd::Zero(Width * count);
@@ -293,14 +310,13 @@ Multipliers Embedding<Freedoms, Width>::solve_normal(const Eigen::VectorXd& bala
       if (given(i)) part(given_away, i) = of_head[i] * of_heads[i];
     right -= forces(given_away);
   }
-  Multipliers answer{solve_balance(right), Eigen::VectorXd::Zero(count), 0};
+  Multipliers answer{factors.solve(right), Eigen::VectorXd::Zero(count), 0};
   if (!heads.any()) return answer;
   const Eigen::VectorXd speeds = velocities(answer.y);
   for (int i = 0; i < count; ++i)
-    if (given(i)) {
-      const Numbers weighted = scaling[i].square * Algebra::head();
-      answer.heads[i] = of_heads[i] / Algebra::head().dot(weighted) - of_head[i].dot(part(speeds, i));
-    }
+    if (given(i))
+      answer.heads[i] =
+          of_heads[i] / Algebra::head().dot(scaling[i].square * Algebra::head()) - of_head[i].dot(part(speeds, i));
   return answer;
 }
 
@@ -335,7 +351,7 @@ typename Embedding<Freedoms, Width>::Point Embedding<Freedoms, Width>::direction
     }
   const Multipliers first = solve_system(weight * of.balance - forces(aim), of_heads, weight * of.load);
   Point step;
-  step.tau = (weight * of.gap + cost_of(aim) + of_tau_kappa / at.tau -
+  step.tau = (weight * of.gap + cost.dot(aim) + of_tau_kappa / at.tau -
               (program.right_side - forces(scaled_cost)).dot(first.y) - fewer_heads.dot(first.heads) -
               (has_load ? first.load : 0)) /
              tau_pivot;
@@ -350,9 +366,7 @@ typename Embedding<Freedoms, Width>::Point Embedding<Freedoms, Width>::direction
     for (int i = 0; i < count; ++i)
       if (given(i)) left_heads[i] = weight * of.heads[i] - head(step.x, i) + heads[i] * step.tau;
     const double load = has_load ? weight * of.load - program.live.dot(step.dual.y) - step.tau : 0;
-    const double largest = std::max({balance.size() ? balance.cwiseAbs().maxCoeff() : 0,
-                                     count ? left_heads.cwiseAbs().maxCoeff() : 0, std::abs(load)});
-    if (largest <= refined_error * (1 + at.tau)) break;
+    if (std::max({largest(balance), largest(left_heads), std::abs(load)}) <= refined_error * (1 + at.tau)) break;
     const Multipliers more = solve_system(balance, left_heads, load);
     const Eigen::VectorXd slower = velocities(more);
     step.dual.y += more.y;
@@ -387,10 +401,7 @@ bool Embedding<Freedoms, Width>::inside(const Point& at) const {
 // keeps the point if it is better than the best so far
 template <int Freedoms, int Width>
 void Embedding<Freedoms, Width>::judge(const Point& at, const Residuals& of, ConeProgramAnswer& answer) const {
-  const auto largest = [](const Eigen::VectorXd& numbers) {
-    return numbers.size() ? numbers.cwiseAbs().maxCoeff() : 0;
-  };
-  const double value = (cost_of(at.x) - (has_load ? at.dual.load : 0)) / at.tau, bound = right_of(at.dual) / at.tau,
+  const double value = (cost.dot(at.x) - (has_load ? at.dual.load : 0)) / at.tau, bound = right_of(at.dual) / at.tau,
                gap = std::abs(value - bound) / (1 + std::abs(value)),
                balance = std::max(largest(of.balance), largest(of.heads)) / at.tau / size_of_right,
                inadmissible = std::max(largest(of.dual) / size_of_cost, std::abs(of.load)) / at.tau;
@@ -424,7 +435,7 @@ ConeProgramAnswer Embedding<Freedoms, Width>::solve() {
     if (answer.error() <= wanted_error) break;
     if (answer.error() <= enough_digits && answer.iterations - of_best > steps_without_gain) break;
     if (at.tau < no_optimum * std::max(1.0, at.kappa)) {
-      const double gained = (has_load ? at.dual.load : 0) - cost_of(at.x), driven = right_of(at.dual);
+      const double gained = (has_load ? at.dual.load : 0) - cost.dot(at.x), driven = right_of(at.dual);
       answer.status = gained > driven ? ConeStatus::unbounded : ConeStatus::infeasible;
       answer.x = at.x / std::max(gained, driven);
       answer.y = at.dual.y / std::max(gained, driven);
@@ -476,7 +487,8 @@ ConeProgramAnswer Embedding<Freedoms, Width>::solve() {
 
 template <int Freedoms, int Width>
 ConeProgramAnswer solve(const ConeProgram<Freedoms, Width>& program) {
-  ConeProgramAnswer answer = Embedding<Freedoms, Width>(program).solve();
+  ConeProgramAnswer answer = Embedding<Freedoms, Width>(program, false).solve();
+  if (answer.status == ConeStatus::stalled) answer = Embedding<Freedoms, Width>(program, true).solve();
   for (Eigen::Index i = 0; i < answer.x.size(); i += Width)
     answer.x.template segment<Width>(i) = ConeAlgebra<Width>::stated(answer.x.template segment<Width>(i)).eval();
   return answer;
