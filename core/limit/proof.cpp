@@ -8,9 +8,9 @@ namespace {
 constexpr int digits_of_places = 47;  // binary, of the largest coordinate: products of two stay short
 constexpr int digits_of_steps = 8;    // of the distance between the factor and its lower bound
 constexpr std::array<double, 5> steps_back{1e-6, 1e-5, 1e-4, 1e-3, 1e-2};
-constexpr double least_opening = 1e-13, most_opening = 1e-4;  // speed at a live power of 1
-constexpr double above_error = 2, wider = 4;  // times the error of the velocities; from one try to the next
-constexpr double hardly_moves = 1e-6;         // of the fastest body
+constexpr std::array<double, 5> openings{1e-8, 1e-7, 1e-6, 1e-5, 1e-4};  // speeds at a live power of 1
+constexpr int most_halves = 40;        // of the share of such velocities
+constexpr double hardly_moves = 1e-6;  // of the fastest body
 constexpr double below_unit = 1 - 4 * std::numeric_limits<double>::epsilon();
 
 double as_double(const Dyadic& number) {
@@ -77,6 +77,8 @@ class Prover {
   }
 
  private:
+  using Velocities = std::vector<BodyVelocity<Dim>>;
+
   // ---- forces ------------------------------------------------------------------------------------------------------
 
   void prove_lower(const LoadFactor<Dim>& found, bool no_dead_load) {
@@ -170,46 +172,78 @@ class Prover {
 
   void prove_upper(const LoadFactor<Dim>& found) {
     proof_.no_upper = "no velocities open every joint that moves, as blocks can be held by self-stress";
-    const double first = std::max(least_opening, above_error * found.evidence.inadmissible);
-    if (drive(proof_.assembly, first)) return;
-    CornerAssembly<Dim> held = proof_.assembly;
-    for (std::size_t b = 0; b < held.bodies.size(); ++b) {
-      const BodyVelocity<Dim>& of = found.state.velocities[b];
-      if (of.velocity.norm() + held.bodies[b].radius * of.spin.norm() < hardly_moves) held.bodies[b].free = {};
+    std::optional<Velocities> open = opening_velocities(proof_.assembly);
+    if (!open) {
+      CornerAssembly<Dim> held = proof_.assembly;
+      for (std::size_t b = 0; b < held.bodies.size(); ++b) {
+        const BodyVelocity<Dim>& of = found.state.velocities[b];
+        if (of.velocity.norm() + held.bodies[b].radius * of.spin.norm() < hardly_moves) held.bodies[b].free = {};
+      }
+      std::erase_if(held.faces, [&](const CornerFace<Dim>& face) {
+        return !held.bodies[face.body_a].moves() && !held.bodies[face.body_b].moves();
+      });
+      open = opening_velocities(held);
+      proof_.still_held = open.has_value();
     }
-    std::erase_if(held.faces, [&](const CornerFace<Dim>& face) {
-      return !held.bodies[face.body_a].moves() && !held.bodies[face.body_b].moves();
-    });
-    proof_.still_held = drive(held, first);
+    if (!open) return;
+    proof_.no_upper.clear();
+    // The mechanism itself closes joints by its rounding: the smallest share of the others that opens all of them.
+    Velocities nearest = found.state.velocities;
+    for (std::size_t b = 0; b < nearest.size(); ++b)
+      if (proof_.still_held && open->at(b).velocity.isZero(0) && open->at(b).spin.isZero(0)) nearest[b] = {};
+    const double power = live_power(nearest), other_power = live_power(*open);
+    int most = 0, none = most_halves;
+    while (power > 0 && none - most > 1) {
+      const int halves = (most + none) / 2;
+      const double share = std::ldexp(1.0, -halves);
+      Velocities both = *open;
+      for (std::size_t b = 0; b < both.size(); ++b) {
+        both[b].velocity = (1 - share) / power * nearest[b].velocity + share / other_power * both[b].velocity;
+        both[b].spin = (1 - share) / power * nearest[b].spin + share / other_power * both[b].spin;
+      }
+      (keep_bound(std::move(both), share) ? most : none) = halves;
+    }
   }
 
-  // velocities that open every joint of an assembly by more than their errors
-  bool drive(const CornerAssembly<Dim>& assembly, double first) {
+  double live_power(const Velocities& velocities) const {
+    double sum = 0;
+    for (std::size_t b = 0; b < velocities.size(); ++b)
+      sum += proof_.live[b].force.dot(velocities[b].velocity) + proof_.live[b].moment.dot(velocities[b].spin);
+    return sum;
+  }
+
+  // if the velocities are admissible, and prove a lower bound than those before
+  bool keep_bound(Velocities velocities, double share) {
+    const std::optional<double> bound = bound_of(velocities);
+    if (!bound) return false;
+    if (proof_.upper && *proof_.upper <= *bound) return true;
+    proof_.upper = bound;
+    proof_.velocities = std::move(velocities);
+    proof_.share = share;
+    return true;
+  }
+
+  // which open every joint of an assembly by more than their errors
+  std::optional<Velocities> opening_velocities(const CornerAssembly<Dim>& assembly) {
     CornerProgram<Dim> program = corner_program(assembly, proof_.dead, proof_.live);
     const double largest = program.live.size() > 0 ? program.live.cwiseAbs().maxCoeff() : 0;
-    if (largest == 0) return false;
+    if (largest == 0) return std::nullopt;
     program.live /= largest;
     const std::vector<double> sines = sines_of_cones(assembly);
-    for (double opening = first; opening < most_opening; opening *= wider) {
+    for (const double opening : openings) {
       for (std::size_t i = 0; i < sines.size(); ++i)
         if (!(program.cones[i].head > 0)) program.cones[i].cost = -opening * std::sqrt(1 - sines[i] * sines[i]);
       const ConeProgramAnswer answer = solve(program);
       ++proof_.programs;
-      if (answer.status != ConeStatus::optimal) return false;
-      std::vector<BodyVelocity<Dim>> velocities = mechanism_of(assembly, answer.y);
-      const std::optional<double> bound = bound_of(velocities);
-      if (!bound) continue;
-      proof_.upper = bound;
-      proof_.no_upper.clear();
-      proof_.velocities = std::move(velocities);
-      proof_.tightened = opening;
-      return true;
+      if (answer.status != ConeStatus::optimal) return std::nullopt;
+      Velocities velocities = mechanism_of(assembly, answer.y);
+      if (keep_bound(velocities, 1)) return velocities;
     }
-    return false;
+    return std::nullopt;
   }
 
   // [-D·v + Σ c |slip|]/L·v, rounded upwards; none if a joint closes
-  std::optional<double> bound_of(const std::vector<BodyVelocity<Dim>>& velocities) const {
+  std::optional<double> bound_of(const Velocities& velocities) const {
     const CornerAssembly<Dim>& assembly = proof_.assembly;
     const auto power = [&](const Loads<Dim>& loads) {
       Dyadic sum;

@@ -22,9 +22,9 @@ struct LimitProof {
   BalancedForces<Dim> forces;                 // of `lower`
   std::vector<BodyVelocity<Dim>> velocities;  // of `upper`
 
-  double tightened = 0;      // the speed by which the velocities were made to open every joint, of a unit of live power
-  bool still_held = false;   // bodies that hardly move in the mechanism were held to find them
-  int programs = 0;          // solved
+  double share = 0;  // in the velocities: of those that open every joint, besides the mechanism's own
+  bool still_held = false;  // bodies that hardly move in the mechanism were held to find them
+  int programs = 0;  // solved
 
   bool proved() const { return lower && upper; }
 };

@@ -143,7 +143,7 @@ void check_velocities(const LimitProof<Dim>& proof) {
 
 template <int Dim>
 LimitProof<Dim> expect_proved(const CornerAssembly<Dim>& assembly, const Loads<Dim>& dead, const Loads<Dim>& live,
-                              double known, double below = 2e-6, double above = 1e-5) {
+                              double known, double below = 2e-6, double above = 1e-6) {
   const LoadFactor<Dim> found = find_load_factor(assembly, dead, live);
   LimitProof<Dim> proof = prove_load_factor(assembly, dead, live, found);
   EXPECT_TRUE(proof.proved()) << proof.no_lower << proof.no_upper;
@@ -160,7 +160,7 @@ LimitProof<Dim> expect_proved(const CornerAssembly<Dim>& assembly, const Loads<D
   return proof;
 }
 
-LimitProof<3> expect_proved(const CornerScene& scene, double known, double below = 2e-6, double above = 1e-5) {
+LimitProof<3> expect_proved(const CornerScene& scene, double known, double below = 2e-6, double above = 1e-6) {
   return expect_proved<3>(scene.assembly, scene.dead, scene.live, known, below, above);
 }
 
