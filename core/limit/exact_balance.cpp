@@ -161,8 +161,8 @@ class Closing {
     const Dyadic of_live(factor);
     for (std::size_t b = 0; b < left_.size(); ++b) {
       if (!assembly_.bodies[b].moves()) continue;
-      const auto force = exact<Dim>(dead[b].force) + of_live * exact<Dim>(live[b].force);
-      const auto turn = exact<spin_freedoms<Dim>>(dead[b].moment) + of_live * exact<spin_freedoms<Dim>>(live[b].moment);
+      const auto force = exact_of<Dim>(dead[b].force) + of_live * exact_of<Dim>(live[b].force);
+      const auto turn = exact_of<spin_freedoms<Dim>>(dead[b].moment) + of_live * exact_of<spin_freedoms<Dim>>(live[b].moment);
       for (int k = 0; k < Dim; ++k)
         left_[b][k] = force[k].in_units(found_.unit);
       for (int k = 0; k < spin_freedoms<Dim>; ++k)
@@ -181,7 +181,7 @@ class Closing {
   static constexpr int others = Dim - 1;  // corners of an edge besides the first
 
   Force place(const Vector<Dim>& of) const {
-    const auto numbers = exact<Dim>(of);
+    const auto numbers = exact_of<Dim>(of);
     Force place;
     for (int k = 0; k < Dim; ++k)
       place[k] = numbers[k].in_units(grid_);

@@ -53,7 +53,7 @@ template <class Number, std::size_t Size>
 using Numbers = std::array<Number, Size>;
 
 template <int Size>
-Numbers<Dyadic, Size> exact(const FixedMatrix<Size, 1>& of) {
+Numbers<Dyadic, Size> exact_of(const FixedMatrix<Size, 1>& of) {
   Numbers<Dyadic, Size> all;
   for (int k = 0; k < Size; ++k)
     all[k] = Dyadic(of[k]);

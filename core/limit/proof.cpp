@@ -127,7 +127,7 @@ class Prover {
   bool within_cones(const BalancedForces<Dim>& forces) const {
     for (std::size_t f = 0; f < proof_.assembly.faces.size(); ++f) {
       const CornerFace<Dim>& face = proof_.assembly.faces[f];
-      const auto normal = exact<Dim>(face.normal);
+      const auto normal = exact_of<Dim>(face.normal);
       const std::vector<double> cohesion = cohesion_at_corners(face);
       const Dyadic tangent(proof_.tangents[f]);
       for (std::size_t k = 0; k < face.corners.size(); ++k) {
@@ -147,11 +147,11 @@ class Prover {
     std::vector<Numbers<Dyadic, spins>> moments;
     const Dyadic of_live(factor);
     for (std::size_t b = 0; b < assembly.bodies.size(); ++b) {
-      sums.push_back(exact<Dim>(proof_.dead[b].force) + of_live * exact<Dim>(proof_.live[b].force));
-      moments.push_back(exact<spins>(proof_.dead[b].moment) + of_live * exact<spins>(proof_.live[b].moment));
+      sums.push_back(exact_of<Dim>(proof_.dead[b].force) + of_live * exact_of<Dim>(proof_.live[b].force));
+      moments.push_back(exact_of<spins>(proof_.dead[b].moment) + of_live * exact_of<spins>(proof_.live[b].moment));
     }
     const auto add = [&](int b, const Vector<Dim>& place, const Numbers<Dyadic, Dim>& force) {
-      const auto arm = exact<Dim>(place) - exact<Dim>(assembly.bodies[b].centroid);
+      const auto arm = exact_of<Dim>(place) - exact_of<Dim>(assembly.bodies[b].centroid);
       sums[b] = sums[b] + force;
       moments[b] = moments[b] + moment(arm, force);
     };
@@ -248,21 +248,21 @@ class Prover {
     const auto power = [&](const Loads<Dim>& loads) {
       Dyadic sum;
       for (std::size_t b = 0; b < loads.size(); ++b)
-        sum = sum + product(exact<Dim>(loads[b].force), exact<Dim>(velocities[b].velocity)) +
-              product(exact<spin_freedoms<Dim>>(loads[b].moment), exact<spin_freedoms<Dim>>(velocities[b].spin));
+        sum = sum + product(exact_of<Dim>(loads[b].force), exact_of<Dim>(velocities[b].velocity)) +
+              product(exact_of<spin_freedoms<Dim>>(loads[b].moment), exact_of<spin_freedoms<Dim>>(velocities[b].spin));
       return sum;
     };
     const Dyadic driving = power(proof_.live);
     if (driving.sign() <= 0) return std::nullopt;
     Dyadic resisted = Dyadic() - power(proof_.dead);
     const auto velocity_at = [&](int b, const Vector<Dim>& place) {
-      return exact<Dim>(velocities[b].velocity) +
-             turning(exact<spin_freedoms<Dim>>(velocities[b].spin),
-                     exact<Dim>(place) - exact<Dim>(assembly.bodies[b].centroid));
+      return exact_of<Dim>(velocities[b].velocity) +
+             turning(exact_of<spin_freedoms<Dim>>(velocities[b].spin),
+                     exact_of<Dim>(place) - exact_of<Dim>(assembly.bodies[b].centroid));
     };
     for (std::size_t f = 0; f < assembly.faces.size(); ++f) {
       const CornerFace<Dim>& face = assembly.faces[f];
-      const auto normal = exact<Dim>(face.normal);
+      const auto normal = exact_of<Dim>(face.normal);
       const Dyadic tangent(proof_.tangents[f]);
       for (std::size_t k = 0; k < face.corners.size(); ++k) {
         const auto opening = velocity_at(face.body_b, face.corners[k]) - velocity_at(face.body_a, face.corners[k]);
