@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/limit/proof.hpp"
+
 namespace voussoir {
 namespace {
 
@@ -90,8 +92,6 @@ ProofJson face_json(const LimitProof<Dim>& proof, std::size_t f) {
   return entry;
 }
 
-}  // namespace
-
 template <int Dim>
 std::string limit_proof_json(const Model<Dim>& model, const LimitProof<Dim>& proof, const LoadParts<Dim>& dead,
                              const LoadParts<Dim>& live) {
@@ -115,10 +115,36 @@ std::string limit_proof_json(const Model<Dim>& model, const LimitProof<Dim>& pro
                        {"properties", properties},
                        {"bodies", bodies},
                        {"faces", faces}};
-  return json.dump() + "\n";
+  return json.dump(-1, ' ', false, ProofJson::error_handler_t::replace) + "\n";
 }
 
-template std::string limit_proof_json(const Model<2>&, const LimitProof<2>&, const LoadParts<2>&, const LoadParts<2>&);
-template std::string limit_proof_json(const Model<3>&, const LimitProof<3>&, const LoadParts<3>&, const LoadParts<3>&);
+}  // namespace
+
+template <int Dim>
+Loads<Dim> loads_of(const Model<Dim>& model, const LoadParts<Dim>& parts) {
+  Loads<Dim> loads = loads_of_acceleration(model, parts.acceleration);
+  const Loads<Dim> applied = loads_of_applied_forces(model, parts.forces);
+  for (std::size_t b = 0; b < loads.size(); ++b) {
+    loads[b] += applied[b];
+    if (!parts.waters.empty()) loads[b] += parts.waters[b];
+  }
+  return loads;
+}
+
+template <int Dim>
+ProvedBounds prove_bounds(const Model<Dim>& model, const CornerAssembly<Dim>& assembly, const LoadParts<Dim>& dead,
+                          const LoadParts<Dim>& live, const LoadFactor<Dim>& found) {
+  const LimitProof<Dim> proof = prove_load_factor(assembly, loads_of(model, dead), loads_of(model, live), found);
+  ProvedBounds bounds{proof.lower, proof.upper, proof.no_lower, proof.no_upper, {}};
+  if (proof.lower || proof.upper) bounds.file = limit_proof_json(model, proof, dead, live);
+  return bounds;
+}
+
+template Loads<2> loads_of(const Model<2>&, const LoadParts<2>&);
+template Loads<3> loads_of(const Model<3>&, const LoadParts<3>&);
+template ProvedBounds prove_bounds(const Model<2>&, const CornerAssembly<2>&, const LoadParts<2>&, const LoadParts<2>&,
+                                   const LoadFactor<2>&);
+template ProvedBounds prove_bounds(const Model<3>&, const CornerAssembly<3>&, const LoadParts<3>&, const LoadParts<3>&,
+                                   const LoadFactor<3>&);
 
 }  // namespace voussoir

@@ -21,7 +21,7 @@
 
 #include <string>
 
-#include "core/limit/proof.hpp"
+#include "app/limit/limit_answer.hpp"
 
 namespace voussoir {
 
@@ -34,7 +34,11 @@ struct LoadParts {
 };
 
 template <int Dim>
-std::string limit_proof_json(const Model<Dim>& model, const LimitProof<Dim>& proof, const LoadParts<Dim>& dead,
-                             const LoadParts<Dim>& live);
+Loads<Dim> loads_of(const Model<Dim>& model, const LoadParts<Dim>& parts);
+
+// Proves the bounds of a found factor of the live load, and writes the proof as text.
+template <int Dim>
+ProvedBounds prove_bounds(const Model<Dim>& model, const CornerAssembly<Dim>& assembly, const LoadParts<Dim>& dead,
+                          const LoadParts<Dim>& live, const LoadFactor<Dim>& found);
 
 }  // namespace voussoir

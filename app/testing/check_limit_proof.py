@@ -233,10 +233,10 @@ def geometry_holds(proof):
 
 def is_proven(proof):
     corners = [lift(p) for face in proof["faces"] for p in face["corners_m"]]
-    proof["size"] = max(max(axis) - min(axis) for axis in zip(*corners))
+    proof["size"] = corners and max(max(axis) - min(axis) for axis in zip(*corners))
     low, up = proof["lower"], proof["upper"]
-    return ((low is not None or up is not None) and (low is None or up is None or low <= up)
-            and all(len(f["corners_m"]) == len(f["cohesion_N"]) == len(f.get("forces", f["corners_m"])) for f in proof["faces"])
+    return (bool(corners) and (low is not None or up is not None) and (low is None or up is None or low <= up)
+            and all(proof["dimension"] <= len(f["corners_m"]) == len(f["cohesion_N"]) == len(f.get("forces", f["corners_m"])) for f in proof["faces"])
             and joints_hold(proof) and loads_hold(proof) and (low is None or forces_hold(proof))
             and (up is None or velocities_hold(proof)) and geometry_holds(proof))
 
@@ -295,7 +295,7 @@ def tampered(proof, choice):
     elif kind == "twice":       # a joint that is not there
         wrong["faces"].append(dict(face, forces=[["0"] * d] * len(face["corners_m"])))
     elif kind == "normal":
-        face["normal"] = add(face["normal"], [change + 1e-5 * sign if i == axis else 0 for i in range(d)])
+        face["normal"] = add(face["normal"], [change + math.copysign(1e-5, change) if i == axis else 0 for i in range(d)])
     elif kind == "sides":
         face["bodies"].reverse()
     elif kind == "centroid":
