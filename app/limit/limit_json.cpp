@@ -85,8 +85,8 @@ Json interfaces_json(const LimitAnalysis<Dim>& analysis) {
 // the bounds of joints that dilate; of others only the upper one is a bound
 Json proof_json(const ProvedBounds& proof) {
   Json json;
-  for (const auto& [name, bound, reason] :
-       {std::tuple("proved_upper", proof.upper, proof.no_upper), {"carried_if_joints_dilate", proof.lower, proof.no_lower}})
+  for (const auto& [name, bound, reason] : {std::tuple("proved_upper", proof.upper, proof.no_upper),
+                                            {"carried_if_joints_dilate", proof.lower, proof.no_lower}})
     if (bound)
       json[name] = *bound;
     else

@@ -74,14 +74,10 @@ ProofJson face_json(const LimitProof<Dim>& proof, std::size_t f) {
   ProofJson corners = ProofJson::array(), forces = ProofJson::array();
   for (const Vector<Dim>& corner : face.corners)
     corners.push_back(list_of(corner));
-  ProofJson entry{{"bodies", {face.body_a, face.body_b}},
-                  {"normal", list_of(face.normal)},
-                  {"properties", face.properties},
-                  {"friction_rad", face.friction},
-                  {"tangent", proof.tangents[f]},
-                  {"cohesion_Pa", face.cohesion},
-                  {"cohesion_N", proof.cohesion[f]},
-                  {"corners_m", corners}};
+  ProofJson entry{{"bodies", {face.body_a, face.body_b}}, {"normal", list_of(face.normal)},
+                  {"properties", face.properties},        {"friction_rad", face.friction},
+                  {"tangent", proof.tangents[f]},         {"cohesion_Pa", face.cohesion},
+                  {"cohesion_N", proof.cohesion[f]},      {"corners_m", corners}};
   if (!proof.lower) return entry;
   for (const Numbers<Integer, Dim>& force : proof.forces.at_corners[f]) {
     forces.emplace_back(ProofJson::array());

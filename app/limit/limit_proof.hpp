@@ -14,9 +14,9 @@
 //   faces                                    on which bodies a and b touch: normal from a to b, corners_m, properties,
 //                                            friction_rad, tangent, cohesion_Pa, cohesion_N of each corner, forces on b
 //
-// The statement: forces f of `lower` balance dead + lower · live exactly, f·n >= 0 and |T| <= tangent f·n + cohesion; the
-// velocities of `upper` open every joint by tangent times its slip, and their power against dead + upper · live is not
-// positive. Lengths are relative to `origin_m`. Edges and corners that touch carry nothing.
+// The statement: forces f of `lower` balance dead + lower · live exactly, f·n >= 0 and |T| <= tangent f·n + cohesion;
+// the velocities of `upper` open every joint by tangent times its slip, and their power against dead + upper · live is
+// not positive. Lengths are relative to `origin_m`. Edges and corners that touch carry nothing.
 #pragma once
 
 #include <string>

@@ -162,7 +162,8 @@ class Closing {
     for (std::size_t b = 0; b < left_.size(); ++b) {
       if (!assembly_.bodies[b].moves()) continue;
       const auto force = exact_of<Dim>(dead[b].force) + of_live * exact_of<Dim>(live[b].force);
-      const auto turn = exact_of<spin_freedoms<Dim>>(dead[b].moment) + of_live * exact_of<spin_freedoms<Dim>>(live[b].moment);
+      const auto turn =
+          exact_of<spin_freedoms<Dim>>(dead[b].moment) + of_live * exact_of<spin_freedoms<Dim>>(live[b].moment);
       for (int k = 0; k < Dim; ++k)
         left_[b][k] = force[k].in_units(found_.unit);
       for (int k = 0; k < spin_freedoms<Dim>; ++k)
@@ -365,7 +366,8 @@ class Closing {
       found_.at_corners[edge.face][corner] = found_.at_corners[edge.face][corner] + more;
       put(face, corner, more);
       for (const Integer& number : more)
-        found_.change = std::max(found_.change, std::abs(std::ldexp(static_cast<double>(number), found_.unit)) / weight);
+        found_.change =
+            std::max(found_.change, std::abs(std::ldexp(static_cast<double>(number), found_.unit)) / weight);
     };
     for (int k = 0; k < others; ++k) {
       add(k + 1, closing[k]);
@@ -392,7 +394,7 @@ class Closing {
     for (int k = 0; k < spin_freedoms<Dim>; ++k)
       all[Dim + k] = std::ldexp(static_cast<double>(turn[k]), grid_) / body.radius;
     const FixedMatrix<freedoms<Dim>, freedoms<Dim>> normal = sums * sums.transpose();
-    const Vector<Dim * Dim> least = sums.transpose() * normal.ldlt().solve(all);
+    const Vector<Dim* Dim> least = sums.transpose() * normal.ldlt().solve(all);
     std::array<Vector<Dim>, Dim> forces;
     for (int k = 0; k < Dim; ++k)
       forces[k] = least.template segment<Dim>(Dim * k);

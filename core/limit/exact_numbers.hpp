@@ -13,8 +13,7 @@
 
 namespace voussoir {
 
-using Integer =
-    boost::multiprecision::number<boost::multiprecision::cpp_int_backend<>, boost::multiprecision::et_off>;
+using Integer = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<>, boost::multiprecision::et_off>;
 
 // integer · 2^exponent; of a double the integer is odd or zero
 struct Dyadic {
@@ -36,9 +35,7 @@ struct Dyadic {
   Integer in_units(int unit) const { return integer.is_zero() ? integer : Integer(integer << (exponent - unit)); }
   int sign() const { return integer.sign(); }
 
-  friend Dyadic operator*(const Dyadic& a, const Dyadic& b) {
-    return {a.integer * b.integer, a.exponent + b.exponent};
-  }
+  friend Dyadic operator*(const Dyadic& a, const Dyadic& b) { return {a.integer * b.integer, a.exponent + b.exponent}; }
   friend Dyadic operator+(const Dyadic& a, const Dyadic& b) {
     if (a.integer.is_zero()) return b;
     if (b.integer.is_zero()) return a;

@@ -9,8 +9,8 @@ constexpr int digits_of_places = 47;  // binary, of the largest coordinate: prod
 constexpr int digits_of_steps = 8;    // of the distance between the factor and its lower bound
 constexpr std::array<double, 5> steps_back{1e-6, 1e-5, 1e-4, 1e-3, 1e-2};
 constexpr std::array<double, 5> openings{1e-8, 1e-7, 1e-6, 1e-5, 1e-4};  // speeds at a live power of 1
-constexpr int most_halves = 40;        // of the share of such velocities
-constexpr double hardly_moves = 1e-6;  // of the fastest body
+constexpr int most_halves = 40;                                          // of the share of such velocities
+constexpr double hardly_moves = 1e-6;                                    // of the fastest body
 constexpr double below_unit = 1 - 4 * std::numeric_limits<double>::epsilon();
 
 double as_double(const Dyadic& number) {
@@ -109,8 +109,8 @@ class Prover {
     const ConeProgramAnswer answer = solve(corner_program(proof_.assembly, loads));
     ++proof_.programs;
     if (answer.status != ConeStatus::optimal) return false;
-    std::optional<BalancedForces<Dim>> forces = balance_exactly(
-        proof_.assembly, grid_, proof_.dead, proof_.live, factor, corner_forces(proof_.assembly, answer.x));
+    std::optional<BalancedForces<Dim>> forces = balance_exactly(proof_.assembly, grid_, proof_.dead, proof_.live,
+                                                                factor, corner_forces(proof_.assembly, answer.x));
     if (!forces || !within_cones(*forces) || !balances(*forces, factor)) return false;
     proof_.forces = std::move(*forces);
     proof_.lower = factor;

@@ -17,7 +17,8 @@ using namespace corner_scenes;
 using Rational = boost::multiprecision::cpp_rational;
 using Triple = std::array<Rational, 3>;
 
-// ---- rationals in space; vectors of the plane have no third number, their moments and spins only that -----------------
+// ---- rationals in space; vectors of the plane have no third number, their moments and spins only that
+// -----------------
 
 Rational rational(double number) {
   int binary = 0;
@@ -88,7 +89,8 @@ void check_forces(const LimitProof<Dim>& proof) {
       }
       // a unit normal would add 1e-15 of the cohesion
       const Rational along = dot(force, normal), size = dot(normal, normal),
-                     most = rational(proof.tangents[f]) * along + rational(proof.cohesion[f][k]) * (1 - rational(1e-15));
+                     most =
+                         rational(proof.tangents[f]) * along + rational(proof.cohesion[f][k]) * (1 - rational(1e-15));
       outside += along < 0 || dot(force, force) * size - along * along > most * most;
     }
   }
@@ -164,7 +166,8 @@ LimitProof<3> expect_proved(const CornerScene& scene, double known, double below
   return expect_proved<3>(scene.assembly, scene.dead, scene.live, known, below, above);
 }
 
-// ---- in space -----------------------------------------------------------------------------------------------------------
+// ---- in space
+// -----------------------------------------------------------------------------------------------------------
 
 TEST(LimitProof, EnclosesWhatPushesAWedgeOut) {
   const auto shallow = symmetric(25, 30), steep = symmetric(38, 45);
@@ -250,7 +253,8 @@ TEST(LimitProof, LeavesBlocksWithSelfStressStill) {
   EXPECT_TRUE(expect_proved(scene, 0.25).still_held);
 }
 
-// ---- in the plane -------------------------------------------------------------------------------------------------------
+// ---- in the plane
+// -------------------------------------------------------------------------------------------------------
 
 LimitProof<2> expect_pushed(const Model<2>& model, double known) {
   const Vector<2> east(model.gravity.norm(), 0);
@@ -266,7 +270,8 @@ TEST(LimitProof, EnclosesColumnsInThePlane) {
   std::vector<limit_models::TestBlock> blocks{{"floor", limit_models::box(-3, -1, 3, 0), true}};
   for (const double x : {0.0, 0.5})
     for (int course = 0; course < 3; ++course)
-      blocks.push_back({"b" + std::to_string(blocks.size()), limit_models::box(x, 0.5 * course, x + 0.5, 0.5 * (course + 1))});
+      blocks.push_back(
+          {"b" + std::to_string(blocks.size()), limit_models::box(x, 0.5 * course, x + 0.5, 0.5 * (course + 1))});
   const Model<2> model = limit_models::model_of(blocks);
   const CornerAssembly<2> assembly = limit_models::assembly_of(model);
   const Loads<2> dead = loads_of_acceleration(model, model.gravity), live = loads_of_acceleration(model, {10, 0});
