@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "app/limit/limit_proof.hpp"
 #include "app/limit/limit_words.hpp"
 #include "app/limit/without_dilation_words.hpp"
 #include "core/base/bad_input.hpp"
@@ -28,7 +29,7 @@ constexpr double twists = 1e-3;  // turning about a face's normal over its slip
 template <int Dim>
 struct LiveLoad {
   std::string sought, if_any;  // if_any: the reason, or the repair, if any factor is carried
-  Loads<Dim> loads;
+  LoadParts<Dim> load;
   bool beside_gravity = true;  // else gravity itself is sought
 };
 
@@ -59,13 +60,14 @@ std::optional<Vector<3>> direction_of(LimitLoad load, const Vector<3>&) {
 }
 
 template <int Dim>
-LiveLoad<Dim> live_load(LimitLoad load, const Model<Dim>& model, const Loads<Dim>& gravity, const StagePlan* analysed) {
+LiveLoad<Dim> live_load(LimitLoad load, const Model<Dim>& model, const LoadParts<Dim>& gravity,
+                        const StagePlan* analysed) {
   const std::string& name = limit_loads[static_cast<std::size_t>(load)];
   if (load == LimitLoad::gravity) return {sought_of_gravity, any_gravity, gravity, false};
   if (load == LimitLoad::applied) {
     Change forces;
     forces.force = analysed->change.force;
-    return {sought_of_applied(*analysed), any_applied, loads_of_applied_forces(apply(model, forces))};
+    return {sought_of_applied(*analysed), any_applied, {{}, apply(model, forces).applied, {}}};
   }
   const std::optional<Vector<Dim>> towards = direction_of(load, model.gravity);
   if (!towards)
@@ -75,7 +77,7 @@ LiveLoad<Dim> live_load(LimitLoad load, const Model<Dim>& model, const Loads<Dim
   return {fmt::format("{} at collapse, as a fraction of gravity",
                       upright ? "acceleration " + name : "horizontal acceleration to the " + name),
           "it presses the blocks against fixed ones, or wedges them there",
-          loads_of_acceleration(model, Vector<Dim>(*towards * model.gravity.norm()))};
+          {*towards * model.gravity.norm(), {}, {}}};
 }
 
 // "faces of blocks 3 and 4, 5 and 8, and 7 more"
@@ -101,10 +103,13 @@ void warn_of_self_stress(const std::vector<int>& faces, LimitAnalysis<Dim>& anal
 }
 
 template <int Dim>
-void seek_factor(const LiveLoad<Dim>& live, const Loads<Dim>& gravity, LimitAnalysis<Dim>& analysis) {
+void seek_factor(const LimitRequest& request, const LiveLoad<Dim>& live, const LoadParts<Dim>& gravity,
+                 LimitAnalysis<Dim>& analysis) {
   analysis.sought = live.sought;
+  const LoadParts<Dim> dead = live.beside_gravity ? gravity : LoadParts<Dim>{};
   LoadFactor<Dim> found =
-      find_load_factor(analysis.assembly, live.beside_gravity ? gravity : Loads<Dim>(gravity.size()), live.loads);
+      find_load_factor(analysis.assembly, loads_of(analysis.model, dead), loads_of(analysis.model, live.load));
+  if (request.proof) analysis.proof = prove_bounds(analysis.model, analysis.assembly, dead, live.load, found);
   analysis.state = std::move(found.state);
   analysis.evidence = found.evidence;
   tell_load_factor(found.status, found.factor, "cone program", live.if_any, analysis);
@@ -128,8 +133,9 @@ void keep_mechanism(LimitState<Dim> state, LimitAnalysis<Dim>& analysis) {
 
 template <int Dim>
 void seek_factor_without_dilation(const LiveLoad<Dim>& live, const Loads<Dim>& gravity, LimitAnalysis<Dim>& analysis) {
-  FactorWithoutDilation<Dim> found = find_factor_without_dilation(
-      analysis.assembly, live.beside_gravity ? gravity : Loads<Dim>(gravity.size()), live.loads);
+  FactorWithoutDilation<Dim> found =
+      find_factor_without_dilation(analysis.assembly, live.beside_gravity ? gravity : Loads<Dim>(gravity.size()),
+                                   loads_of(analysis.model, live.load));
   tell_factor_ends(found, analysis);
   keep_mechanism(std::move(found.state), analysis);
 }
@@ -192,13 +198,10 @@ void warn_of_twist(const LimitAnalysis<2>&) {}
 
 // water grows with the factor of gravity, as in a run
 template <int Dim>
-Loads<Dim> gravity_and_water(const Model<Dim>& model) {
-  Loads<Dim> loads = loads_of_acceleration(model, model.gravity);
-  if (model.waters.empty()) return loads;
-  const Loads<Dim> water = water_loads_at_reference<Dim>(model);
-  for (std::size_t b = 0; b < loads.size(); ++b)
-    loads[b] += water[b];
-  return loads;
+LoadParts<Dim> gravity_and_water(const Model<Dim>& model) {
+  LoadParts<Dim> parts{model.gravity, {}, {}};
+  if (!model.waters.empty()) parts.waters = water_loads_at_reference<Dim>(model);
+  return parts;
 }
 
 }  // namespace
@@ -218,11 +221,12 @@ LimitAnalysis<Dim> analyse_limit(const LoadedScene& scene, const LimitRequest& r
   analysis.bound = request.load || request.factor
                        ? "upper bound: joints that do not dilate as they slip carry no more, and may carry far less"
                        : "lower bound: joints that do not dilate as they slip need as much friction or more";
-  const Loads<Dim> gravity = gravity_and_water(model);
+  const LoadParts<Dim> parts_of_gravity = gravity_and_water(model);
+  const Loads<Dim> gravity = loads_of(model, parts_of_gravity);
   std::optional<LiveLoad<Dim>> live;
-  if (request.load) live = live_load(*request.load, model, gravity, analysed);
+  if (request.load) live = live_load(*request.load, model, parts_of_gravity, analysed);
   double acceleration = acceleration_of(model, gravity);
-  if (acceleration == 0 && live) acceleration = acceleration_of(model, live->loads);
+  if (acceleration == 0 && live) acceleration = acceleration_of(model, loads_of(model, live->load));
   analysis.assembly = corner_assembly(model, acceleration > 0 ? acceleration : 1, request.cohesion);
 
   std::vector<bool> touched(model.bodies.size()), cohesive(model.properties.size());
@@ -235,7 +239,7 @@ LimitAnalysis<Dim> analyse_limit(const LoadedScene& scene, const LimitRequest& r
   warn_of_changes(prepared.stages, analysed, analysis.warnings);
 
   if (live)
-    seek_factor(*live, gravity, analysis);
+    seek_factor(request, *live, parts_of_gravity, analysis);
   else
     seek_strength(request, gravity, analysis);
   const bool empty = analysis.status == LimitStatus::nothing_free || analysis.status == LimitStatus::no_load;

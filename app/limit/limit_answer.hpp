@@ -18,6 +18,14 @@ struct LimitRequest {
   bool factor = false;                  // the factor of safety is sought instead
   bool cohesion = false;                // also joints that only a stage bonds have their cohesion
   bool without_dilation = false;        // of a load: also the factor of joints that do not dilate
+  bool proof = false;                   // of a load: its bounds are proved without rounding
+};
+
+// Bounds of the load's factor, proved without rounding for joints that dilate; why not, if there is none.
+struct ProvedBounds {
+  std::optional<double> lower, upper;
+  std::string no_lower, no_upper;
+  std::string file;  // the proof (limit_proof.hpp); empty if neither is proved
 };
 
 struct LimitAnswer {
@@ -31,6 +39,7 @@ struct LimitAnswer {
   std::vector<std::string> caveats;  // limitations of any result, and of this one
   std::vector<std::pair<std::string, Value>> values;
   Evidence evidence;
+  std::optional<ProvedBounds> proof;  // if asked for
   std::vector<std::string> warnings;
 };
 

@@ -22,6 +22,7 @@ struct LimitArguments {
   std::vector<std::string> joints;      // of whose joint_properties; none: of all
   bool cohesion = false;                // joints have the cohesion that their properties state
   bool without_dilation = false;        // also the factor of joints that do not dilate
+  bool proof = false;                   // the load's factor is proved without rounding
   bool overwrite = false;
   bool quiet = false;
 };
@@ -34,6 +35,7 @@ LimitRequest request_of(const LimitArguments& arguments) {
   request.factor = arguments.factor;
   request.cohesion = arguments.cohesion;
   request.without_dilation = arguments.without_dilation;
+  request.proof = arguments.proof;
   const auto load = std::ranges::find(limit_loads, arguments.load);
   if (load != limit_loads.end()) request.load = static_cast<LimitLoad>(load - limit_loads.begin());
   return request;
@@ -98,6 +100,15 @@ void print_mechanism(const LimitAnalysis<Dim>& analysis) {
        "speed of the centroid, turning: speed of the farthest corner about it; their sum is 1 for the fastest block");
 }
 
+void print_proof(const ProvedBounds& proof) {
+  line("proof", proof.upper ? fmt::format("not more than {:.9g}, proved: beyond it nothing stands", *proof.upper)
+                            : "not proved from above: " + proof.no_upper);
+  line("", proof.lower ? fmt::format("carried {:.9g} by forces in exact balance, if joints dilate: not safe where they "
+                                     "do not",
+                                     *proof.lower)
+                       : "not proved from below: " + proof.no_lower);
+}
+
 template <int Dim>
 void print_analysis(const LimitAnalysis<Dim>& analysis, const fs::path& folder) {
   const Evidence& evidence = analysis.evidence;
@@ -110,6 +121,7 @@ void print_analysis(const LimitAnalysis<Dim>& analysis, const fs::path& folder) 
                                  "{:.2g} of a block's weight, joints closed at {:.2g} of the speed",
                                  evidence.gap, evidence.out_of_balance, evidence.inadmissible));
   }
+  if (analysis.proof) print_proof(*analysis.proof);
   std::size_t corners = 0;
   for (const CornerFace<Dim>& face : analysis.assembly.faces)
     corners += face.corners.size();
@@ -141,7 +153,7 @@ ExitCode answer(const LimitArguments& arguments, const LoadedScene& scene, const
 ExitCode limit_command(const LimitArguments& arguments) {
   const LoadedScene scene = load_scene(arguments.scene.scene, arguments.scene.overrides);
   const LimitRequest request = request_of(arguments);
-  std::vector<std::string> files{"results.json", "blocks.vtp", "mechanism.vtp", "forces.vtp"};
+  std::vector<std::string> files{"results.json", "blocks.vtp", "mechanism.vtp", "forces.vtp", "proof.json.gz"};
   if (scene.dimension == 3) return answer(arguments, scene, analyse_limit<3>(scene, request), files);
   files.push_back("limit.svg");
   return answer(arguments, scene, analyse_limit<2>(scene, request), files);
@@ -187,6 +199,11 @@ void add_limit(CLI::App& program, Action& action) {
                     "always have theirs); it is plastic, and tension is left out");
   command->add_flag("--without-dilation", arguments.without_dilation,
                     "the answer of joints that slip without opening first: hundreds of programs");
+  command
+      ->add_flag("--proof", arguments.proof,
+                 "prove the bounds of the load's factor without rounding, as proof.json.gz; for joints that do not "
+                 "dilate only the upper one is a bound")
+      ->needs(load);
   add_overwrite(command, arguments.overwrite);
   command->add_flag("--quiet", arguments.quiet, "no warnings and no summary");
 }

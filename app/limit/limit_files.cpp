@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/base/gzip.hpp"
 #include "app/run_folder/results_hash.hpp"
 #include "core/output/atomic_file.hpp"
 #include "core/output/paraview.hpp"
@@ -227,6 +228,8 @@ void write_limit_files(const LimitAnalysis<Dim>& analysis, const std::filesystem
   write_file(folder / "blocks.vtp", blocks(0));
   write_file(folder / "mechanism.vtp", blocks(drawn_motion * frame_of(analysis.model).extent()));
   write_file(folder / "forces.vtp", vtp(force_points(analysis)));
+  if (analysis.proof && !analysis.proof->file.empty())
+    write_file(folder / "proof.json.gz", gzipped(analysis.proof->file));
   write_results(folder, limit_json(analysis));  // last: if it exists, all else is complete
 }
 

@@ -16,8 +16,8 @@ std::string limit_json(const LimitAnalysis<Dim>& analysis);
 // free blocks fill them; longer lines are larger forces.
 std::string limit_svg(const LimitAnalysis<2>& analysis);
 
-// results.json, blocks.vtp (velocity of the mechanism), mechanism.vtp (the blocks moved along it), forces.vtp; in the
-// plane limit.svg too. Throws OutputError.
+// results.json, blocks.vtp (velocity of the mechanism), mechanism.vtp (the blocks moved along it), forces.vtp,
+// proof.json.gz if a bound is proved; in the plane limit.svg too. Throws OutputError.
 template <int Dim>
 void write_limit_files(const LimitAnalysis<Dim>& analysis, const std::filesystem::path& folder);
 

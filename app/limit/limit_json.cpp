@@ -82,6 +82,19 @@ Json interfaces_json(const LimitAnalysis<Dim>& analysis) {
   return list;
 }
 
+// the bounds of joints that dilate; of others only the upper one is a bound
+Json proof_json(const ProvedBounds& proof) {
+  Json json;
+  for (const auto& [name, bound, reason] : {std::tuple("proved_upper", proof.upper, proof.no_upper),
+                                            {"carried_if_joints_dilate", proof.lower, proof.no_lower}})
+    if (bound)
+      json[name] = *bound;
+    else
+      json[std::string("no_") + name] = reason;
+  if (!proof.file.empty()) json["file"] = "proof.json.gz";
+  return json;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -110,6 +123,7 @@ std::string limit_json(const LimitAnalysis<Dim>& analysis) {
     json["evidence"]["envelope"] = {{"rounds_of_tangents", evidence.rounds_of_tangents},
                                     {"agree", evidence.tangents_agree}};
   json["bound"] = analysis.bound;
+  if (analysis.proof) json["proof"] = proof_json(*analysis.proof);
   if (analysis.values.empty()) json["evidence"] = {{"cone_programs", evidence.programs}};
   json["mechanism"] = mechanism_json(analysis);
   json["interfaces"] = interfaces_json(analysis);

@@ -97,6 +97,29 @@ TEST_F(LimitSpace, CountsAppliedForcesAndCohesion) {
   EXPECT_NEAR(value("collapse_factor"), 20 * std::tan(35 * std::numbers::pi / 180) + 5, 1e-6);
 }
 
+// of the column: both bounds, a file, and why there is none
+TEST_F(LimitSpace, ProvesBounds) {
+  write_column();
+  const Ended east = limit("--load east --proof");
+  EXPECT_EQ(east.code, 0) << east.out << east.err;
+  const nlohmann::json proof = results("out")["proof"];
+  EXPECT_GE(proof["proved_upper"].get<double>(), 0.25);
+  EXPECT_LT(proof["proved_upper"].get<double>(), 0.25 + 1e-7);
+  EXPECT_LE(proof["carried_if_joints_dilate"].get<double>(), 0.25);
+  EXPECT_GT(proof["carried_if_joints_dilate"].get<double>(), 0.25 - 2e-6);
+  EXPECT_EQ(proof["file"], "proof.json.gz");
+  EXPECT_TRUE(fs::exists(folder_ / "out/proof.json.gz"));
+  for (const char* part : {"proved: beyond it nothing stands", "in exact balance, if joints dilate: not safe"})
+    EXPECT_NE(east.out.find(part), std::string::npos) << part << "\n" << east.out;
+
+  const Ended any = limit("--load down --proof");
+  EXPECT_EQ(any.code, 1);
+  EXPECT_NE(any.out.find("not proved from above: every factor is supported"), std::string::npos) << any.out;
+  EXPECT_FALSE(results("out")["proof"].contains("proved_upper"));
+  EXPECT_FALSE(fs::exists(folder_ / "out/proof.json.gz"));
+  expect_one_line(limit("--proof"), 2, "--load");
+}
+
 // the column alone topples; between walls that slip only, forces that nothing asks for may hold it
 TEST_F(LimitSpace, AnswersForJointsThatDoNotDilate) {
   write_column();

@@ -1,12 +1,11 @@
 #include "app/view/page.hpp"
 
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <limits>
-#include <new>
 
+#include "app/base/gzip.hpp"
 #include "app/view/asset.hpp"
 #include "core/base/bad_input.hpp"
 #include "core/output/view.hpp"
@@ -14,33 +13,6 @@
 
 namespace voussoir {
 namespace {
-
-// gzip at zlib's own level: the ninth takes twice the time for 1 % less
-std::string compressed(std::string_view bytes) {
-  constexpr int window = 15, as_gzip = 16, memory = 8;
-  z_stream stream{};
-  if (deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, window + as_gzip, memory, Z_DEFAULT_STRATEGY) != Z_OK)
-    throw std::bad_alloc();
-  std::string packed;
-  constexpr std::size_t piece = 1U << 18, largest = 1U << 30;
-  int state = Z_OK;
-  while (state != Z_STREAM_END) {
-    if (stream.avail_in == 0) {
-      const std::size_t part = std::min(bytes.size(), largest);
-      stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
-      stream.avail_in = static_cast<uInt>(part);
-      bytes.remove_prefix(part);
-    }
-    const std::size_t at = packed.size();
-    packed.resize(at + piece);
-    stream.next_out = reinterpret_cast<Bytef*>(packed.data() + at);
-    stream.avail_out = piece;
-    state = deflate(&stream, bytes.empty() ? Z_FINISH : Z_NO_FLUSH);
-    packed.resize(at + piece - stream.avail_out);
-  }
-  deflateEnd(&stream);
-  return packed;
-}
 
 std::string base64(std::string_view bytes) {
   constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -91,7 +63,7 @@ std::string view_fragment(const std::filesystem::path& data, std::string_view po
   if (!poster.empty())
     html += fmt::format("{}{};base64,{}", viewer::before_poster, picture_type(poster), base64(poster));
   html += viewer::before_data;
-  html += base64(compressed(view_bytes(data)));
+  html += base64(gzipped(view_bytes(data)));
   return html += viewer::after_fragment;
 }
 
@@ -104,7 +76,7 @@ std::string view_page(const std::filesystem::path& data) {
 
 std::string report_page(const std::string& json, const std::filesystem::path& blocks) {
   std::string html(viewer::before_report);
-  html += base64(compressed(json));
+  html += base64(gzipped(json));
   html += viewer::after_report_data;
   if (!blocks.empty()) {
     html += viewer::before_blocks;

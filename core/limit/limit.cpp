@@ -236,9 +236,9 @@ Loads<Dim> loads_of_acceleration(const Model<Dim>& model, const Vector<Dim>& acc
 }
 
 template <int Dim>
-Loads<Dim> loads_of_applied_forces(const Model<Dim>& model) {
+Loads<Dim> loads_of_applied_forces(const Model<Dim>& model, const std::vector<AppliedForce<Dim>>& forces) {
   Loads<Dim> loads(model.bodies.size());
-  for (const AppliedForce<Dim>& f : model.applied)
+  for (const AppliedForce<Dim>& f : forces)
     loads[f.body] += load_of<Dim>({f.place, f.force}, Matrix<Dim>::Identity());
   return loads;
 }
@@ -295,7 +295,7 @@ std::vector<bool> faces_of(const CornerAssembly<Dim>& assembly, const std::vecto
 }
 
 template Loads<2> loads_of_acceleration(const Model<2>&, const Vector<2>&);
-template Loads<2> loads_of_applied_forces(const Model<2>&);
+template Loads<2> loads_of_applied_forces(const Model<2>&, const std::vector<AppliedForce<2>>&);
 template double acceleration_of(const Model<2>&, const Loads<2>&);
 template LoadFactor<2> find_load_factor(const CornerAssembly<2>&, const Loads<2>&, const Loads<2>&);
 template CriticalStrength<2> find_critical_friction(const CornerAssembly<2>&, const Loads<2>&,
@@ -303,7 +303,7 @@ template CriticalStrength<2> find_critical_friction(const CornerAssembly<2>&, co
 template CriticalStrength<2> find_factor_of_safety(const CornerAssembly<2>&, const Loads<2>&, const std::vector<bool>&);
 template std::vector<bool> faces_of(const CornerAssembly<2>&, const std::vector<std::string>&);
 template Loads<3> loads_of_acceleration(const Model<3>&, const Vector<3>&);
-template Loads<3> loads_of_applied_forces(const Model<3>&);
+template Loads<3> loads_of_applied_forces(const Model<3>&, const std::vector<AppliedForce<3>>&);
 template double acceleration_of(const Model<3>&, const Loads<3>&);
 template LoadFactor<3> find_load_factor(const CornerAssembly<3>&, const Loads<3>&, const Loads<3>&);
 template CriticalStrength<3> find_critical_friction(const CornerAssembly<3>&, const Loads<3>&,

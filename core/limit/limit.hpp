@@ -23,7 +23,7 @@ struct LimitState {
 template <int Dim>
 Loads<Dim> loads_of_acceleration(const Model<Dim>& model, const Vector<Dim>& acceleration);  // m/s²
 template <int Dim>
-Loads<Dim> loads_of_applied_forces(const Model<Dim>& model);  // at a factor of 1
+Loads<Dim> loads_of_applied_forces(const Model<Dim>& model, const std::vector<AppliedForce<Dim>>& forces);  // at 1
 
 // m/s², the unit of weights: the largest load over its body's mass, a moment divided by the body's radius too
 template <int Dim>

@@ -50,7 +50,8 @@ LoadFactor<2> forced(Model<2> model, const std::vector<TestForce>& forces) {
     change.force.push_back(plan);
   }
   model = apply(model, change);
-  const Loads<2> dead = loads_of_acceleration(model, model.gravity), live = loads_of_applied_forces(model);
+  const Loads<2> dead = loads_of_acceleration(model, model.gravity),
+                 live = loads_of_applied_forces(model, model.applied);
   const double gravity = model.gravity.norm(), pushed_by = acceleration_of(model, live);
   return find_load_factor(corner_assembly(model, gravity > 0 ? gravity : pushed_by > 0 ? pushed_by : 1), dead, live);
 }
