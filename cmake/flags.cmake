@@ -15,6 +15,15 @@ if(VOUSSOIR_SANITIZE)
   target_link_options(voussoir_flags INTERFACE -fsanitize=${VOUSSOIR_SANITIZE})
 endif()
 
+# a hundred programs are linked: LLVM's linker takes a quarter of the seconds of GNU's, and keeps the same copies of functions
+if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+  find_program(VOUSSOIR_LLD ld.lld)
+  mark_as_advanced(VOUSSOIR_LLD)
+  if(VOUSSOIR_LLD)
+    add_link_options(-fuse-ld=lld)
+  endif()
+endif()
+
 # assertions state invariants and cost little: they stay on in the Release preset
 string(REPLACE "-DNDEBUG" "" CMAKE_CXX_FLAGS_RELEASE "${CMAKE_CXX_FLAGS_RELEASE}")
 string(REPLACE "-O3" "-O2" CMAKE_CXX_FLAGS_RELEASE "${CMAKE_CXX_FLAGS_RELEASE}")

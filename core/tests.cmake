@@ -22,6 +22,8 @@ endif()
 # the exact reference solver: GPL, therefore a library of its own that only tests link; and the contact kernel's checker, which uses it
 add_library(voussoir_exact_referee STATIC testing/exact_referee.cpp testing/exact_centre.cpp testing/exact_programs.cpp testing/exact_contacts.cpp
   testing/pair_families.cpp testing/pair_judge.cpp)
+target_compile_options(voussoir_exact_referee PRIVATE ${VOUSSOIR_OPTIMISED_TESTS})
+target_precompile_headers(voussoir_exact_referee REUSE_FROM voussoir_optimised_unit_headers)
 target_link_libraries(voussoir_exact_referee PUBLIC voussoir_core voussoir_oracle_algebra gmpxx gmp
   PRIVATE voussoir_flags cddgmp fmt::fmt Boost::headers)
 

@@ -53,7 +53,7 @@ foreach(list IN LISTS lists)
 endforeach()
 list(TRANSFORM used REPLACE "^[a-z_]+\\(" "")
 list(REMOVE_DUPLICATES used)
-list(REMOVE_ITEM used PkgConfig Threads IPOPT Python3 Python)  # tools, the C library, a library of no package, the interpreter
+list(REMOVE_ITEM used PkgConfig Threads IPOPT GLPK Python3 Python)  # tools, the C library, a library of no package, the interpreter
 file(READ ${SOURCE}/packaging/copyright copyright)
 string(TOLOWER "${copyright}" copyright)
 foreach(name IN LISTS used)

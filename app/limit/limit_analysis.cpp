@@ -113,6 +113,7 @@ void seek_factor(const LimitRequest& request, const LiveLoad<Dim>& live, const L
   analysis.state = std::move(found.state);
   analysis.evidence = found.evidence;
   tell_load_factor(found.status, found.factor, "cone program", live.if_any, analysis);
+  analysis.answered = found.status == LimitStatus::found;
   if (found.status == LimitStatus::carries_any && live.beside_gravity) analysis.caveats.push_back(pressed_caveat);
   warn_of_self_stress(found.self_stress, analysis);
 }
@@ -152,6 +153,7 @@ void seek_strength(const LimitRequest& request, const Loads<Dim>& gravity, Limit
       std::ranges::any_of(analysis.assembly.faces, [](const CornerFace<Dim>& face) { return face.cohesion > 0; });
   request.factor ? tell_factor_of_safety(request, dilating, cohesive, rule, analysis)
                  : tell_friction(request, dilating, rule, analysis);
+  analysis.answered = dilating.status == LimitStatus::found || dilating.status == LimitStatus::carries_any;
   warn_of_self_stress(dilating.self_stress, analysis);
   const bool sought = dilating.status == LimitStatus::found || dilating.status == LimitStatus::not_attained;
   if (!request.without_dilation || !sought) return;
@@ -250,9 +252,6 @@ LimitAnalysis<Dim> analyse_limit(const LoadedScene& scene, const LimitRequest& r
     analysis.message =
         "a cone program lost its digits before its bounds met; blocks of very different size are the "
         "usual cause";
-  if (!request.without_dilation)
-    analysis.answered =
-        analysis.status == LimitStatus::found || (!request.load && analysis.status == LimitStatus::carries_any);
   analysis.mechanism = describe_mechanism(model, analysis.state.velocities);
   warn_of_twist(analysis);
   return analysis;

@@ -111,7 +111,9 @@ std::string limit_json(const LimitAnalysis<Dim>& analysis) {
                      {"compiler", compiler()},
                      {"origins", origins_json({this_origin()})}};
   json["sought"] = analysis.sought;
-  json["status"] = analysis.answered || analysis.enclosed ? "done" : analysis.status == LimitStatus::solver_failed ? "failed" : "incomplete";
+  json["status"] = analysis.answered || analysis.enclosed          ? "done"
+                   : analysis.status == LimitStatus::solver_failed ? "failed"
+                                                                   : "incomplete";
   json["message"] = analysis.message;
   json["caveat"] = fmt::format("{}", fmt::join(analysis.caveats, "; "));
   json["values"] = values_json(analysis);
