@@ -129,7 +129,9 @@ void refuse_envelopes(const std::vector<JointProperties>& properties) {
 
 template <int Dim>
 void keep_mechanism(LimitState<Dim> state, LimitAnalysis<Dim>& analysis) {
-  if (!state.forces.empty()) analysis.state = std::move(state);
+  if (state.forces.empty()) return;
+  analysis.state = std::move(state);
+  analysis.flow = "without dilation";
 }
 
 template <int Dim>

@@ -35,8 +35,9 @@ struct LimitAnswer {
   bool answered = false;  // a value was found, that no friction is needed included
   bool enclosed = false;  // without dilation: both ends of an interval were found
   std::string message;    // the reason and the repair if no value was found, or the meaning of the value; else empty
-  std::string bound;      // what the value bounds where joints do not dilate
-  std::vector<std::string> caveats;  // limitations of any result, and of this one
+  std::string flow = "associated flow";  // of the mechanism and the forces
+  std::string bound;                     // what the value bounds where joints do not dilate
+  std::vector<std::string> caveats;      // limitations of any result, and of this one
   std::vector<std::pair<std::string, Value>> values;
   Evidence evidence;
   std::optional<ProvedBounds> proof;  // if asked for

@@ -81,8 +81,8 @@ void print_mechanism(const LimitAnalysis<Dim>& analysis) {
       std::ranges::count_if(analysis.model.bodies, [](const Body<Dim>& body) { return body.present && !body.fixed; });
   if (mechanism.moving.empty()) return line("mechanism", "none");
   line("mechanism",
-       fmt::format("{} of {} free blocks move, {} of them rotate; {:.3g} % of the kinetic energy is rotation",
-                   mechanism.moving.size(), free, mechanism.turning, 100 * mechanism.rotation_fraction));
+       fmt::format("{} of {} free blocks move, {} of them rotate; {:.3g} % of the kinetic energy is rotation; {}",
+                   mechanism.moving.size(), free, mechanism.turning, 100 * mechanism.rotation_fraction, analysis.flow));
   line("", fmt::format("{:>6} {:>10} {:>10} {}  {:>9} {:>9} {:>9}  {}", "block", "x m", "y m",
                        Dim == 3 ? fmt::format("{:>10}", "z m") : "", "speed", "turning", "rotation",
                        Dim == 2 ? "centre m" : ""));
@@ -115,7 +115,7 @@ void print_analysis(const LimitAnalysis<Dim>& analysis, const fs::path& folder) 
   fmt::print("{}limit analysis\n", analysis.title.empty() ? "" : analysis.title + " - ");
   line("sought", analysis.sought);
   print_values(analysis);
-  if (!analysis.values.empty()) {
+  if (!analysis.values.empty() && analysis.status != LimitStatus::carries_any) {
     line("bound", analysis.bound);
     line("enclosed", fmt::format("for joints that dilate: forces and mechanism differ by {:.2g}, forces out of balance "
                                  "{:.2g} of a block's weight, joints closed at {:.2g} of the speed",

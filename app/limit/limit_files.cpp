@@ -207,7 +207,7 @@ std::string limit_svg(const LimitAnalysis<2>& analysis) {
   forces.begin("forces at the joints' ends");
   draw_forces(analysis, frame, forces);
   forces.end();
-  mechanism.begin(analysis.mechanism.moving.empty() ? "no mechanism" : "mechanism, associated flow");
+  mechanism.begin(analysis.mechanism.moving.empty() ? "no mechanism" : "mechanism, " + analysis.flow);
   draw_mechanism(analysis, frame, mechanism);
   mechanism.end();
   const double width = 2 * picture_width + gap, height = caption_height + Picture::height(frame);

@@ -53,7 +53,8 @@ Json mechanism_json(const LimitAnalysis<Dim>& analysis) {
     if (Dim == 2) block["centre_m"] = motion.centre ? point(*motion.centre) : Json();
     blocks.push_back(block);
   }
-  return {{"rotation_share", analysis.mechanism.rotation_fraction},
+  return {{"flow", analysis.flow},
+          {"rotation_share", analysis.mechanism.rotation_fraction},
           {"turning", analysis.mechanism.turning},
           {"moving", blocks}};
 }

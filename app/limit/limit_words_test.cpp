@@ -27,7 +27,7 @@ class LimitWords : public Program {
 };
 
 constexpr const char* not_asked_for =
-    "may depend on self-stress, normal forces between walls that the loads do not cause";
+    "may depend on self-stress, normal forces that the loads do not cause, between faces of blocks";
 
 TEST_F(LimitWords, OfParallelWallsAreNoAngleAndNoFactor) {
   write_slot(0);

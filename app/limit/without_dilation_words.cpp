@@ -77,6 +77,8 @@ void tell_factor_ends(const FactorEnds& found, LimitAnswer& answer) {
     answer.caveats.push_back("without dilation: no mechanism was found, as forces grow without bound");
     return;
   }
+  if (!answer.message.empty()) answer.caveats.push_back("with dilation: " + answer.message);
+  answer.message.clear();
   add_ends({"collapse_factor", "1", found.least, found.unbounded ? std::nullopt : std::optional(found.largest),
             found.settled},
            answer);
