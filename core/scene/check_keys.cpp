@@ -99,10 +99,10 @@ bool holds(const Node& table, const Groups& groups, const Condition& condition) 
 
 // keys that scenes of earlier versions may hold
 constexpr std::pair<std::string_view, std::string_view> former_keys[] = {
-    {"contact.centre",
-     "has left the program together with Ipopt: Newton's method finds every centre; remove the line"},
+    {"contact.centre", "has left the program together with Ipopt: Newton's method finds every centre; remove the line"},
     {"contact.lp",
-     "has left the program together with GLPK, which core/solvers/outside_solvers_test.cpp keeps as the reference of its "
+     "has left the program together with GLPK, which core/solvers/outside_solvers_test.cpp keeps as the reference of "
+     "its "
      "decisions; remove the line"}};
 
 [[noreturn]] void refuse_unknown(const Node& node, const Groups& groups, const std::string& path,
