@@ -135,10 +135,11 @@ void keep_mechanism(LimitState<Dim> state, LimitAnalysis<Dim>& analysis) {
 }
 
 template <int Dim>
-void seek_factor_without_dilation(const LiveLoad<Dim>& live, const Loads<Dim>& gravity, LimitAnalysis<Dim>& analysis) {
+void seek_factor_without_dilation(const LimitRequest& request, const LiveLoad<Dim>& live, const Loads<Dim>& gravity,
+                                  LimitAnalysis<Dim>& analysis) {
   FactorWithoutDilation<Dim> found =
       find_factor_without_dilation(analysis.assembly, live.beside_gravity ? gravity : Loads<Dim>(gravity.size()),
-                                   loads_of(analysis.model, live.load));
+                                   loads_of(analysis.model, live.load), request.after_round);
   tell_factor_ends(found, analysis);
   keep_mechanism(std::move(found.state), analysis);
 }
@@ -160,8 +161,9 @@ void seek_strength(const LimitRequest& request, const Loads<Dim>& gravity, Limit
   const bool sought = dilating.status == LimitStatus::found || dilating.status == LimitStatus::not_attained;
   if (!request.without_dilation || !sought) return;
   StrengthWithoutDilation<Dim> found =
-      request.factor ? find_factor_of_safety_without_dilation(analysis.assembly, gravity, chosen, dilating)
-                     : find_critical_friction_without_dilation(analysis.assembly, gravity, chosen, dilating);
+      request.factor
+          ? find_factor_of_safety_without_dilation(analysis.assembly, gravity, chosen, dilating, request.after_round)
+          : find_critical_friction_without_dilation(analysis.assembly, gravity, chosen, dilating, request.after_round);
   tell_strength_ends(request, found, analysis);
   keep_mechanism(std::move(found.state), analysis);
 }
@@ -247,7 +249,7 @@ LimitAnalysis<Dim> analyse_limit(const LoadedScene& scene, const LimitRequest& r
   else
     seek_strength(request, gravity, analysis);
   const bool empty = analysis.status == LimitStatus::nothing_free || analysis.status == LimitStatus::no_load;
-  if (live && request.without_dilation && !empty) seek_factor_without_dilation(*live, gravity, analysis);
+  if (live && request.without_dilation && !empty) seek_factor_without_dilation(request, *live, gravity, analysis);
   tell_envelope(analysis);
   refuse_empty(analysis, model.gravity.isZero(0), analysed);
   if (analysis.status == LimitStatus::solver_failed)

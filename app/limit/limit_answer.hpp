@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/limit/limit_loads.hpp"
-#include "core/limit/limit.hpp"
+#include "core/limit/without_dilation.hpp"
 #include "core/output/results.hpp"
 
 namespace voussoir {
@@ -17,7 +17,8 @@ struct LimitRequest {
   std::vector<std::string> properties;  // whose friction is sought, or whose strength is divided; none: all
   bool factor = false;                  // the factor of safety is sought instead
   bool cohesion = false;                // also joints that only a stage bonds have their cohesion
-  bool without_dilation = false;        // of a load: also the factor of joints that do not dilate
+  bool without_dilation = false;        // the answer of joints that do not dilate, too
+  RoundHook after_round;                // of its rounds
   bool proof = false;                   // of a load: its bounds are proved without rounding
 };
 

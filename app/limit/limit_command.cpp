@@ -6,6 +6,7 @@
 
 #include "app/base/arguments.hpp"
 #include "app/base/message.hpp"
+#include "app/base/progress_line.hpp"
 #include "app/limit/limit_files.hpp"
 #include "app/limit/limit_loads.hpp"
 #include "app/run_folder/claimed_folder.hpp"
@@ -152,11 +153,21 @@ ExitCode answer(const LimitArguments& arguments, const LoadedScene& scene, const
 
 ExitCode limit_command(const LimitArguments& arguments) {
   const LoadedScene scene = load_scene(arguments.scene.scene, arguments.scene.overrides);
-  const LimitRequest request = request_of(arguments);
+  LimitRequest request = request_of(arguments);
+  StatusLine status(!arguments.quiet);
+  request.after_round = [&](int rounds, double factor) {
+    if (status.is_due())
+      status.show(fmt::format("without dilation: round {} from loose joints, factor {:.6g}", rounds, factor));
+  };
+  const auto analyse = [&]<int Dim>() {
+    LimitAnalysis<Dim> analysis = analyse_limit<Dim>(scene, request);
+    status.clear();
+    return analysis;
+  };
   std::vector<std::string> files{"results.json", "blocks.vtp", "mechanism.vtp", "forces.vtp", "proof.json.gz"};
-  if (scene.dimension == 3) return answer(arguments, scene, analyse_limit<3>(scene, request), files);
+  if (scene.dimension == 3) return answer(arguments, scene, analyse.operator()<3>(), files);
   files.push_back("limit.svg");
-  return answer(arguments, scene, analyse_limit<2>(scene, request), files);
+  return answer(arguments, scene, analyse.operator()<2>(), files);
 }
 
 }  // namespace

@@ -37,12 +37,13 @@ template <int Dim>
 class SearchWithoutDilation {
  public:
   SearchWithoutDilation(const CornerAssembly<Dim>& assembly, const Loads<Dim>& loads, const Strength<Dim>& strength,
-                        const CriticalStrength<Dim>& dilating, double needed)
+                        const CriticalStrength<Dim>& dilating, double needed, const RoundHook& hook)
       : trial_(assembly),
         loads_(loads),
         live_(load_along(assembly, dilating.state.velocities)),
         strength_(strength),
-        needed_(needed) {}
+        needed_(needed),
+        hook_(hook) {}
 
   StrengthWithoutDilation<Dim> find() {
     const bool driven = std::ranges::any_of(live_, [](const Load<Dim>& load) { return !load.force.isZero(0); });
@@ -64,7 +65,9 @@ class SearchWithoutDilation {
   // solves at a strength; false: no mechanism was found there
   bool add(double at) {
     strength_.weaken(at, trial_);
-    FactorWithoutDilation<Dim> found = find_factor_without_dilation(trial_, loads_, live_);
+    FactorWithoutDilation<Dim> found = find_factor_without_dilation(
+        trial_, loads_, live_,
+        hook_ ? RoundHook([&](int rounds, double factor) { hook_(result_.rounds + rounds, factor); }) : RoundHook());
     result_.rounds += found.rounds;
     result_.programs += found.programs;
     constexpr EndOfFactor unbounded{std::numeric_limits<double>::infinity(), 0};
@@ -119,6 +122,7 @@ class SearchWithoutDilation {
   Loads<Dim> live_;
   const Strength<Dim>& strength_;
   double needed_;
+  const RoundHook& hook_;
   std::vector<TrialWithoutDilation> trials_;  // by strength
   StrengthWithoutDilation<Dim> result_;
 };
@@ -129,19 +133,21 @@ template <int Dim>
 StrengthWithoutDilation<Dim> find_critical_friction_without_dilation(const CornerAssembly<Dim>& assembly,
                                                                      const Loads<Dim>& loads,
                                                                      const std::vector<bool>& chosen,
-                                                                     const CriticalStrength<Dim>& dilating) {
+                                                                     const CriticalStrength<Dim>& dilating,
+                                                                     const RoundHook& hook) {
   const Strength<Dim> strength = friction_of<Dim>(chosen);
-  return SearchWithoutDilation<Dim>(assembly, loads, strength, dilating, dilating.collapses).find();
+  return SearchWithoutDilation<Dim>(assembly, loads, strength, dilating, dilating.collapses, hook).find();
 }
 
 template <int Dim>
 StrengthWithoutDilation<Dim> find_factor_of_safety_without_dilation(const CornerAssembly<Dim>& assembly,
                                                                     const Loads<Dim>& loads,
                                                                     const std::vector<bool>& chosen,
-                                                                    const CriticalStrength<Dim>& dilating) {
+                                                                    const CriticalStrength<Dim>& dilating,
+                                                                    const RoundHook& hook) {
   const Strength<Dim> strength = remaining_strength(assembly, chosen);
   StrengthWithoutDilation<Dim> found =
-      SearchWithoutDilation<Dim>(assembly, loads, strength, dilating, 1 / (1 + dilating.collapses)).find();
+      SearchWithoutDilation<Dim>(assembly, loads, strength, dilating, 1 / (1 + dilating.collapses), hook).find();
   for (std::optional<EndOfFactor>* end : {&found.weakest, &found.strongest})
     if (*end) {
       const double factor = factor_at((*end)->factor);
@@ -152,15 +158,19 @@ StrengthWithoutDilation<Dim> find_factor_of_safety_without_dilation(const Corner
 
 template StrengthWithoutDilation<2> find_critical_friction_without_dilation(const CornerAssembly<2>&, const Loads<2>&,
                                                                             const std::vector<bool>&,
-                                                                            const CriticalStrength<2>&);
+                                                                            const CriticalStrength<2>&,
+                                                                            const RoundHook&);
 template StrengthWithoutDilation<3> find_critical_friction_without_dilation(const CornerAssembly<3>&, const Loads<3>&,
                                                                             const std::vector<bool>&,
-                                                                            const CriticalStrength<3>&);
+                                                                            const CriticalStrength<3>&,
+                                                                            const RoundHook&);
 template StrengthWithoutDilation<2> find_factor_of_safety_without_dilation(const CornerAssembly<2>&, const Loads<2>&,
                                                                            const std::vector<bool>&,
-                                                                           const CriticalStrength<2>&);
+                                                                           const CriticalStrength<2>&,
+                                                                           const RoundHook&);
 template StrengthWithoutDilation<3> find_factor_of_safety_without_dilation(const CornerAssembly<3>&, const Loads<3>&,
                                                                            const std::vector<bool>&,
-                                                                           const CriticalStrength<3>&);
+                                                                           const CriticalStrength<3>&,
+                                                                           const RoundHook&);
 
 }  // namespace voussoir

@@ -27,8 +27,9 @@ class FixedPoints {
   using Cone = ForceCone<freedoms<Dim>, Dim>;
 
  public:
-  FixedPoints(const CornerAssembly<Dim>& assembly, const Loads<Dim>& dead, const Loads<Dim>& live)
-      : assembly_(assembly), program_(corner_program(assembly, dead, live)) {
+  FixedPoints(const CornerAssembly<Dim>& assembly, const Loads<Dim>& dead, const Loads<Dim>& live,
+              const RoundHook& hook)
+      : assembly_(assembly), hook_(hook), program_(corner_program(assembly, dead, live)) {
     scale_ = program_.live.cwiseAbs().maxCoeff();
     if (scale_ > 0) program_.live /= scale_;
   }
@@ -104,6 +105,7 @@ class FixedPoints {
       change = std::max(change, std::abs(slip - slips_[k]));
       slips_[k] += part * (slip - slips_[k]);
     }
+    if (hook_) hook_(rounds_, answer.factor / scale_);
     return Round{answer.factor / scale_, largest > 0 ? change / largest : 0};
   }
 
@@ -125,6 +127,7 @@ class FixedPoints {
   }
 
   const CornerAssembly<Dim>& assembly_;
+  const RoundHook& hook_;
   CornerProgram<Dim> program_;
   std::vector<double> slips_;  // by cone: sin φ |u_T|, as the cone's numbers have it
   double scale_ = 0;
@@ -199,11 +202,11 @@ std::optional<Interval> closed(FixedPoints<Dim>& points) {
 
 template <int Dim>
 FactorWithoutDilation<Dim> find_factor_without_dilation(const CornerAssembly<Dim>& assembly, const Loads<Dim>& dead,
-                                                        const Loads<Dim>& live) {
+                                                        const Loads<Dim>& live, const RoundHook& hook) {
   FactorWithoutDilation<Dim> result;
   if (std::ranges::none_of(assembly.bodies, &CornerBody<Dim>::moves))
     return result.status = LimitStatus::nothing_free, result;
-  FixedPoints<Dim> points(assembly, dead, live);
+  FixedPoints<Dim> points(assembly, dead, live, hook);
   if (!points.has_load()) return result.status = LimitStatus::no_load, result;
 
   CornerAssembly<Dim> smooth = assembly;
@@ -239,8 +242,8 @@ FactorWithoutDilation<Dim> find_factor_without_dilation(const CornerAssembly<Dim
 }
 
 template FactorWithoutDilation<2> find_factor_without_dilation(const CornerAssembly<2>&, const Loads<2>&,
-                                                               const Loads<2>&);
+                                                               const Loads<2>&, const RoundHook&);
 template FactorWithoutDilation<3> find_factor_without_dilation(const CornerAssembly<3>&, const Loads<3>&,
-                                                               const Loads<3>&);
+                                                               const Loads<3>&, const RoundHook&);
 
 }  // namespace voussoir

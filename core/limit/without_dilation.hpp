@@ -6,11 +6,15 @@
 // mechanism that was found; nothing proves that there is no lower one.
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "core/limit/limit.hpp"
 
 namespace voussoir {
+
+// called after every round: how many there were, and the factor of the last
+using RoundHook = std::function<void(int rounds, double factor)>;
 
 struct EndOfFactor {
   double factor = 0, error = 0;
@@ -33,7 +37,7 @@ struct FactorWithoutDilation : FactorEnds {
 // carried. 90 to 600 programs.
 template <int Dim>
 FactorWithoutDilation<Dim> find_factor_without_dilation(const CornerAssembly<Dim>& assembly, const Loads<Dim>& dead,
-                                                        const Loads<Dim>& live);
+                                                        const Loads<Dim>& live, const RoundHook& hook = {});
 
 // The strength of joints that do not dilate at which loads are just supported: where the largest and where the least
 // factor of a further load in the direction of the mechanism of joints that dilate vanish.
@@ -55,11 +59,13 @@ template <int Dim>
 StrengthWithoutDilation<Dim> find_critical_friction_without_dilation(const CornerAssembly<Dim>& assembly,
                                                                      const Loads<Dim>& loads,
                                                                      const std::vector<bool>& chosen,
-                                                                     const CriticalStrength<Dim>& dilating);
+                                                                     const CriticalStrength<Dim>& dilating,
+                                                                     const RoundHook& hook = {});
 template <int Dim>
 StrengthWithoutDilation<Dim> find_factor_of_safety_without_dilation(const CornerAssembly<Dim>& assembly,
                                                                     const Loads<Dim>& loads,
                                                                     const std::vector<bool>& chosen,
-                                                                    const CriticalStrength<Dim>& dilating);
+                                                                    const CriticalStrength<Dim>& dilating,
+                                                                    const RoundHook& hook = {});
 
 }  // namespace voussoir
