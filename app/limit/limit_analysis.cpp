@@ -84,13 +84,13 @@ LiveLoad<Dim> live_load(LimitLoad load, const Model<Dim>& model, const LoadParts
 template <int Dim>
 std::string names_of_faces(const LimitAnalysis<Dim>& analysis, const std::vector<int>& faces) {
   constexpr std::size_t most_named = 3;
-  std::string names = "faces of blocks ";
+  std::string list = "faces of blocks ";
   for (std::size_t k = 0; k < std::min(faces.size(), most_named); ++k) {
     const CornerFace<Dim>& face = analysis.assembly.faces[faces[k]];
-    names += fmt::format("{}{} and {}", k == 0 ? "" : ", ", face.body_a, face.body_b);
+    list += fmt::format("{}{} and {}", k == 0 ? "" : ", ", face.body_a, face.body_b);
   }
-  if (faces.size() > most_named) names += fmt::format(", and {} more", faces.size() - most_named);
-  return names;
+  if (faces.size() > most_named) list += fmt::format(", and {} more", faces.size() - most_named);
+  return list;
 }
 
 template <int Dim>
