@@ -83,13 +83,13 @@ LiveLoad<Dim> live_load(LimitLoad load, const Model<Dim>& model, const LoadParts
 // "faces of blocks 3 and 4, 5 and 8, and 7 more"
 template <int Dim>
 std::string names_of_faces(const LimitAnalysis<Dim>& analysis, const std::vector<int>& faces) {
-  constexpr std::size_t most_named = 3;
+  constexpr std::size_t most = 3;
   std::string list = "faces of blocks ";
-  for (std::size_t k = 0; k < std::min(faces.size(), most_named); ++k) {
+  for (std::size_t k = 0; k < std::min(faces.size(), most); ++k) {
     const CornerFace<Dim>& face = analysis.assembly.faces[faces[k]];
     list += fmt::format("{}{} and {}", k == 0 ? "" : ", ", face.body_a, face.body_b);
   }
-  if (faces.size() > most_named) list += fmt::format(", and {} more", faces.size() - most_named);
+  if (faces.size() > most) list += fmt::format(", and {} more", faces.size() - most);
   return list;
 }
 

@@ -18,7 +18,7 @@ struct LimitRequest {
   bool factor = false;                  // the factor of safety is sought instead
   bool cohesion = false;                // also joints that only a stage bonds have their cohesion
   bool without_dilation = false;        // the answer of joints that do not dilate, too
-  RoundHook after_round;                // of its rounds
+  RoundHook after_round = {};           // of its rounds
   bool proof = false;                   // of a load: its bounds are proved without rounding
 };
 
