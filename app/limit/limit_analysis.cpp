@@ -67,7 +67,7 @@ LiveLoad<Dim> live_load(LimitLoad load, const Model<Dim>& model, const LoadParts
   if (load == LimitLoad::applied) {
     Change forces;
     forces.force = analysed->change.force;
-    return {sought_of_applied(*analysed), any_applied, {{}, apply(model, forces).applied, {}}};
+    return {sought_of_applied(*analysed), any_applied, {Vector<Dim>::Zero(), apply(model, forces).applied, {}}};
   }
   const std::optional<Vector<Dim>> towards = direction_of(load, model.gravity);
   if (!towards)

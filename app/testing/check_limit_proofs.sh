@@ -17,4 +17,4 @@ stack cases/column/scene west
 water cases/vaiont/scene right
 incline cases/incline/scene south
 END
-exec python3 "$(dirname "$0")/check_limit_proof.py" "$3"/*/proof.json.gz
+exec python3 "$(dirname "$0")/check_limit_proof.py" --tamper "$3"/*/proof.json.gz
