@@ -174,17 +174,13 @@ void warn_of_twist(LimitAnalysis<3>& analysis) {
   int count = 0;
   std::string first;
   for (const CornerFace<3>& face : analysis.assembly.faces) {
-    const auto speed_at = [&](int body, const Vector<3>& place) -> Vector<3> {
-      const BodyVelocity<3>& motion = analysis.state.velocities[body];
-      return motion.velocity + motion.spin.cross(place - analysis.assembly.bodies[body].centroid);
-    };
     Vector<3> mean = Vector<3>::Zero();
     for (const Vector<3>& corner : face.corners)
       mean += corner / static_cast<double>(face.corners.size());
     double radius = 0, slip = 0;
     for (const Vector<3>& corner : face.corners) {
       radius = std::max(radius, (corner - mean).norm());
-      slip = std::max(slip, (speed_at(face.body_b, corner) - speed_at(face.body_a, corner)).norm());
+      slip = std::max(slip, opening_at(analysis.assembly, face, corner, analysis.state.velocities).norm());
     }
     const double turn =
         std::abs((analysis.state.velocities[face.body_b].spin - analysis.state.velocities[face.body_a].spin)
