@@ -53,7 +53,6 @@ struct Edge {
   double slack;
   int plane;
 };
-constexpr int pressed_edge = -1;  // the end of the overlap
 
 // calls `with` for each of them
 template <int Dim, class With>
@@ -72,7 +71,7 @@ template <int Dim, class With>
     e.plane = i;
     with(e);
   }
-  with(Edge<Dim - 1>{-mean.gradient, mean.at_origin, pressed_edge});
+  with(Edge<Dim - 1>{-mean.gradient, mean.at_origin, no_plane});
 }
 
 // Side planes of both parts are flush if less than this many overlaps apart: about as far as shear springs shift blocks
@@ -85,25 +84,40 @@ constexpr double flush_overlaps = 10, flush_width = 0.02, flush_sine2 = 0.0076;
 template <int Flat>
 struct Border {
   int plane;
-  int twin = -1;               // the other one
-  double twins = 0;            // its share
-  double sine2;                // |q|²
-  double square;               // ∫ u² ds
-  FixedMatrix<Flat, 1> lever;  // ∫ u² y ds
+  int twin = -1;                           // the other one
+  double twins = 0;                        // its share
+  double per_behind = 0, per_overlap = 0;  // 1/m: its changes with where it is behind, and with the overlap
+  double sine2;                            // |q|²
+  double square;                           // ∫ u² ds
+  FixedMatrix<Flat, 1> lever;              // ∫ u² y ds
 };
 template <int Flat>
 using Borders = std::vector<Border<Flat>>;
 
-// With a plane that is `behind` it, m, of `within`, m; `sine2` of the angle between both. It decreases to zero at the
-// end.
+// With a plane that is `behind` it, m; `overlap`: its mean on the edge, `extent`: of the polygon, both m; `sine2` of
+// the angle between both. It decreases to zero at the end.
 template <int Flat>
-void share_with(int plane, double behind, double within, double sine2, Border<Flat>& border) {
+void share_with(int plane, double behind, double overlap, double extent, double sine2, Border<Flat>& border) {
+  const double within = std::min(flush_overlaps * overlap, flush_width * extent);
   if (!(behind < within && sine2 < flush_sine2)) return;
-  const double share = std::min(0.5 * (1 - behind / within), 0.5) * (1 - sine2 / flush_sine2);
+  const double most = 0.5 * (1 - sine2 / flush_sine2), share = std::min(1 - behind / within, 1.0) * most;
   if (!(share > border.twins)) return;
   border.twin = plane;
   border.twins = share;
+  border.per_behind = behind > 0 ? -most / within : 0;
+  border.per_overlap =
+      flush_overlaps * overlap < flush_width * extent ? -border.per_behind * behind / within * flush_overlaps : 0;
 }
+
+// a side of the segment or polygon, its overlap at both ends, and its place among the borders
+template <int Flat>
+struct Side {
+  int border;
+  FixedMatrix<Flat, 1> from, to;
+  double overlap_from, overlap_to;
+};
+template <int Flat>
+using Outline = std::vector<Side<Flat>>;
 
 // The sums over a segment or polygon, coordinates of the mean plane. Those of the overlap from its values in the
 // corners: on a needle pressed along one side, its second moment across is lost in the one along.
@@ -115,10 +129,10 @@ struct Sums {
 };
 
 bool measure(const HalfSpaces<2>& planes, int faces_a, int face_a, int face_b, const MeanPlane<2>& mean, double reach,
-             std::vector<Vector<2>>&, Sums<1>& sums, Borders<1>& borders) {
+             std::vector<Vector<2>>&, Sums<1>& sums, Borders<1>& borders, Outline<1>* outline) {
   double low = -reach, high = reach;
   bool open = false;
-  Edge<1> lowest{FixedMatrix<1, 1>(1), 0, pressed_edge}, highest = lowest;
+  Edge<1> lowest{FixedMatrix<1, 1>(1), 0, no_plane}, highest = lowest;
   each_edge(planes, face_a, face_b, mean, [&](const Edge<1>& e) {
     if (e.q[0] == 0) {
       open |= e.slack < 0;
@@ -144,14 +158,14 @@ bool measure(const HalfSpaces<2>& planes, int faces_a, int face_a, int face_b, c
   sums.lean = sums.polar * mean.gradient;
   borders.clear();
   const auto add = [&](const Edge<1>& e, double y, double u) {
-    if (e.plane == pressed_edge) return;
+    const int place = e.plane == no_plane ? no_plane : static_cast<int>(borders.size());
+    if (outline) outline->push_back({place, FixedMatrix<1, 1>(y), FixedMatrix<1, 1>(y), u, u});
+    if (e.plane == no_plane) return;
     const double square = u * u / std::abs(e.q[0]);
-    Border<1> border{e.plane, -1, 0, e.q[0] * e.q[0], square, FixedMatrix<1, 1>(square * y)};
+    Border<1> border{e.plane, -1, 0, 0, 0, e.q[0] * e.q[0], square, FixedMatrix<1, 1>(square * y)};
     each_edge(planes, face_a, face_b, mean, [&](const Edge<1>& other) {
-      if (other.plane == pressed_edge || (other.plane < faces_a) == (e.plane < faces_a) || other.q[0] * e.q[0] <= 0)
-        return;
-      share_with(other.plane, other.slack / std::abs(other.q[0]) - (other.q[0] > 0 ? y : -y),
-                 std::min(flush_overlaps * u, flush_width * sums.area), 0, border);
+      if (other.plane == no_plane || (other.plane < faces_a) == (e.plane < faces_a) || other.q[0] * e.q[0] <= 0) return;
+      share_with(other.plane, other.slack / std::abs(other.q[0]) - (other.q[0] > 0 ? y : -y), u, sums.area, 0, border);
     });
     borders.push_back(border);
   };
@@ -240,7 +254,7 @@ struct CutPolygon {
 };
 
 bool measure(const HalfSpaces<3>& planes, int faces_a, int face_a, int face_b, const MeanPlane<3>& mean, double reach,
-             std::vector<Vector<2>>& corners, Sums<2>& sums, Borders<2>& borders) {
+             std::vector<Vector<2>>& corners, Sums<2>& sums, Borders<2>& borders, Outline<2>* outline) {
   static thread_local CutPolygon own;
   CutPolygon& polygon = own;
   double half = reach, extent = 0;
@@ -267,22 +281,33 @@ bool measure(const HalfSpaces<3>& planes, int faces_a, int face_a, int face_b, c
   };
   borders.clear();
   const auto add_border = [&](int edge, double from_x, double from_y, double to_x, double to_y, double u, double w) {
-    if (edge < 0 || polygon.cuts[edge].plane == pressed_edge) return;
+    const bool borders_part = edge >= 0 && polygon.cuts[edge].plane != no_plane;
+    if (outline) {
+      const Vector<2> from(from_x, from_y), to(to_x, to_y), first(shift[0] + first_x, shift[1] + first_y);
+      outline->push_back({borders_part ? static_cast<int>(borders.size()) : no_plane, first + from, first + to, u, w});
+    }
+    if (!borders_part) return;
     const double dx = to_x - from_x, dy = to_y - from_y, sine2 = polygon.cuts[edge].q.squaredNorm();
     const double over = std::sqrt((dx * dx + dy * dy) / sine2), uu = u * u, uw = u * w, ww = w * w;
     const double from = over / 12 * (3 * uu + 2 * uw + ww), to = over / 12 * (uu + 2 * uw + 3 * ww);
-    Border<2> border{
-        polygon.cuts[edge].plane, -1, 0, sine2, from + to, {from * from_x + to * to_x, from * from_y + to * to_y}};
+    Border<2> border{polygon.cuts[edge].plane,
+                     -1,
+                     0,
+                     0,
+                     0,
+                     sine2,
+                     from + to,
+                     {from * from_x + to * to_x, from * from_y + to * to_y}};
     const bool of_a = border.plane < faces_a;
     const double x = shift[0] + first_x + 0.5 * (from_x + to_x), y = shift[1] + first_y + 0.5 * (from_y + to_y);
     for (const Edge<2>& other : polygon.cuts) {
-      if (other.plane == pressed_edge || (other.plane < faces_a) == of_a) continue;
+      if (other.plane == no_plane || (other.plane < faces_a) == of_a) continue;
       const Vector<2>&q1 = polygon.cuts[edge].q, &q2 = other.q;
       if (!(q1.dot(q2) > 0)) continue;
       const double across = q1[0] * q2[1] - q1[1] * q2[0], squares = sine2 * q2.squaredNorm();
       if (!(across * across < flush_sine2 * squares)) continue;
-      share_with(other.plane, (other.slack - (q2[0] * x + q2[1] * y)) / q2.norm(),
-                 std::min(0.5 * flush_overlaps * (u + w), flush_width * extent), across * across / squares, border);
+      share_with(other.plane, (other.slack - (q2[0] * x + q2[1] * y)) / q2.norm(), 0.5 * (u + w), extent,
+                 across * across / squares, border);
     }
     borders.push_back(border);
   };
@@ -330,7 +355,7 @@ bool measure(const HalfSpaces<3>& planes, int faces_a, int face_a, int face_b, c
 
 template <int Dim>
 bool integrate_face(const HalfSpaces<Dim>& planes, int faces_a, int face_a, int face_b, double reach,
-                    FaceIntegral<Dim>& face, PressedPolygon& polygon) {
+                    FaceIntegral<Dim>& face, PressedPolygon& polygon, std::vector<FaceEdge<Dim>>* edges) {
   constexpr int Flat = Dim - 1;
   const HalfSpace<Dim>&a = planes[face_a], &b = planes[face_b];
   if (face_a >= faces_a || face_b < faces_a || !(-a.normal.dot(b.normal) > parallel_faces)) return false;
@@ -340,8 +365,12 @@ bool integrate_face(const HalfSpaces<Dim>& planes, int faces_a, int face_a, int 
   if (mean.gradient.isZero(0) && !(mean.at_origin > 0)) return false;
   Sums<Flat> sums;
   static thread_local Borders<Flat> borders;
+  static thread_local Outline<Flat> outline;
+  outline.clear();
   polygon.corners.clear();
-  if (!measure(planes, faces_a, face_a, face_b, mean, reach, polygon.corners, sums, borders) || !(sums.volume > 0))
+  if (!measure(planes, faces_a, face_a, face_b, mean, reach, polygon.corners, sums, borders,
+               edges ? &outline : nullptr) ||
+      !(sums.volume > 0))
     return false;
   face.normal = mean.normal;
   face.area = sums.area;
@@ -369,6 +398,29 @@ bool integrate_face(const HalfSpaces<Dim>& planes, int faces_a, int face_a, int 
     face.force -= e.square * pull;
     face.moment -= moment(Vector<Dim>(e.square * mean.origin + mean.axes * e.lever), pull);
   }
+  if (edges) {
+    edges->clear();
+    for (const Side<Flat>& side : outline) {
+      FaceEdge<Dim> e;
+      e.from = mean.origin + mean.axes * side.from;
+      e.to = mean.origin + mean.axes * side.to;
+      e.overlap_from = side.overlap_from;
+      e.overlap_to = side.overlap_to;
+      if (side.border >= 0) {
+        const Border<Flat>& border = borders[side.border];
+        e.plane = border.plane;
+        e.twin = border.twin;
+        e.pull = pull_of(border.plane);
+        if (border.twin >= 0) {
+          e.twin_pulls = pull_of(border.twin) - e.pull;
+          e.pull += border.twins * e.twin_pulls;
+        }
+        e.twin_per_behind = border.per_behind;
+        e.twin_per_overlap = border.per_overlap;
+      }
+      edges->push_back(e);
+    }
+  }
   if constexpr (Dim == 3) {
     polygon.axes = mean.axes;
     polygon.overlap = sums.volume / sums.area;
@@ -377,7 +429,9 @@ bool integrate_face(const HalfSpaces<Dim>& planes, int faces_a, int face_a, int 
   return true;
 }
 
-template bool integrate_face<2>(const HalfSpaces<2>&, int, int, int, double, FaceIntegral<2>&, PressedPolygon&);
-template bool integrate_face<3>(const HalfSpaces<3>&, int, int, int, double, FaceIntegral<3>&, PressedPolygon&);
+template bool integrate_face<2>(const HalfSpaces<2>&, int, int, int, double, FaceIntegral<2>&, PressedPolygon&,
+                                std::vector<FaceEdge<2>>*);
+template bool integrate_face<3>(const HalfSpaces<3>&, int, int, int, double, FaceIntegral<3>&, PressedPolygon&,
+                                std::vector<FaceEdge<3>>*);
 
 }  // namespace voussoir

@@ -23,6 +23,8 @@
 // left out.
 #pragma once
 
+#include <vector>
+
 #include "core/geometry/half_space.hpp"
 #include "core/joint_laws/face_friction.hpp"
 
@@ -47,6 +49,19 @@ struct FaceIntegral {
   Spin<Dim> moment = Spin<Dim>::Zero();        // about the origin of the planes, over k, m^(Dim + 1)
 };
 
+// A side of the contact polygon (2-D: an end, `from` and `to` the same), which a plane of either part cuts or, as plane
+// no_plane, the end of the overlap. It pulls by ∫ u² ds over the sine to its plane, times `pull`.
+inline constexpr int no_plane = -1;
+template <int Dim>
+struct FaceEdge {
+  int plane = no_plane;
+  int twin = no_plane;                                                       // a flush plane of the other part
+  Vector<Dim> from, to;                                                      // m, from the planes' origin
+  double overlap_from = 0, overlap_to = 0;                                   // m
+  Vector<Dim> pull = Vector<Dim>::Zero(), twin_pulls = Vector<Dim>::Zero();  // both planes'; how the twin's differs
+  double twin_per_behind = 0, twin_per_overlap = 0;  // 1/m: change of its share with how far it is behind, and with u
+};
+
 // Integrates over the contact polygon of one face of each part. `planes`: of both parts, the first `faces_a` the first
 // one's, seen from a point in the overlap; `face_b` counts in all planes. `reach`, m: no point of both parts is farther
 // from there along any axis. False, without a result, if the faces do not press on each other or are not parallel
@@ -55,8 +70,9 @@ struct FaceIntegral {
 // one over the sine of the least angle between the mean plane and a side plane that bounds it: the rounding of a side
 // plane's normal moves it by as much. Polygons more than 250 times as long as wide (extent² over area) lose digits in
 // proportion: the edges' directions are rounded in the mean plane, three products each, at up to 6 times the extent.
+// `edges`, if asked for: of the polygon.
 template <int Dim>
 bool integrate_face(const HalfSpaces<Dim>& planes, int faces_a, int face_a, int face_b, double reach,
-                    FaceIntegral<Dim>& face, PressedPolygon& polygon);
+                    FaceIntegral<Dim>& face, PressedPolygon& polygon, std::vector<FaceEdge<Dim>>* edges = nullptr);
 
 }  // namespace voussoir

@@ -95,10 +95,10 @@ double reach_of(const Pair<Dim>& pair) {
 
 template <int Dim>
 bool lie_on_each_other(const HalfSpaces<Dim>& planes, int faces_a, double reach, const ContactGeometry<Dim>& geometry,
-                       FaceIntegral<Dim>& f, PressedPolygon& polygon) {
+                       FaceIntegral<Dim>& f, PressedPolygon& polygon, std::vector<FaceEdge<Dim>>* edges = nullptr) {
   const int face_a = geometry.face_a, face_b = faces_a + geometry.face_b;
   return -planes[face_a].normal.dot(planes[face_b].normal) > nearly_parallel &&
-         integrate_face<Dim>(planes, faces_a, face_a, face_b, reach, f, polygon);
+         integrate_face<Dim>(planes, faces_a, face_a, face_b, reach, f, polygon, edges);
 }
 
 template <int Dim>
@@ -229,6 +229,72 @@ bool integrate_as_before(const Pair<Dim>& pair, Contact<Dim>& contact, Integrate
   return true;
 }
 
+template <int Dim>
+bool find_sensitivity(const Pair<Dim>& pair, const Contact<Dim>& contact, FaceSensitivity<Dim>& sensitivity) {
+  if (contact.geometry.face_a < 0) return false;
+  static thread_local HalfSpaces<Dim> planes;
+  static thread_local PressedPolygon polygon;
+  static thread_local std::vector<FaceEdge<Dim>> edges;
+  const Vector<Dim>& origin = contact.proof.point;
+  assemble<Dim>(pair, origin, planes);
+  const int faces_a = static_cast<int>(pair.a->faces.size());
+  FaceIntegral<Dim> f;
+  if (!lie_on_each_other<Dim>(planes, faces_a, reach_of(pair), contact.geometry, f, polygon, &edges) ||
+      !surely_flat(f, polygon))
+    return false;
+  FaceSensitivity<Dim>& s = sensitivity;
+  s = find_face_sensitivity<Dim>(planes, faces_a, planes[contact.geometry.face_a],
+                                 planes[faces_a + contact.geometry.face_b], Vector<Dim>(pair.offset - origin), f,
+                                 polygon, edges);
+  const Matrix<Dim>& axes = pair.axes;
+  const auto along_world = [&](auto& rows) {
+    rows.template leftCols<Dim>() = (rows.template leftCols<Dim>() * axes.transpose()).eval();
+    if constexpr (Dim == 3) rows.template rightCols<3>() = (rows.template rightCols<3>() * axes.transpose()).eval();
+  };
+  for (auto* places : {&s.force, &s.centre, &s.pressure, &s.gradient}) {
+    along_world(*places);
+    *places = (axes * *places).eval();
+  }
+  along_world(s.moment);
+  if constexpr (Dim == 3) s.moment = (axes * s.moment).eval();
+  for (auto* numbers : {&s.area, &s.volume, &s.square, &s.polar})
+    along_world(*numbers);
+  return true;
+}
+
+template <int Dim>
+void move_by(const Pair<Dim>& pair, const FaceSensitivity<Dim>& s, int freedom, double step, Contact<Dim>& contact,
+             IntegratedContact<Dim>& face) {
+  ContactGeometry<Dim>& g = contact.geometry;
+  const Vector<Dim> origin = pair.axes * contact.proof.point, normal = face.normal;
+  const Spin<Dim> about =
+      face.couple + moment(Vector<Dim>(g.point - origin), face.force) + step * s.moment.col(freedom);
+  const double area = g.area;
+  face.force += step * s.force.col(freedom);
+  face.square += step * s.square[freedom];
+  face.polar += step * s.polar[freedom];
+  face.centre += step * s.centre.col(freedom);
+  g.area += step * s.area[freedom];
+  g.point += step * s.pressure.col(freedom);
+  face.couple = about - moment(Vector<Dim>(g.point - origin), face.force);
+  const double size = face.force.norm();
+  face.normal = g.normal = face.force / size;
+  g.overlap = size / g.area;
+  if constexpr (Dim == 3) {
+    PressedPolygon& p = face.polygon;
+    p.overlap += step * (s.volume[freedom] - p.overlap * s.area[freedom]) / area;
+    p.gradient += step * p.axes.transpose() * s.gradient.col(freedom);
+    turn_axes(Matrix<3>::Identity(), normal, face.normal, p);
+  }
+}
+
+#define VOUSSOIR_INSTANTIATE(Dim)                                                                       \
+  template bool find_sensitivity<Dim>(const Pair<Dim>&, const Contact<Dim>&, FaceSensitivity<Dim>&);    \
+  template void move_by<Dim>(const Pair<Dim>&, const FaceSensitivity<Dim>&, int, double, Contact<Dim>&, \
+                             IntegratedContact<Dim>&);
+VOUSSOIR_INSTANTIATE(2)
+VOUSSOIR_INSTANTIATE(3)
+#undef VOUSSOIR_INSTANTIATE
 template bool integrate_as_before<2>(const Pair<2>&, Contact<2>&, IntegratedContact<2>&);
 template bool integrate_as_before<3>(const Pair<3>&, Contact<3>&, IntegratedContact<3>&);
 template void find_nearest_faces<2>(const Pair<2>&, Contact<2>&, HalfSpaces<2>&);

@@ -9,6 +9,7 @@
 #pragma once
 
 #include "core/contact/contact.hpp"
+#include "core/contact/face_sensitivity.hpp"
 #include "core/contact/pair.hpp"
 #include "core/joint_laws/face_friction.hpp"
 
@@ -46,5 +47,17 @@ bool integrate_contact(const Pair<Dim>& pair, const HalfSpaces<Dim>& planes, Con
 // of the polygon, inside of all planes by more than rounding.
 template <int Dim>
 bool integrate_as_before(const Pair<Dim>& pair, Contact<Dim>& contact, IntegratedContact<Dim>& face);
+
+// How it changes as the second body moves, m and rad, world axes through that body's centroid; directions in world
+// axes, the moment about contact.proof.point. False, without a result, if not faces alone press, wide compared with
+// their overlap.
+template <int Dim>
+bool find_sensitivity(const Pair<Dim>& pair, const Contact<Dim>& contact, FaceSensitivity<Dim>& sensitivity);
+
+// the contact after the second body has moved by `step` along a degree of freedom, to first order; `contact` and `face`
+// are those from which it moves, or moved from there
+template <int Dim>
+void move_by(const Pair<Dim>& pair, const FaceSensitivity<Dim>& sensitivity, int freedom, double step,
+             Contact<Dim>& contact, IntegratedContact<Dim>& face);
 
 }  // namespace voussoir

@@ -196,6 +196,13 @@ struct LimitSurface {
   }
 };
 
+FixedMatrix<3, 2> tangent_of(const Vector<3>& normal) {
+  FixedMatrix<3, 2> tangent;
+  tangent.col(0) = perpendicular(normal);
+  tangent.col(1) = normal.cross(tangent.col(0));
+  return tangent;
+}
+
 // The outward normal of the surface at the point nearest to a trial: the direction in which the trial is farthest
 // beyond the surface's plane. Newton's method on the sphere. False if the trial is inside.
 bool nearest(const LimitSurface& surface, const Vector<3>& trial, Vector<3>& normal, Vector<3>& point) {
@@ -203,9 +210,7 @@ bool nearest(const LimitSurface& surface, const Vector<3>& trial, Vector<3>& nor
   double beyond = normal.dot(trial - at.at);
   const double enough = along_the_normal * std::max(1.0, trial.norm());
   for (int i = 0; i < newton_limit; ++i) {
-    FixedMatrix<3, 2> tangent;
-    tangent.col(0) = perpendicular(normal);
-    tangent.col(1) = normal.cross(tangent.col(0));
+    const FixedMatrix<3, 2> tangent = tangent_of(normal);
     const Vector<2> gradient = tangent.transpose() * (trial - at.at);
     if (gradient.norm() <= enough) break;
     Matrix<2> curvature = tangent.transpose() * at.curvature * tangent;
@@ -230,14 +235,23 @@ bool nearest(const LimitSurface& surface, const Vector<3>& trial, Vector<3>& nor
   return beyond > 0;
 }
 
-}  // namespace
-
-FaceFriction friction_against(const PressedPolygon& polygon, const Vector<2>& v, double w) {
-  return resistance(polygon, v, w).friction;
+// One step of it from a normal that is known but for little.
+bool near(const LimitSurface& surface, const Vector<3>& trial, const Vector<3>& normal, Vector<3>& point) {
+  const LimitSurface::Point at = surface.point(normal);
+  const double beyond = normal.dot(trial - at.at);
+  if (!(beyond > 0)) return false;
+  const FixedMatrix<3, 2> tangent = tangent_of(normal);
+  Matrix<2> curvature = tangent.transpose() * at.curvature * tangent;
+  curvature.diagonal().array() += beyond;
+  const Vector<2> way = curvature.inverse() * (tangent.transpose() * (trial - at.at));
+  point = at.at + at.curvature * (tangent * way);
+  return true;
 }
 
-FaceSlip return_to_limit(const PressedPolygon& polygon, double pressure, double stiffness, double twist_stiffness,
-                         const Vector<2>& force, double moment) {
+// finds the nearest point by `find`, which may begin with the normal it is given
+template <class Find>
+FaceSlip returned(const PressedPolygon& polygon, double pressure, double stiffness, double twist_stiffness,
+                  const Vector<2>& force, double moment, Find find) {
   FaceSlip result{force, moment};
   const auto give_way = [&] {
     if (stiffness > 0) result.slip = (force - result.force) / stiffness;
@@ -258,12 +272,33 @@ FaceSlip return_to_limit(const PressedPolygon& polygon, double pressure, double 
   const Vector<3> trial(force[0] / pressure, force[1] / pressure, moment / (pressure * gyration));
 
   // from the normal of an ellipsoid; no twist is resisted by more than the root of the second moment
-  Vector<3> normal(trial[0], trial[1], trial[2] * gyration * gyration * press.volume / press.second), point;
-  normal.normalize();
-  if (!nearest(surface, trial, normal, point)) return result;
+  Vector<3> point;
+  result.normal = {trial[0], trial[1], trial[2] * gyration * gyration * press.volume / press.second};
+  result.normal.normalize();
+  if (!find(surface, trial, result.normal, point)) return result;
   result.force = pressure * point.head<2>();
   result.moment = pressure * gyration * point[2];
   return give_way();
+}
+
+}  // namespace
+
+FaceFriction friction_against(const PressedPolygon& polygon, const Vector<2>& v, double w) {
+  return resistance(polygon, v, w).friction;
+}
+
+FaceSlip return_to_limit(const PressedPolygon& polygon, double pressure, double stiffness, double twist_stiffness,
+                         const Vector<2>& force, double moment) {
+  return returned(polygon, pressure, stiffness, twist_stiffness, force, moment, nearest);
+}
+
+FaceSlip return_near(const PressedPolygon& polygon, double pressure, double stiffness, double twist_stiffness,
+                     const Vector<2>& force, double moment, const Vector<3>& known) {
+  return returned(polygon, pressure, stiffness, twist_stiffness, force, moment,
+                  [&](const LimitSurface& surface, const Vector<3>& trial, Vector<3>& normal, Vector<3>& point) {
+                    normal = known;
+                    return near(surface, trial, known, point);
+                  });
 }
 
 }  // namespace voussoir

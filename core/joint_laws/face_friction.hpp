@@ -42,8 +42,15 @@ struct FaceSlip {
   double moment;                       // N m, about the centre
   Vector<2> slip = Vector<2>::Zero();  // m; trial minus remaining force, over the stiffness
   double turn = 0;                     // rad
+  // of the limit surface at its nearest point, in the units of the search; zero where none had to be found
+  Vector<3> normal = Vector<3>::Zero();
 };
 FaceSlip return_to_limit(const PressedPolygon& polygon, double pressure, double stiffness, double twist_stiffness,
                          const Vector<2>& force, double moment);
+
+// The same of a face and a trial that differ little from those whose nearest point has this normal: to first order in
+// that difference.
+FaceSlip return_near(const PressedPolygon& polygon, double pressure, double stiffness, double twist_stiffness,
+                     const Vector<2>& force, double moment, const Vector<3>& normal);
 
 }  // namespace voussoir

@@ -34,10 +34,11 @@ struct ContactsState {
   std::vector<SubContact<Dim>> subs;  // as many places for each contact, in their order; none if no joint has any
   std::vector<JointRise<Dim>> rises;  // of each contact, or of each of its sub-contacts; none if no joint remembers
                                       // its place
-  std::vector<IntegratedContact<Dim>>
-      faces;                            // by contact, of the integrated ones; found every step; none if no joint is
-  ContactsByBody by_body;               // places in `list`; rebuilt with it
-  std::vector<ContactLoad<Dim>> loads;  // by contact; found every step
+  std::vector<IntegratedContact<Dim>> faces;  // by contact, of the integrated ones; none if no joint is
+  ContactsByBody by_body;                     // places in `list`; rebuilt with it
+  std::vector<ContactLoad<Dim>> loads;        // by contact
+  std::vector<char> kept;  // by contact: that it is not found again in the next step, nor its force, since its bodies
+                           // and its history are those of the last; cleared by that step; empty: none
 };
 
 // the places of a contact's sub-contacts among those of all contacts

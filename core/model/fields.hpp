@@ -95,10 +95,26 @@ void visit_fields(Either<SubContact> auto& s, auto&& visit) {
   visit(Saved{}, point, overlap, overlap_variance, gyration2, area, force);
 }
 
+void visit_fields(Just<PressedPolygon> auto& p, auto&& visit) {
+  auto& [corners, axes, overlap, gradient] = p;
+  visit(Saved{}, corners, axes, overlap, gradient);
+}
+
+void visit_fields(Either<IntegratedContact> auto& c, auto&& visit) {
+  auto& [flat, normal, centre, force, couple, square, polar, gyration2, polygon] = c;
+  visit(Saved{}, flat, normal, centre, force, couple, square, polar, gyration2, polygon);
+}
+
+void visit_fields(Either<ContactLoad> auto& l, auto&& visit) {
+  auto& [second, force, about_first, about_second] = l;
+  visit(Saved{}, second, force, about_first, about_second);
+}
+
 void visit_fields(Either<ContactsState> auto& c, auto&& visit) {
-  auto& [list, subs, rises, faces, by_body, loads] = c;
+  auto& [list, subs, rises, faces, by_body, loads, kept] = c;
   visit(Hashed{}, list, subs, rises);
-  visit(Found{}, faces, by_body, loads);
+  visit(Saved{}, faces, loads, kept);
+  visit(Found{}, by_body);
 }
 
 // ---- supports ------------------------------------------------------------------------------------------------------

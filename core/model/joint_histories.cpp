@@ -11,7 +11,8 @@ JointHistories<Dim> histories_of(const ContactsState<Dim>& contacts) {
   JointHistories<Dim> histories;
   histories.contacts.reserve(contacts.list.size());
   for (const Contact<Dim>& c : contacts.list)
-    histories.contacts.push_back({c.part_a, c.part_b, c.divided_face, c.bond_due, c.history});
+    histories.contacts.push_back(
+        {c.part_a, c.part_b, c.divided_face, c.bond_due, c.touching() ? c.history : JointState<Dim>{}});
   histories.subs.reserve(contacts.subs.size());
   for (const SubContact<Dim>& s : contacts.subs)
     histories.subs.push_back(s.history);
@@ -24,12 +25,14 @@ void set_histories(const JointHistories<Dim>& histories, ContactsState<Dim>& con
   for (std::size_t i = 0; i < histories.contacts.size(); ++i) {
     const ContactHistory<Dim>& then = histories.contacts[i];
     Contact<Dim>& c = contacts.list[i];
+    if (!contacts.kept.empty() && contacts.kept[i]) continue;
     c.history = then.history;
     c.divided_face = then.divided_face;
     c.bond_due = then.bond_due;
   }
+  const std::size_t stride = sub_stride(contacts);
   for (std::size_t i = 0; i < histories.subs.size(); ++i)
-    contacts.subs[i].history = histories.subs[i];
+    if (contacts.kept.empty() || !contacts.kept[i / stride]) contacts.subs[i].history = histories.subs[i];
   contacts.rises = histories.rises;
 }
 

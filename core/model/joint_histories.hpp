@@ -43,7 +43,7 @@ std::span<const JointRise<Dim>> rises_of(const JointHistories<Dim>& histories, i
 template <int Dim>
 JointHistories<Dim> histories_of(const ContactsState<Dim>& contacts);
 
-// Restores them. The contacts are those of the histories, in their order.
+// Restores them, but for those of contacts that are kept. The contacts are those of the histories, in their order.
 template <int Dim>
 void set_histories(const JointHistories<Dim>& histories, ContactsState<Dim>& contacts);
 

@@ -93,8 +93,9 @@ struct StaticSystem {
 // The static solver (step/static_solver.hpp): the data that an increment keeps from one evaluation to the next.
 template <int Dim>
 struct StaticIncrement {
-  // the kind of the next evaluation; `last`: of the accepted motion, before it is left to relaxation
-  enum class Trial { waiting, start, step, last };
+  // the kind of the next evaluation; `complete`, `last`: of the accepted motion, before the increment ends and before
+  // it is left to relaxation
+  enum class Trial { waiting, start, step, complete, last };
   bool under_way = false;
   Trial trial = Trial::start;
   int increments_left = 0;    // after this one

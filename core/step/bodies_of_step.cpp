@@ -84,8 +84,18 @@ std::vector<int> few_of_residual(const Unknowns<Dim>& unknowns, const Eigen::Vec
   return list;
 }
 
-#define VOUSSOIR_INSTANTIATE(Dim)    \
-  template struct BodiesOfStep<Dim>; \
+template <int Dim>
+void keep_others(const Model<Dim>& model, const BodiesOfStep<Dim>& moving, ContactsState<Dim>& contacts) {
+  contacts.kept.clear();
+  if (!contacts.rises.empty()) return;
+  const auto stands = [&](int part) { return moving.place[model.parts[part].body] < 0; };
+  for (const Contact<Dim>& c : contacts.list)
+    contacts.kept.push_back(!c.bond_due && stands(c.part_a) && stands(c.part_b));
+}
+
+#define VOUSSOIR_INSTANTIATE(Dim)                                                                   \
+  template struct BodiesOfStep<Dim>;                                                                \
+  template void keep_others<Dim>(const Model<Dim>&, const BodiesOfStep<Dim>&, ContactsState<Dim>&); \
   template std::vector<int> few_of_residual<Dim>(const Unknowns<Dim>&, const Eigen::VectorXd&);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)

@@ -29,4 +29,9 @@ struct BodiesOfStep {
 template <int Dim>
 std::vector<int> few_of_residual(const Unknowns<Dim>& unknowns, const Eigen::VectorXd& residual);
 
+// Contacts of which none of these bodies has a part stay as they are in the next step; those of joints that remember
+// their place are found with all others.
+template <int Dim>
+void keep_others(const Model<Dim>& model, const BodiesOfStep<Dim>& moving, ContactsState<Dim>& contacts);
+
 }  // namespace voussoir

@@ -215,6 +215,8 @@ void find_contacts_of(const Model<Dim>& model, const Settings& settings, const C
   const std::size_t first = group * summed_together, last = std::min(first + summed_together, contacts.list.size());
   for (std::size_t i = first; i < last; ++i) {
     Contact<Dim>& c = contacts.list[i];
+    if (!contacts.kept.empty() && contacts.kept[i]) [[unlikely]]
+      continue;
     contacts.loads[i].second = -1;
     double drawn = 0;
     if constexpr (Places) drawn = drawn_by<Dim>(model, bodies, c, rises_of(contacts, i), climb);
@@ -280,6 +282,7 @@ void find_contacts(const Model<Dim>& model, const Settings& settings, double sec
   });
   for (const Tally& tally : tallies)
     add(counters, tally);
+  contacts.kept.clear();
 }
 
 template void find_contacts<2>(const Model<2>&, const Settings&, double, BodiesState<2>&, ContactsState<2>&, Counters&,

@@ -57,13 +57,17 @@ void change_area(const Vector<Dim>& normal, const Vector<Dim>& apart, double are
 // limits shear and twist by Coulomb friction, and returns the energy of slip
 template <int Dim>
 double slip(const IntegratedContact<Dim>& face, double shear_stiffness, double limit, const Vector<Dim>& shear_before,
-            double twist_before, JointState<Dim>& h) {
+            double twist_before, JointState<Dim>& h, Vector<3>* slip_normal) {
   Vector<Dim> way = Vector<Dim>::Zero();
   double turn = 0;
   if constexpr (Dim == 3) {
     if (face.polar > 0) {
-      const FaceSlip s = return_to_limit(face.polygon, limit, shear_stiffness * h.area, shear_stiffness * h.polar,
-                                         face.polygon.axes.transpose() * h.shear_force, h.twist);
+      const double ks_area = shear_stiffness * h.area, ks_polar = shear_stiffness * h.polar;
+      const Vector<2> shear = face.polygon.axes.transpose() * h.shear_force;
+      const bool known = slip_normal && !slip_normal->isZero(0);
+      const FaceSlip s = known ? return_near(face.polygon, limit, ks_area, ks_polar, shear, h.twist, *slip_normal)
+                               : return_to_limit(face.polygon, limit, ks_area, ks_polar, shear, h.twist);
+      if (slip_normal) *slip_normal = s.normal;
       way = face.polygon.axes * s.slip;
       turn = s.turn;
       if (way.isZero(0) && turn == 0) return 0;  // no slip
@@ -86,7 +90,7 @@ double slip(const IntegratedContact<Dim>& face, double shear_stiffness, double l
 template <int Dim>
 FaceForce<Dim> face_force(const JointProperties& properties, double friction, double dashpot, double time_step,
                           const PairMotion<Dim>& motion, const ContactGeometry<Dim>& geometry,
-                          const IntegratedContact<Dim>& face, JointState<Dim>& h) {
+                          const IntegratedContact<Dim>& face, JointState<Dim>& h, Vector<3>* slip_normal) {
   const double kn = properties.normal_stiffness, ks = properties.shear_stiffness, dt = time_step;
   const Vector<Dim>& n = face.normal;
   const Vector<Dim> velocity = motion.velocity_at(face.centre);
@@ -126,7 +130,7 @@ FaceForce<Dim> face_force(const JointProperties& properties, double friction, do
   h.shear_force -= ks * h.area * way;
   if (h.polar > 0) h.twist -= ks * h.polar * turn;
   if (ks > 0) {
-    answer.friction = slip(face, ks, friction * pressed, shear_before, twist_before, h);
+    answer.friction = slip(face, ks, friction * pressed, shear_before, twist_before, h, slip_normal);
   } else {
     h.shear_force.setZero();
     h.twist = 0;
@@ -145,8 +149,8 @@ FaceForce<Dim> face_force(const JointProperties& properties, double friction, do
 }
 
 template FaceForce<2> face_force<2>(const JointProperties&, double, double, double, const PairMotion<2>&,
-                                    const ContactGeometry<2>&, const IntegratedContact<2>&, JointState<2>&);
+                                    const ContactGeometry<2>&, const IntegratedContact<2>&, JointState<2>&, Vector<3>*);
 template FaceForce<3> face_force<3>(const JointProperties&, double, double, double, const PairMotion<3>&,
-                                    const ContactGeometry<3>&, const IntegratedContact<3>&, JointState<3>&);
+                                    const ContactGeometry<3>&, const IntegratedContact<3>&, JointState<3>&, Vector<3>*);
 
 }  // namespace voussoir

@@ -22,9 +22,11 @@ struct FaceForce {
 };
 
 // `dashpot`, N s/m, along the normal at the centre, which never makes the contact pull. The history is updated.
+// `slip_normal`: FaceSlip::normal; zero: it is found and returned, else the slip is found near it.
 template <int Dim>
 FaceForce<Dim> face_force(const JointProperties& properties, double friction, double dashpot, double time_step,
                           const PairMotion<Dim>& motion, const ContactGeometry<Dim>& geometry,
-                          const IntegratedContact<Dim>& face, JointState<Dim>& history);
+                          const IntegratedContact<Dim>& face, JointState<Dim>& history,
+                          Vector<3>* slip_normal = nullptr);
 
 }  // namespace voussoir

@@ -181,9 +181,9 @@ template <int Dim>
 [[gnu::noinline]] FaceForce<Dim> whole_face_force(const JointProperties& properties, const JointStep& step,
                                                   const PairMotion<Dim>& motion, const ContactGeometry<Dim>& geometry,
                                                   const IntegratedContact<Dim>& face, double friction,
-                                                  JointState<Dim>& history) {
+                                                  JointState<Dim>& history, Vector<3>* slip_normal = nullptr) {
   const double dashpot = dashpot_of(step, motion, geometry.area) * std::sqrt(properties.normal_stiffness);
-  return face_force<Dim>(properties, friction, dashpot, step.length, motion, geometry, face, history);
+  return face_force<Dim>(properties, friction, dashpot, step.length, motion, geometry, face, history, slip_normal);
 }
 
 // Bonds the compressed parts of a contact whose bond is due. One that was `closed` without force when its bond became
@@ -344,7 +344,7 @@ PairWrench<Dim> joint_wrench(const Model<Dim>& model, const Schedule& schedule, 
                              const Contact<Dim>& c, std::span<const SubContact<Dim>> subs,
                              const IntegratedContact<Dim>* face, const PairMotion<Dim>& motion,
                              const JointState<Dim>& history, std::span<const JointState<Dim>> sub_histories,
-                             std::span<const JointRise<Dim>> rises, double drawn) {
+                             std::span<const JointRise<Dim>> rises, double drawn, Vector<3>* slip_normal) {
   PairWrench<Dim> wrench = PairWrench<Dim>::Zero();
   if (!c.touching()) return wrench;
   const JointProperties& properties = model.properties[c.properties];
@@ -352,7 +352,7 @@ PairWrench<Dim> joint_wrench(const Model<Dim>& model, const Schedule& schedule, 
   if (face != nullptr) {
     JointState<Dim> past = history;
     const FaceForce<Dim> f =
-        whole_face_force<Dim>(properties, step, motion, c.geometry, *face, friction.coefficient, past);
+        whole_face_force<Dim>(properties, step, motion, c.geometry, *face, friction.coefficient, past, slip_normal);
     wrench.template head<Dim>() = f.force;
     wrench.template tail<spin_freedoms<Dim>>() = f.about - moment(motion.between, f.force);
     return wrench;
@@ -482,7 +482,7 @@ BondCount count_bonds(const ContactsState<Dim>& contacts, const BondTally& bonds
   template PairWrench<Dim> joint_wrench<Dim>(                                                                          \
       const Model<Dim>&, const Schedule&, const JointStep&, const Contact<Dim>&, std::span<const SubContact<Dim>>,     \
       const IntegratedContact<Dim>*, const PairMotion<Dim>&, const JointState<Dim>&, std::span<const JointState<Dim>>, \
-      std::span<const JointRise<Dim>>, double);                                                                        \
+      std::span<const JointRise<Dim>>, double, Vector<3>*);                                                            \
   template void find_joint_forces<Dim>(const Model<Dim>&, const Settings&, const Schedule&, const JointStep&,          \
                                        BodiesState<Dim>&, ContactsState<Dim>&, Ledger&, Counters&);                    \
   template void apply_joint_laws<Dim>(const Model<Dim>&, const Settings&, const Schedule&, const JointStep&,           \

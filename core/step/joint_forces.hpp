@@ -41,13 +41,13 @@ using PairWrench = typename PairStiffness<Dim>::Wrench;
 
 // The force of a contact's joint for this geometry and this motion of its bodies, from these histories, which are not
 // changed; those of the sub-contacts in their order. `drawn`, m: by this the pair was drawn together (flight.hpp).
-// `face`: of an integrated face contact, else none.
+// `face`: of an integrated face contact, else none; `slip_normal`: as in face_forces.hpp.
 template <int Dim>
 PairWrench<Dim> joint_wrench(const Model<Dim>& model, const Schedule& schedule, const JointStep& step,
                              const Contact<Dim>& contact, std::span<const SubContact<Dim>> subs,
                              const IntegratedContact<Dim>* face, const PairMotion<Dim>& motion,
                              const JointState<Dim>& history, std::span<const JointState<Dim>> sub_histories,
-                             std::span<const JointRise<Dim>> rises, double drawn);
+                             std::span<const JointRise<Dim>> rises, double drawn, Vector<3>* slip_normal = nullptr);
 
 // Bonds every closed joint that has tensile strength or cohesion: immediately if it is compressed, otherwise when it
 // first is, unless its faces have parted by more than a thousandth of the smallest inscribed radius before. A slipped

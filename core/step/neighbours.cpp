@@ -255,6 +255,24 @@ bool is_near(const Model<Dim>& model, const BodiesState<Dim>& bodies, double gap
   return near;
 }
 
+// what contacts that are kept have of the last step, in the order of the new list; one that is new is kept apart
+template <int Dim>
+void follow_origin(const std::vector<int>& origin, ContactsState<Dim>& contacts) {
+  ContactsState<Dim> before;
+  std::swap(before.faces, contacts.faces);
+  std::swap(before.loads, contacts.loads);
+  std::swap(before.kept, contacts.kept);
+  contacts.loads.resize(origin.size());
+  contacts.kept.resize(origin.size(), false);
+  if (!before.faces.empty()) contacts.faces.resize(origin.size());
+  for (std::size_t i = 0; i < origin.size(); ++i) {
+    if (origin[i] < 0) continue;
+    contacts.loads[i] = before.loads[origin[i]];
+    contacts.kept[i] = before.kept[origin[i]];
+    if (!before.faces.empty()) contacts.faces[i] = before.faces[origin[i]];
+  }
+}
+
 template <int Dim>
 void find_neighbours(const Model<Dim>& model, const Settings& settings, BodiesState<Dim>& bodies,
                      ContactsState<Dim>& contacts, Counters& counters) {
@@ -324,6 +342,7 @@ void find_neighbours(const Model<Dim>& model, const Settings& settings, BodiesSt
     renewed[i].part_a = pairs[i].first;
     renewed[i].part_b = pairs[i].second;
   });
+  if (!contacts.kept.empty()) follow_origin(origin, contacts);
   std::swap(contacts.list, renewed);
   std::swap(contacts.subs, renewed_subs);
   std::swap(contacts.rises, renewed_rises);

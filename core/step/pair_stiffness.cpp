@@ -20,8 +20,8 @@ namespace {
 // uses at least this fraction of the blocks' size, because below it the rounding of coordinates matters.
 constexpr double of_overlap = 1e-6, of_size = 1e-13;
 
-// of coordinates, over the bodies' extent
-constexpr double rounding = 1e-15;
+// of integrated contacts, over the bodies' extent
+constexpr double of_integrals = 1e-14;
 
 // narrower contacts rotate as if their width were this fraction of the size
 constexpr double least_width = 1e-3;
@@ -72,14 +72,22 @@ Pair<Dim> moved(Pair<Dim> pair, const CachedPose<Dim>& b, int freedom, double st
   return pair;
 }
 
-// m: step of the difference on an integrated face, of second order, whose error is the square of the step over the
-// overlap, beside the rounding of coordinates over the step. It is one-sided: a joint that slips goes on slipping. At
-// first order forces normal to a sliding face had errors of 0.3 %.
+// m or rad: step of a difference
+template <int Dim>
+double step_along(const Model<Dim>& model, const Contact<Dim>& c, const PairStiffness<Dim>& p, int freedom) {
+  const double width = Dim == 3 ? std::sqrt(c.geometry.area) : c.geometry.area;
+  const double size = size_of(model, p.body_a, p.body_b);
+  const double way = std::max(of_overlap * c.geometry.overlap, of_size * size);
+  return freedom < Dim ? way : way / std::max(width, least_width * size);
+}
+
+// m: step of the difference on an integrated face that is computed again: its error is the step over the overlap,
+// beside the rounding of integrals over the step. It is one-sided: a joint that slips goes on slipping.
 template <int Dim>
 double step_on_face(const Model<Dim>& model, const Contact<Dim>& c, const PairStiffness<Dim>& p) {
   const double extent = std::max(model.bodies[p.body_a].radius, model.bodies[p.body_b].radius);
-  const double overlap = c.geometry.overlap > 0 ? c.geometry.overlap : rounding * extent;
-  return std::max(std::cbrt(rounding * extent * overlap * overlap), rounding * extent);
+  const double overlap = c.geometry.overlap > 0 ? c.geometry.overlap : of_integrals * extent;
+  return std::max(std::sqrt(of_integrals * extent * overlap), of_integrals * extent);
 }
 
 // contacts together in one batch of the kernel
@@ -98,8 +106,8 @@ void move_contact(const ContactSensitivity<Dim>& sensitivity, const Matrix<Dim>&
   c.geometry.area += step * sensitivity.area[freedom];
 }
 
-// Contacts after small motions of their second bodies, one after the other along each degree of freedom: by their
-// sensitivities, or, if they have none, by the kernel.
+// Contacts at points after small motions of their second bodies, one after the other along each degree of freedom: by
+// their sensitivities, or, if they have none, by the kernel.
 template <int Dim>
 struct MovedContacts {
   std::vector<Pair<Dim>> pairs, asked;  // all; those resolved by the kernel
@@ -120,6 +128,7 @@ struct MovedContacts {
     for (const PairStiffness<Dim>& p : batch) {
       const std::span<const JointRise<Dim>> rises = rises_of(histories, p.contact);
       const Contact<Dim>& c = candidates.list[p.contact];
+      if (is_integrated(settings.contact, model.properties[c.properties])) continue;
       move(model, settings, bodies, c, drawn_by<Dim>(model, bodies, c, rises, climb), drawn_along<Dim>(rises), p);
     }
     for (const std::size_t k : of_kernel)
@@ -130,30 +139,102 @@ struct MovedContacts {
  private:
   void move(const Model<Dim>& model, const Settings& settings, const BodiesState<Dim>& bodies, const Contact<Dim>& c,
             double drawn, const Vector<Dim>& along, const PairStiffness<Dim>& p) {
-    const double width = Dim == 3 ? std::sqrt(c.geometry.area) : c.geometry.area;
-    const double size = size_of(model, p.body_a, p.body_b);
-    const bool whole = is_integrated(settings.contact, model.properties[c.properties]);  // recomputed by the caller
-    const double way = whole ? step_on_face(model, c, p) : std::max(of_overlap * c.geometry.overlap, of_size * size);
     Pair<Dim> here = pair_of(model, bodies, c.part_a, c.part_b, QueryLevel::area);
     draw_together<Dim>(drawn, along, here);
     ContactSensitivity<Dim> sensitivity;
-    const bool closed_form = !whole && c.proof.kind != ProofKind::least_point && has_sensitivity(settings.contact) &&
+    const bool closed_form = c.proof.kind != ProofKind::least_point && has_sensitivity(settings.contact) &&
                              find_sensitivity<Dim>(here, settings.contact, c, sensitivity);
     const bool one_point = closed_form && c.cells == 0;  // whose pair is not asked again
     for (int f = 0; f < freedoms<Dim>; ++f) {
-      steps.push_back(f < Dim ? way : way / std::max(width, least_width * size));
+      steps.push_back(step_along(model, c, p, f));
       pairs.push_back(one_point ? here : moved(here, bodies.poses[p.body_b], f, steps.back()));
       contacts.push_back(c);
       if (f >= Dim && !turns(model, p.body_a) && !turns(model, p.body_b)) continue;  // held: its result is not used
       if (closed_form) {
         move_contact(sensitivity, here.axes, f, steps.back(), contacts.back());
-      } else if (!whole) {
+      } else {
         of_kernel.push_back(contacts.size() - 1);
         asked.push_back(pairs.back());
       }
     }
   }
 };
+
+// A contact's joint from the histories of the increment's base.
+template <int Dim>
+struct JointFrom {
+  const Model<Dim>& model;
+  const Schedule& schedule;
+  const JointStep& step;
+  const CachedPose<Dim>&a, &b;
+  const JointState<Dim>& history;
+  std::span<const JointState<Dim>> sub_histories;
+  std::span<const JointRise<Dim>> rises;
+  double drawn;  // m
+
+  JointFrom(const Model<Dim>& m, const Schedule& s, const JointStep& j, const BodiesState<Dim>& bodies,
+            const Contact<Dim>& c, const JointHistories<Dim>& histories, const Climb& climb,
+            const PairStiffness<Dim>& p)
+      : model(m),
+        schedule(s),
+        step(j),
+        a(bodies.poses[p.body_a]),
+        b(bodies.poses[p.body_b]),
+        history(histories.contacts[p.contact].history),
+        sub_histories(subs_of(histories, p.contact)),
+        rises(rises_of(histories, p.contact)),
+        drawn(drawn_by<Dim>(m, bodies, c, rises, climb)) {}
+
+  // `slip_normal`: of a face (face_forces.hpp)
+  PairWrench<Dim> wrench(const Contact<Dim>& c, std::span<const SubContact<Dim>> subs,
+                         const IntegratedContact<Dim>* face, Vector<3>* slip_normal = nullptr) const {
+    return wrench_after(0, 0, c, subs, face, slip_normal);
+  }
+  // after a step of the second body along a degree of freedom
+  PairWrench<Dim> wrench_after(int freedom, double by, const Contact<Dim>& then, std::span<const SubContact<Dim>> subs,
+                               const IntegratedContact<Dim>* face, Vector<3>* slip_normal = nullptr) const {
+    Spin<Dim> spin = b.spin;
+    Vector<Dim> way = Vector<Dim>::Zero();
+    if (freedom < Dim)
+      way[freedom] = by;
+    else
+      spin[freedom - Dim] += by;
+    const PairMotion<Dim> motion{between(a, b) + way, b.velocity - a.velocity + way, a.spin, spin,
+                                 a.inverse_mass + b.inverse_mass};
+    return joint_wrench<Dim>(model, schedule, step, then, subs, face, motion, history, sub_histories, rises, drawn,
+                             slip_normal);
+  }
+};
+
+// of an integrated face contact: moved by its sensitivity, or, where not faces alone press, computed again
+template <int Dim>
+void difference_of_face(const Model<Dim>& model, const BodiesState<Dim>& bodies, const ContactsState<Dim>& contacts,
+                        const JointFrom<Dim>& joint, PairStiffness<Dim>& p) {
+  static thread_local IntegratedContact<Dim> pressed;
+  static thread_local HalfSpaces<Dim> planes;
+  const Contact<Dim>& c = contacts.list[p.contact];
+  const IntegratedContact<Dim>& face = contacts.faces[p.contact];
+  const Pair<Dim> here = pair_of(model, bodies, c.part_a, c.part_b, QueryLevel::area);
+  Vector<3> slips = Vector<3>::Zero();
+  p.wrench = joint.wrench(c, {}, &face, &slips);
+  FaceSensitivity<Dim> sensitivity;
+  const bool closed_form = find_sensitivity<Dim>(here, c, sensitivity);
+  const double longer = closed_form ? 1 : step_on_face(model, c, p) / step_along(model, c, p, 0);
+  for (int f = 0; f < freedoms<Dim>; ++f) {
+    const double step = longer * step_along(model, c, p, f);
+    Contact<Dim> then = c;
+    Vector<3> slips_then = slips;
+    if (closed_form) {
+      pressed = face;
+      move_by<Dim>(here, sensitivity, f, step, then, pressed);
+    } else {
+      const Pair<Dim> pair = moved(here, joint.b, f, step);
+      find_nearest_faces<Dim>(pair, then, planes);
+      integrate_contact<Dim>(pair, planes, then, pressed);
+    }
+    p.stiffness.col(f) = (p.wrench - joint.wrench_after(f, step, then, {}, &pressed, &slips_then)) / step;
+  }
+}
 
 // of contacts [first, last) of the list
 template <int Dim>
@@ -163,66 +244,32 @@ void difference(const Model<Dim>& model, const Settings& settings, const Schedul
   constexpr int F = freedoms<Dim>;
   static thread_local MovedContacts<Dim> after;
   static thread_local std::vector<SubContact<Dim>> cells;
-  static thread_local IntegratedContact<Dim> pressed;
-  static thread_local HalfSpaces<Dim> planes;
   const Climb climb = climb_over(model, joint_step.length);
   after.find(model, settings, bodies, contacts, histories, climb, batch, counters);
 
   cells.resize(sub_stride(contacts));
-  for (std::size_t i = 0; i < batch.size(); ++i) {
-    PairStiffness<Dim>& p = batch[i];
+  std::size_t at = 0;  // in the contacts after motions
+  for (PairStiffness<Dim>& p : batch) {
     const Contact<Dim>& c = contacts.list[p.contact];
-    const JointState<Dim>& history = histories.contacts[p.contact].history;
-    const std::span<const JointState<Dim>> sub_histories = subs_of(histories, p.contact);
-    const std::span<const JointRise<Dim>> rises = rises_of(histories, p.contact);
-    const double drawn = drawn_by<Dim>(model, bodies, c, rises, climb);
-    const CachedPose<Dim>&a = bodies.poses[p.body_a], &b = bodies.poses[p.body_b];
-    const bool whole = is_integrated(settings.contact, model.properties[c.properties]);
-    const int along = model.properties[c.properties].sub_contacts, count = whole ? 0 : sub_contact_count<Dim>(along);
-    p.apart = between(a, b);
-    const PairMotion<Dim> now{p.apart, b.velocity - a.velocity, a.spin, b.spin, a.inverse_mass + b.inverse_mass};
-    p.wrench =
-        joint_wrench<Dim>(model, schedule, joint_step, c, subs_of(contacts, static_cast<std::size_t>(p.contact)),
-                          whole ? &contacts.faces[p.contact] : nullptr, now, history, sub_histories, rises, drawn);
-    // the wrench after a step of the second body
-    const auto wrench_after = [&](int f, double step, const Contact<Dim>& then, std::span<const SubContact<Dim>> subs,
-                                  const IntegratedContact<Dim>* face) {
-      Spin<Dim> spin = b.spin;
-      Vector<Dim> way = Vector<Dim>::Zero();
-      if (f < Dim)
-        way[f] = step;
-      else
-        spin[f - Dim] += step;
-      const PairMotion<Dim> motion{now.between + way, now.drift + way, a.spin, spin, now.inverse_mass};
-      return joint_wrench<Dim>(model, schedule, joint_step, then, subs, face, motion, history, sub_histories, rises,
-                               drawn);
-    };
-    Pair<Dim> here;
-    if (whole) here = pair_of(model, bodies, c.part_a, c.part_b, QueryLevel::area);
-    const auto press = [&](const Pair<Dim>& pair, int f, double step) {
-      Contact<Dim> then = c;
-      find_nearest_faces<Dim>(pair, then, planes);
-      integrate_contact<Dim>(pair, planes, then, pressed);
-      return wrench_after(f, step, then, {}, &pressed);
-    };
-    for (int f = 0; f < F; ++f) {
-      Contact<Dim>& then_contact = after.contacts[i * F + f];
-      const double step = after.steps[i * F + f];
-      if (whole) {
-        const PairWrench<Dim> near = press(after.pairs[i * F + f], f, step),
-                              far = press(moved(here, b, f, 2 * step), f, 2 * step);
-        p.stiffness.col(f) = (3 * p.wrench - 4 * near + far) / (2 * step);
-        continue;
-      }
+    const JointFrom<Dim> joint(model, schedule, joint_step, bodies, c, histories, climb, p);
+    p.apart = between(joint.a, joint.b);
+    if (is_integrated(settings.contact, model.properties[c.properties])) {
+      difference_of_face(model, bodies, contacts, joint, p);
+      continue;
+    }
+    const int along = model.properties[c.properties].sub_contacts, count = sub_contact_count<Dim>(along);
+    p.wrench = joint.wrench(c, subs_of(contacts, static_cast<std::size_t>(p.contact)), nullptr);
+    for (int f = 0; f < F; ++f, ++at) {
+      Contact<Dim>& then = after.contacts[at];
       std::span<SubContact<Dim>> subs;
-      if (then_contact.touching() && count > 0) {
+      if (then.touching() && count > 0) {
         const std::size_t first = p.contact * sub_stride(contacts);
         std::copy_n(contacts.subs.begin() + static_cast<std::ptrdiff_t>(first), count, cells.begin());
-        then_contact.divided_face = c.divided_face;
-        divide<Dim>(after.pairs[i * F + f], along, then_contact, std::span(cells).first(count));
-        subs = std::span(cells).first(then_contact.cells);
+        then.divided_face = c.divided_face;
+        divide<Dim>(after.pairs[at], along, then, std::span(cells).first(count));
+        subs = std::span(cells).first(then.cells);
       }
-      p.stiffness.col(f) = (p.wrench - wrench_after(f, step, then_contact, subs, nullptr)) / step;
+      p.stiffness.col(f) = (p.wrench - joint.wrench_after(f, after.steps[at], then, subs, nullptr)) / after.steps[at];
     }
   }
 }

@@ -84,8 +84,7 @@ constexpr int linear_limit = 150;
 constexpr double most_unsolved = 1e-2;
 
 // Unbalanced forces drive the softest mode, whose momentum relaxation weighs with the stiffest frequency: convergence
-// is to this fraction of the criterion that relaxation must confirm, or, if that cannot be reached, after this many
-// more iterations.
+// is to this fraction of its criterion, or, if that cannot be reached, after this many more iterations.
 constexpr double of_unbalanced = 1e-3;
 constexpr int most_polishing = 4;
 
@@ -120,6 +119,7 @@ struct Newton {
 
   void set_trial_at(const Eigen::VectorXd& q, Trial trial) {
     increment.trial = trial;
+    few_move() ? keep_others(model, moving(), state.contacts) : state.contacts.kept.clear();
     set_trial(model, unknowns, base, q, state.bodies, state.contacts, state.supports, state.ledger, state.time_step);
   }
 
@@ -316,6 +316,12 @@ struct Newton {
     base.loads = state.loads.by_source;
   }
 
+  // at the accepted motion, for energies are summed over all contacts
+  void find_all(Trial trial) {
+    progress.few = {};
+    set_trial_at(numbers(progress.accepted), trial);
+  }
+
   void end_increment() {
     commit();
     if (increment.increments_left == 0) return leave();
@@ -343,7 +349,7 @@ struct Newton {
 
   void refuse(bool breaks) {
     ++state.counters.static_rejections;
-    if (++progress.tries >= most_tries && breaks) return set_trial_at(numbers(progress.accepted), Trial::last);
+    if (++progress.tries >= most_tries && breaks) return find_all(Trial::last);
     progress.regularisation = std::max(8 * progress.regularisation, 1e-6);
     step_from_accepted();
   }
@@ -376,16 +382,16 @@ struct Newton {
       progress.merits.back() = now;
     else
       progress.merits.push_back(now);
-    if (rests()) return end_increment();
+    if (rests()) return of_all ? end_increment() : find_all(Trial::complete);
+    if (of_all && progress.iteration >= iteration_limit) return give_up(&Counters::unconverged_fallbacks);
     choose_moving(residual, now, far);
     if (few_move()) {
       find_stiffness();
       return step_from_accepted();
     }
-    if (progress.iteration >= iteration_limit) return give_up(&Counters::unconverged_fallbacks);
-    if (++progress.since_commit >= most_since_commit ||
-        has_slipped_far(model, settings.statics.slip, unknowns, increment) ||
-        fraction_in_new_contacts(state.contacts, base.histories) > most_in_new_contacts)
+    if (of_all && (++progress.since_commit >= most_since_commit ||
+                   has_slipped_far(model, settings.statics.slip, unknowns, increment) ||
+                   fraction_in_new_contacts(state.contacts, base.histories) > most_in_new_contacts))
       commit();
     find_stiffness();
     const int reached = std::exchange(progress.pairs, static_cast<int>(system.stiffness.size()));
@@ -405,6 +411,7 @@ struct Newton {
     for (const Source ramp : {Source::gravity_ramp, Source::water_change})
       base.ledger.energy.flows[ramp] += state.ledger.energy.flows[ramp] - before[ramp];
     const Trial trial = increment.trial;
+    if (trial == Trial::complete) return end_increment();
     if (trial == Trial::start) start_increment();
     const bool breaks = breaks_bonds();
     if (trial == Trial::last || (trial == Trial::start && breaks))
@@ -416,7 +423,7 @@ struct Newton {
     if (breaks || (trial == Trial::step && refuses_growth() && grows(residual, now))) return refuse(breaks);
     if (trial == Trial::step) {
       if (!refuses_growth() && shortens(residual)) return;
-      if (!std::isfinite(now)) return set_trial_at(numbers(progress.accepted), Trial::last);
+      if (!std::isfinite(now)) return find_all(Trial::last);
       if (few_move())
         regularise(residual, progress.few.merit, merit_of_few(residual));
       else

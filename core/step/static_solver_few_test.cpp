@@ -2,7 +2,12 @@
 // would without, with the same bits for any threads and any interruption.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string>
+#include <utility>
+
 #include "core/model/state_hash.hpp"
+#include "core/step.hpp"
 #include "core/step/bodies_of_step.hpp"
 #include "core/testing/stacks.hpp"
 #include "core/testing/whole_runs.hpp"
@@ -47,21 +52,53 @@ TEST(BodiesOfStep, KeepTheOrderOfTheUnknowns) {
   EXPECT_EQ((some.array() != 0).count(), 9);
 }
 
-// a box of sliced rock between walls, some 150 blocks
-Prepared<3> rock_mass() {
-  return prepare<3>(read_scene(VOUSSOIR_SOURCE_DIR "/cases/slicing/rock_mass.toml",
-                               {"statics=newton", "domain.box.max=[5, 4, 2]", "equilibrium.unbalanced=1e-8"}));
+// a box of sliced rock between walls, some 150 blocks, on points or on whole faces
+Prepared<3> rock_mass(const std::string& face) {
+  return prepare<3>(read_scene(
+      VOUSSOIR_SOURCE_DIR "/cases/slicing/rock_mass.toml",
+      {"statics=newton", "domain.box.max=[5, 4, 2]", "equilibrium.unbalanced=1e-6", "contact.face=" + face}));
 }
 
 TEST(BodiesOfStep, ChangeNoBitByThreadsOrInterruptions) {
-  Prepared<3> scene = rock_mass();
-  const Progress<3> whole = whole_run(scene);
-  ASSERT_GT(whole.state.counters.static_iterations_of_few, 3);
-  EXPECT_EQ(whole.state.counters.static_fallbacks, 0);
-  for (long long k = 2; k < whole.state.counters.steps; k += 3)
-    EXPECT_EQ(continued(scene, k).results.state_hash, whole.results.state_hash) << "interrupted after step " << k;
-  scene.settings.threads = 2;
-  EXPECT_EQ(whole_run(scene).results.state_hash, whole.results.state_hash);
+  for (const auto& [face, every] : {std::pair("point", 3LL), std::pair("integrated", 9LL)}) {
+    Prepared<3> scene = rock_mass(face);
+    const Progress<3> whole = whole_run(scene);
+    ASSERT_GT(whole.state.counters.static_iterations_of_few, 3);
+    EXPECT_EQ(whole.state.counters.static_fallbacks, 0);
+    for (long long k = 2; k < whole.state.counters.steps; k += every)
+      EXPECT_EQ(continued(scene, k).results.state_hash, whole.results.state_hash) << face << ", after step " << k;
+    scene.settings.threads = 2;
+    EXPECT_EQ(whole_run(scene).results.state_hash, whole.results.state_hash) << face;
+  }
+}
+
+// Contacts of bodies that stand are not found again: their forces are those that they would have.
+TEST(KeptContacts, HaveTheLoadsOfAllFoundAgain) {
+  for (const char* face : {"point", "integrated"}) {
+    const Prepared<3> scene = rock_mass(face);
+    Progress<3> progress = initial_progress(scene);
+    Watcher<3> watcher;
+    watcher.pause = [](const Progress<3>& now) { return !now.state.contacts.kept.empty(); };
+    ASSERT_FALSE(simulate(scene, progress, watcher)) << "no step of few bodies";
+    const Settings settings = settings_of(scene.stages[0], scene.settings);
+    State<3> kept = progress.state, all = progress.state;
+    all.contacts.kept.clear();
+    set_histories(all.increment.base.histories, all.contacts);
+    const long long before = all.counters.contact_evaluations;
+    find_forces(scene.model, settings, kept);
+    find_forces(scene.model, settings, all);
+    EXPECT_TRUE(kept.contacts.kept.empty()) << "for one step only";
+    EXPECT_LT(10 * (kept.counters.contact_evaluations - before), all.counters.contact_evaluations - before);
+    double largest = 0, apart = 0;
+    for (std::size_t i = 0; i < all.contacts.list.size(); ++i) {
+      EXPECT_EQ(all.contacts.list[i].touching(), kept.contacts.list[i].touching());
+      largest = std::max(largest, all.contacts.list[i].force.norm());
+      apart = std::max(apart, (all.contacts.list[i].force - kept.contacts.list[i].force).norm());
+    }
+    EXPECT_LT(apart, 1e-6 * largest) << face;
+    for (std::size_t b = 0; b < all.loads.total.size(); ++b)
+      EXPECT_LT((all.loads.total[b].force - kept.loads.total[b].force).norm(), 1e-6 * largest) << face;
+  }
 }
 
 }  // namespace
