@@ -11,8 +11,7 @@ JointHistories<Dim> histories_of(const ContactsState<Dim>& contacts) {
   JointHistories<Dim> histories;
   histories.contacts.reserve(contacts.list.size());
   for (const Contact<Dim>& c : contacts.list)
-    histories.contacts.push_back(
-        {c.part_a, c.part_b, c.divided_face, c.bond_due, c.touching() ? c.history : JointState<Dim>{}});
+    histories.contacts.push_back({c.part_a, c.part_b, c.divided_face, c.bond_due, c.history});
   histories.subs.reserve(contacts.subs.size());
   for (const SubContact<Dim>& s : contacts.subs)
     histories.subs.push_back(s.history);
