@@ -8,6 +8,7 @@
 #include "app/limit/limit_words.hpp"
 #include "app/limit/without_dilation_words.hpp"
 #include "core/base/bad_input.hpp"
+#include "core/limit/bolt_ties.hpp"
 #include "core/limit/without_dilation.hpp"
 #include "core/model/water_surfaces.hpp"
 
@@ -33,51 +34,27 @@ struct LiveLoad {
   bool beside_gravity = true;  // else gravity itself is sought
 };
 
-// a direction by its name; none: it has none in this dimension
-std::optional<Vector<2>> direction_of(LimitLoad load, const Vector<2>&) {
-  if (load == LimitLoad::left) return Vector<2>(-1, 0);
-  if (load == LimitLoad::right) return Vector<2>(1, 0);
-  return {};
-}
-
-std::optional<Vector<3>> direction_of(LimitLoad load, const Vector<3>&) {
-  switch (load) {
-    case LimitLoad::east:
-      return Vector<3>(1, 0, 0);
-    case LimitLoad::west:
-      return Vector<3>(-1, 0, 0);
-    case LimitLoad::north:
-      return Vector<3>(0, 1, 0);
-    case LimitLoad::south:
-      return Vector<3>(0, -1, 0);
-    case LimitLoad::up:
-      return Vector<3>(0, 0, 1);
-    case LimitLoad::down:
-      return Vector<3>(0, 0, -1);
-    default:
-      return {};
-  }
-}
-
 template <int Dim>
-LiveLoad<Dim> live_load(LimitLoad load, const Model<Dim>& model, const LoadParts<Dim>& gravity,
+LiveLoad<Dim> live_load(const LimitLoad& load, const Model<Dim>& model, const LoadParts<Dim>& gravity,
                         const StagePlan* analysed) {
-  const std::string& name = limit_loads[static_cast<std::size_t>(load)];
-  if (load == LimitLoad::gravity) return {sought_of_gravity, any_gravity, gravity, false};
-  if (load == LimitLoad::applied) {
+  if (load.kind == LimitLoad::Kind::gravity) return {sought_of_gravity, any_gravity, gravity, false};
+  if (load.kind == LimitLoad::Kind::applied) {
     Change forces;
     forces.force = analysed->change.force;
     return {sought_of_applied(*analysed), any_applied, {Vector<Dim>::Zero(), apply(model, forces).applied, {}}};
   }
-  const std::optional<Vector<Dim>> towards = direction_of(load, model.gravity);
-  if (!towards)
-    throw BadInput(fmt::format("--load {}: the scene has dimension = {}; state gravity, applied, {}", name, Dim,
-                               Dim == 2 ? "left or right" : "east, west, north, south, up or down"));
-  const bool upright = load == LimitLoad::up || load == LimitLoad::down;
+  if (load.direction.size() != Dim)
+    throw BadInput(
+        fmt::format("--load {}: the scene has dimension = {}; state gravity, applied, {}", load.name, Dim,
+                    Dim == 2 ? "left, right or two numbers" : "east, west, north, south, up, down or three numbers"));
+  const Vector<Dim> towards = Eigen::Map<const Vector<Dim>>(load.direction.data());
+  const bool upright = load.name == "up" || load.name == "down", numbers = load.name.find(',') != std::string::npos;
   return {fmt::format("{} at collapse, as a fraction of gravity",
-                      upright ? "acceleration " + name : "horizontal acceleration to the " + name),
+                      numbers   ? fmt::format("acceleration along ({})", load.name)
+                      : upright ? "acceleration " + load.name
+                                : "horizontal acceleration to the " + load.name),
           "it presses the blocks against fixed ones, or wedges them there",
-          {*towards * model.gravity.norm(), {}, {}}};
+          {towards * model.gravity.norm(), {}, {}}};
 }
 
 // "faces of blocks 3 and 4, 5 and 8, and 7 more"
@@ -198,6 +175,26 @@ void warn_of_twist(LimitAnalysis<3>& analysis) {
 
 void warn_of_twist(const LimitAnalysis<2>&) {}
 
+template <int Dim>
+void tie_bolts(const LimitRequest& request, LimitAnalysis<Dim>& analysis) {
+  std::vector<CornerTie<Dim>>& ties = analysis.assembly.ties;
+  ties = ties_of(analysis.model);
+  if (analysis.model.bolts.empty()) return;
+  if (request.proof)
+    throw BadInput(
+        "--proof: the scene has bolts, whose forces are not part of a proof; leave out --proof, or [[bolts]] and "
+        "install");
+  if (ties.empty()) {
+    analysis.warnings.push_back("none of the scene's bolts crosses a joint between blocks: they are left out");
+    return;
+  }
+  analysis.caveats.push_back(
+      "bolts act up to their yield, however far they stretch, from the beginning, whichever stage installs them");
+  const auto endless = [](const BoltProperties& p) { return p.dowel_stiffness > 0 && !p.dowel_strength; };
+  if (std::ranges::any_of(analysis.model.bolt_properties, endless))
+    analysis.warnings.push_back("bolts without dowel_strength resist no shear here");
+}
+
 // water grows with the factor of gravity, as in a run
 template <int Dim>
 LoadParts<Dim> gravity_and_water(const Model<Dim>& model) {
@@ -230,6 +227,8 @@ LimitAnalysis<Dim> analyse_limit(const LoadedScene& scene, const LimitRequest& r
   double acceleration = acceleration_of(model, gravity);
   if (acceleration == 0 && live) acceleration = acceleration_of(model, loads_of(model, live->load));
   analysis.assembly = corner_assembly(model, acceleration > 0 ? acceleration : 1, request.cohesion);
+
+  tie_bolts(request, analysis);
 
   std::vector<bool> touched(model.bodies.size()), cohesive(model.properties.size());
   for (const CornerFace<Dim>& face : analysis.assembly.faces) {

@@ -13,7 +13,7 @@
 namespace voussoir {
 
 struct LimitRequest {
-  std::optional<LimitLoad> load;        // whose factor is sought; none: the critical friction under gravity
+  std::optional<LimitLoad> load{};      // whose factor is sought; none: the critical friction under gravity
   std::vector<std::string> properties;  // whose friction is sought, or whose strength is divided; none: all
   bool factor = false;                  // the factor of safety is sought instead
   bool cohesion = false;                // also joints that only a stage bonds have their cohesion

@@ -17,7 +17,7 @@ namespace {
 struct LimitArguments {
   SceneArguments scene;
   std::filesystem::path out;            // empty: results/<name of the scene's file>_limit
-  std::string load;                     // of `limit_loads`; empty: the critical friction is sought
+  std::string load;                     // of limit_load; empty: the critical friction is sought
   std::vector<std::string> properties;  // whose friction is sought; none: all
   bool factor = false;                  // the factor of safety is sought
   std::vector<std::string> joints;      // of whose joint_properties; none: of all
@@ -37,8 +37,7 @@ LimitRequest request_of(const LimitArguments& arguments) {
   request.cohesion = arguments.cohesion;
   request.without_dilation = arguments.without_dilation;
   request.proof = arguments.proof;
-  const auto load = std::ranges::find(limit_loads, arguments.load);
-  if (load != limit_loads.end()) request.load = static_cast<LimitLoad>(load - limit_loads.begin());
+  request.load = limit_load(arguments.load);
   return request;
 }
 
@@ -182,13 +181,18 @@ void add_limit(CLI::App& program, Action& action) {
   add_out(command, arguments.out, "folder of the results (default: results/<scene>_limit)");
   CLI::Option* load =
       command
-          ->add_option("--load", arguments.load,
-                       "seek the factor of this load at the scene's friction: gravity; or, in addition to "
-                       "gravity, an acceleration (in the plane to the left or right, in space east, "
-                       "west, north, south, up or down), or the applied forces of the first stage that "
-                       "states any, with factors of time taken as 1 (default: seek the critical "
-                       "friction under gravity)")
-          ->check(CLI::IsMember(limit_loads));
+          ->add_option(
+              "--load", arguments.load,
+              "seek the factor of this load at the scene's friction: gravity; or, in addition to "
+              "gravity, an acceleration (in the plane to the left or right, in space east, "
+              "west, north, south, up or down; or as numbers, 1,0,-0.5), or the applied forces of the first stage that "
+              "states any, with factors of time taken as 1 (default: seek the critical "
+              "friction under gravity)")
+          ->check(CLI::Validator(
+              [](const std::string& text) {
+                return limit_load(text) ? std::string() : fmt::format("'{}' {}", text, limit_load_rule);
+              },
+              "LOAD"));
   add_repeated(command, "--friction", arguments.properties,
                "name of joint_properties whose critical friction is sought; the others keep theirs; may be repeated "
                "(default: all)")

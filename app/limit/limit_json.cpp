@@ -83,6 +83,23 @@ Json interfaces_json(const LimitAnalysis<Dim>& analysis) {
   return list;
 }
 
+// at each joint that they cross
+template <int Dim>
+Json bolts_json(const LimitAnalysis<Dim>& analysis) {
+  Json list = Json::array();
+  for (std::size_t i = 0; i < analysis.assembly.ties.size(); ++i) {
+    const CornerTie<Dim>& tie = analysis.assembly.ties[i];
+    const Bolt<Dim>& bolt = analysis.model.bolts[tie.bolt];
+    Json entry = {{"name", analysis.model.bolt_properties[bolt.properties].name},
+                  {"number", bolt.number},
+                  {"bodies", {tie.body_a, tie.body_b}},
+                  {"yield_N", tie.most}};
+    if (i < analysis.state.tensions.size()) entry["tension_N"] = analysis.state.tensions[i];
+    list.push_back(entry);
+  }
+  return list;
+}
+
 // the bounds of joints that dilate; of others only the upper one is a bound
 Json proof_json(const ProvedBounds& proof) {
   Json json;
@@ -130,6 +147,7 @@ std::string limit_json(const LimitAnalysis<Dim>& analysis) {
   if (analysis.values.empty()) json["evidence"] = {{"cone_programs", evidence.programs}};
   json["mechanism"] = mechanism_json(analysis);
   json["interfaces"] = interfaces_json(analysis);
+  if (!analysis.assembly.ties.empty()) json["bolts"] = bolts_json(analysis);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -40,10 +40,6 @@ void refuse_what_limit_leaves_out(const Prepared<Dim>& prepared) {
     throw BadInput(
         "the scene has potential particles: limit analysis has blocks of half-spaces only; leave out shape = "
         "\"potential\", or use 'voussoir run' with a stage of kind = \"reduce\"");
-  if (!prepared.model.bolts.empty())
-    throw BadInput(
-        "the scene has bolts: limit analysis has blocks and joints only; remove [[bolts]] and install for the "
-        "unsupported slope, or use 'voussoir run' with a stage of kind = \"reduce\"");
   if (!prepared.model.linings.empty())
     throw BadInput(
         "the scene has linings: limit analysis has blocks and joints only; remove [[linings]] and install for the "
@@ -104,7 +100,7 @@ void warn_of_strengths(const std::vector<JointProperties>& properties, const std
 }
 
 const StagePlan* stage_of_forces(const std::vector<StagePlan>& stages, const LimitRequest& request) {
-  if (request.load != LimitLoad::applied) return nullptr;
+  if (!request.load || request.load->kind != LimitLoad::Kind::applied) return nullptr;
   const auto stage = std::ranges::find_if(stages, [](const StagePlan& s) { return !s.change.force.empty(); });
   if (stage == stages.end())
     throw BadInput(

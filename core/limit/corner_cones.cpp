@@ -23,13 +23,14 @@ std::vector<int> rows_of(const CornerAssembly<Dim>& assembly) {
   return rows;
 }
 
-// N: the unit of forces between two bodies is the lighter one's weight, so that no coefficient exceeds 1
-template <int Dim>
-double unit_of(const CornerAssembly<Dim>& assembly, const CornerFace<Dim>& face) {
+// N: the unit of forces between two bodies, of a face or a tie, is the lighter one's weight, so that no coefficient
+// exceeds 1
+template <int Dim, template <int> class Between>
+double unit_of(const CornerAssembly<Dim>& assembly, const Between<Dim>& between) {
   const auto weight = [&](int b) {
     return assembly.bodies[b].moves() ? assembly.bodies[b].weight : std::numeric_limits<double>::infinity();
   };
-  return std::min(weight(face.body_a), weight(face.body_b));
+  return std::min(weight(between.body_a), weight(between.body_b));
 }
 
 // normal and tangents
@@ -61,20 +62,50 @@ FixedMatrix<freedoms<Dim>, Dim> on_body(const CornerBody<Dim>& body, const Vecto
   return rows;
 }
 
+// of forces along these directions between the bodies of a face or a tie
+template <int Dim, template <int> class Between>
+CornerCone<Dim> cone_of(const CornerAssembly<Dim>& assembly, const std::vector<int>& rows, const Between<Dim>& between,
+                        const Vector<Dim>& place, const Matrix<Dim>& on_b) {
+  CornerCone<Dim> cone;
+  cone.body_a = rows[between.body_a];
+  cone.body_b = rows[between.body_b];
+  if (cone.body_a >= 0) cone.on_a = on_body<Dim>(assembly.bodies[between.body_a], place, -on_b);
+  if (cone.body_b >= 0) cone.on_b = on_body<Dim>(assembly.bodies[between.body_b], place, on_b);
+  return cone;
+}
+
 // Of N/cos φ and T/sin φ, whose cone is |T| <= N tan φ with coefficients below 1 at any friction; `normal` and `shear`:
 // those two factors.
 template <int Dim>
 CornerCone<Dim> cone_at(const CornerAssembly<Dim>& assembly, const std::vector<int>& rows, const CornerFace<Dim>& face,
                         const Vector<Dim>& place, double normal, double shear) {
-  CornerCone<Dim> cone;
-  cone.body_a = rows[face.body_a];
-  cone.body_b = rows[face.body_b];
   Matrix<Dim> forces = unit_of(assembly, face) * axes_of(face.normal);
   forces.col(0) *= normal;
   forces.template rightCols<Dim - 1>() *= shear;
-  if (cone.body_a >= 0) cone.on_a = on_body<Dim>(assembly.bodies[face.body_a], place, -forces);
-  if (cone.body_b >= 0) cone.on_b = on_body<Dim>(assembly.bodies[face.body_b], place, forces);
-  return cone;
+  return cone_of(assembly, rows, face, place, forces);
+}
+
+// A tie's mean tension is a dead load; what differs from it has a size that is given, as its dowel's force has.
+template <int Dim>
+void add_ties(const CornerAssembly<Dim>& assembly, const std::vector<int>& rows, CornerProgram<Dim>& program) {
+  for (const CornerTie<Dim>& tie : assembly.ties) {
+    const double unit = unit_of(assembly, tie);
+    const Matrix<Dim> axes = axes_of(tie.axis);
+    Matrix<Dim> pull = Matrix<Dim>::Zero(), across = Matrix<Dim>::Zero();
+    pull.col(1) = -unit * axes.col(0);
+    across.template rightCols<Dim - 1>() = unit * axes.template rightCols<Dim - 1>();
+    CornerCone<Dim> tension = cone_of(assembly, rows, tie, tie.place, pull),
+                    dowel = cone_of(assembly, rows, tie, tie.place, across);
+    constexpr int count = freedoms<Dim>;
+    if (tension.body_a >= 0)
+      program.right_side.template segment<count>(count * tension.body_a) -= tie.mean() / unit * tension.on_a.col(1);
+    if (tension.body_b >= 0)
+      program.right_side.template segment<count>(count * tension.body_b) -= tie.mean() / unit * tension.on_b.col(1);
+    tension.head = tie.half() / unit;
+    program.cones.push_back(tension);
+    dowel.head = tie.dowel / unit;
+    if (tie.dowel > 0) program.cones.push_back(dowel);
+  }
 }
 
 // Calls act(face, corner, share of the area) for every corner.
@@ -207,6 +238,7 @@ CornerProgram<Dim> corner_program(const CornerAssembly<Dim>& assembly, const std
     program.cones.push_back(cone_at(assembly, rows, face, face.corners[k], 0, 1));
     program.cones.back().head = share * face.cohesion * face.area() / unit_of(assembly, face);
   });
+  add_ties(assembly, rows, program);
   return program;
 }
 
@@ -217,6 +249,8 @@ std::vector<double> sines_of_cones(const CornerAssembly<Dim>& assembly) {
     sines.push_back(std::sin(assembly.faces[f].friction));
     if (assembly.faces[f].cohesion > 0) sines.push_back(0);
   });
+  for (const CornerTie<Dim>& tie : assembly.ties)
+    sines.insert(sines.end(), tie.dowel > 0 ? 2 : 1, 0);
   return sines;
 }
 
@@ -270,6 +304,18 @@ CornerForces<Dim> corner_forces(const CornerAssembly<Dim>& assembly, const Eigen
     forces[f].push_back(axes * numbers);
   });
   return forces;
+}
+
+template <int Dim>
+std::vector<double> tensions(const CornerAssembly<Dim>& assembly, const Eigen::VectorXd& x) {
+  std::vector<double> all;
+  Eigen::Index at = 0;
+  for_corners(assembly, [&](int f, int, double) { at += assembly.faces[f].cohesion > 0 ? 2 * Dim : Dim; });
+  for (const CornerTie<Dim>& tie : assembly.ties) {
+    all.push_back(tie.mean() + unit_of(assembly, tie) * x[at + 1]);
+    at += tie.dowel > 0 ? 2 * Dim : Dim;
+  }
+  return all;
 }
 
 template <int Dim>
@@ -349,6 +395,7 @@ template void add_missing_forces(const CornerAssembly<2>&, CornerProgram<2>&);
 template void add_free_forces(const CornerAssembly<2>&, const std::vector<std::vector<bool>>&, const std::vector<bool>&,
                               double, CornerProgram<2>&);
 template CornerForces<2> corner_forces(const CornerAssembly<2>&, const Eigen::VectorXd&);
+template std::vector<double> tensions(const CornerAssembly<2>&, const Eigen::VectorXd&);
 template double out_of_balance<2>(const CornerProgram<2>&, const Eigen::VectorXd&, double);
 template std::vector<BodyVelocity<2>> mechanism_of(const CornerAssembly<2>&, const Eigen::VectorXd&);
 template Vector<2> opening_at(const CornerAssembly<2>&, const CornerFace<2>&, const Vector<2>&,
@@ -364,6 +411,7 @@ template void add_missing_forces(const CornerAssembly<3>&, CornerProgram<3>&);
 template void add_free_forces(const CornerAssembly<3>&, const std::vector<std::vector<bool>>&, const std::vector<bool>&,
                               double, CornerProgram<3>&);
 template CornerForces<3> corner_forces(const CornerAssembly<3>&, const Eigen::VectorXd&);
+template std::vector<double> tensions(const CornerAssembly<3>&, const Eigen::VectorXd&);
 template double out_of_balance<3>(const CornerProgram<3>&, const Eigen::VectorXd&, double);
 template std::vector<BodyVelocity<3>> mechanism_of(const CornerAssembly<3>&, const Eigen::VectorXd&);
 template Vector<3> opening_at(const CornerAssembly<3>&, const CornerFace<3>&, const Vector<3>&,

@@ -35,10 +35,25 @@ struct CornerFace {
   std::vector<double> shares() const;  // of the area, by corner; their sum is 1, and their mean place the centroid
 };
 
+// A bolt at a joint: two blocks held together along a line by a tension between two bounds.
+template <int Dim>
+struct CornerTie {
+  int body_a = 0, body_b = 0;
+  Vector<Dim> place = Vector<Dim>::Zero(), axis = Vector<Dim>::Zero();  // m; unit, from a to b
+  double least = 0, most = 0;                                           // N: of the tension; the least is negative
+                                                                        // where it also resists compression
+  double dowel = 0;                                                     // N: of the shear force across it
+  int bolt = 0;                                                         // Model::bolts
+
+  double mean() const { return 0.5 * (least + most); }
+  double half() const { return 0.5 * (most - least); }
+};
+
 template <int Dim>
 struct CornerAssembly {
   std::vector<CornerBody<Dim>> bodies;
   std::vector<CornerFace<Dim>> faces;
+  std::vector<CornerTie<Dim>> ties;
   std::vector<JointProperties> properties;  // Model::properties, of the faces
 };
 
@@ -68,12 +83,13 @@ template <int Dim>
 using CornerProgram = ConeProgram<freedoms<Dim>, Dim>;
 
 // Equilibrium under dead loads (by body): of every corner a cone of friction and, where there is cohesion, one of a
-// given size for it. `live` without loads: none.
+// given size for it; then of every tie one for what its tension differs from the mean of its bounds, which is a dead
+// load, and, if it is a dowel, one for that. `live` without loads: none.
 template <int Dim>
 CornerProgram<Dim> corner_program(const CornerAssembly<Dim>& assembly, const Loads<Dim>& dead,
                                   const Loads<Dim>& live = {});
 
-// sin φ of every cone of friction, in the program's order; 0 of those of cohesion
+// sin φ of every cone of friction, in the program's order; 0 of those of a given size
 template <int Dim>
 std::vector<double> sines_of_cones(const CornerAssembly<Dim>& assembly);
 
@@ -89,6 +105,9 @@ void add_free_forces(const CornerAssembly<Dim>& assembly, const std::vector<std:
 
 template <int Dim>
 CornerForces<Dim> corner_forces(const CornerAssembly<Dim>& assembly, const Eigen::VectorXd& x);
+// N: of every tie
+template <int Dim>
+std::vector<double> tensions(const CornerAssembly<Dim>& assembly, const Eigen::VectorXd& x);
 
 // The largest unbalanced force on a body under the program's right side and λ times its live load, over its weight (a
 // moment: of that times its radius), by the first numbers of x: those of the program's own cones.

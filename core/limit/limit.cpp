@@ -47,6 +47,7 @@ CriticalStrength<Dim> bracket_strength(const CornerAssembly<Dim>& assembly, cons
     doubt = found.doubt;
     pressing = found.answer.x.size() ? found.answer.x.maxCoeff() : 0;
     result.state.forces = corner_forces(trial, found.answer.x);
+    result.state.tensions = tensions(trial, found.answer.x);
     result.evidence.out_of_balance = out_of_balance<Dim>(corner_program(trial, loads), found.answer.x);
   };
   double root = 0, slope = 0;  // where Newton's method expects it, from the last trial that collapsed
@@ -132,7 +133,7 @@ LoadFactor<Dim> find_straight_load_factor(const CornerAssembly<Dim>& assembly, c
   }
   // Without dead load and cohesion forces and load grow together: all multiples are supported, or none.
   const bool grows =
-      program.right_side.isZero(0) &&
+      program.right_side.isZero(0) && assembly.ties.empty() &&
       std::ranges::none_of(assembly.faces, [](const CornerFace<Dim>& face) { return face.cohesion > 0; });
   const Shortfall lacking = grows ? shortfall(assembly, corner_program(assembly, live)) : Shortfall{solve(program)};
   const ConeProgramAnswer& answer = lacking.answer;
@@ -144,7 +145,10 @@ LoadFactor<Dim> find_straight_load_factor(const CornerAssembly<Dim>& assembly, c
     result.status = LimitStatus::carries_any;
   else if (!nothing)
     result.factor = std::max(0.0, answer.factor / largest);
-  if (!nothing) result.state.forces = corner_forces(assembly, answer.x);
+  if (!nothing) {
+    result.state.forces = corner_forces(assembly, answer.x);
+    result.state.tensions = tensions(assembly, answer.x);
+  }
   if (result.status == LimitStatus::found) result.state.velocities = mechanism_of(assembly, answer.y);
   result.state.velocities.resize(assembly.bodies.size());
   if (result.status != LimitStatus::found) return result;

@@ -17,6 +17,7 @@ namespace voussoir {
 template <int Dim>
 struct LimitState {
   CornerForces<Dim> forces;                   // by face; empty if no forces support the load
+  std::vector<double> tensions;               // N, by tie, likewise
   std::vector<BodyVelocity<Dim>> velocities;  // by body; zero for fixed ones; all zero if nothing collapses
 };
 

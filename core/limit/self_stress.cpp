@@ -14,8 +14,10 @@ constexpr double cost_of_jams = 1e-7, nearly_nothing = 1e-3;
 
 using OfCorners = std::vector<std::vector<bool>>;  // by face and corner
 
+// nor ties: no force between blocks has a bound, but for friction
 template <int Dim>
 CornerAssembly<Dim> without_cohesion(CornerAssembly<Dim> assembly) {
+  assembly.ties.clear();
   for (CornerFace<Dim>& face : assembly.faces)
     face.cohesion = 0;
   return assembly;
@@ -75,6 +77,7 @@ std::vector<int> may_rest_on_self_stress(const CornerAssembly<Dim>& assembly, co
     }
     if (moves) moving.push_back(static_cast<int>(f));
   }
+  without.cones.insert(without.cones.end(), cone, all.cones.end());  // of ties
   if (!moving.empty() && shortfall(assembly, without).stands()) moving.clear();
   return moving;
 }

@@ -235,6 +235,7 @@ FactorWithoutDilation<Dim> find_factor_without_dilation(const CornerAssembly<Dim
   result.largest.factor = std::max(result.largest.factor, result.least.factor);
   if (lowest->at_least.status == ConeStatus::optimal) {
     result.state.forces = corner_forces(assembly, lowest->at_least.x);
+    result.state.tensions = tensions(assembly, lowest->at_least.x);
     result.state.velocities = mechanism_of(assembly, lowest->at_least.y);
   }
   result.state.velocities.resize(assembly.bodies.size());

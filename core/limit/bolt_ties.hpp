@@ -1,0 +1,13 @@
+// The bolts of a model as ties between blocks: rigid and plastic, at each joint that one crosses, up to its yield.
+#pragma once
+
+#include "core/limit/corner_cones.hpp"
+
+namespace voussoir {
+
+// Of all Model::bolts, between bodies that are not both held. End-anchored bolts tie the first block to the last.
+// Throws BadInput for a bolt without a yield force, whose tension has no bound, and for grouted ones.
+template <int Dim>
+std::vector<CornerTie<Dim>> ties_of(const Model<Dim>& model);
+
+}  // namespace voussoir
