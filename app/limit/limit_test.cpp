@@ -55,6 +55,44 @@ TEST_F(Program, LimitFindsProvesAndDraws) {
   EXPECT_FALSE(fs::exists(folder_ / "bad"));
 }
 
+// A slab on a plane that dips by 0.7 rad, 4 m by 1 m, 80 kN/m: its bolt, straight down the plane's normal, presses it
+// on.
+TEST_F(Program, LimitCountsBoltsUpToTheirYield) {
+  write("bolted.toml", R"(
+dimension = 2
+gravity = [6.44217687237691, -7.648421872844885]
+density = 2000
+blocks = [{ name = "floor", box = { min = [-9, -3], max = [9, 0] }, fixed = true },
+          { name = "slab", box = { min = [-2, 0], max = [2, 1] } }]
+joint_properties = [{ name = "rock", normal_stiffness = 1e9, shear_stiffness = 1e9, friction_deg = 35 }]
+bolts = [{ name = "pin", from = [0, 0.5], to = [0, -2], stiffness = 1e8, yield = 15e3 }]
+stage = [{ name = "s", kind = "settle", install = ["pin"] }]
+)");
+  const double normal = 80e3 * std::cos(0.7), shear = 80e3 * std::sin(0.7),
+               friction = std::tan(35 * std::numbers::pi / 180);
+  const auto value = [&](const char* name) { return results("out")["values"][name]["value"].get<double>(); };
+  const Ended ended = run("limit bolted.toml --out out");
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_NE(ended.out.find("bolts act up to their yield"), std::string::npos) << ended.out;
+  EXPECT_NEAR(value("critical_friction"), std::atan(shear / (normal + 15e3)) * 180 / std::numbers::pi, 2e-6);
+  const nlohmann::json bolt = results("out")["bolts"].at(0);
+  EXPECT_EQ(bolt["name"], "pin");
+  EXPECT_NEAR(bolt["tension_N"].get<double>(), 15e3, 1);
+
+  // along any direction: up the plane, against gravity's own part and friction
+  ASSERT_EQ(run("limit bolted.toml --load -2,0 --overwrite --out out").code, 0);
+  EXPECT_NEAR(value("collapse_factor"), (shear + friction * (normal + 15e3)) / 80e3, 1e-7);
+
+  expect_one_line(run("limit bolted.toml --load 1,0,0 --out bad"), 2, "dimension = 2");
+  for (const char* load : {"0,0", "1", "1,,0", "1,0,0,0", "1,x", "nan,1", "1e400,0", "sideways"})
+    expect_one_line(run(std::string("limit bolted.toml --out bad --load ") + load), 2, "a direction such as");
+  expect_one_line(run("limit bolted.toml --load right --proof --out bad"), 2, "bolts");
+  expect_one_line(run("limit bolted.toml --set bolts.pin.kind=grouted --set bolts.pin.axial_stiffness=1e8 --set "
+                      "bolts.pin.bond_stiffness=1e8 --out bad"),
+                  2, "bolts");
+  EXPECT_FALSE(fs::exists(folder_ / "bad"));
+}
+
 // with friction alone the factor of safety is the ratio of the tangents; cohesion adds to it if requested
 TEST_F(Program, LimitFindsTheFactorOfSafety) {
   const std::string slump = "'" + (fs::path(VOUSSOIR_SOURCE_DIR) / "cases/slump/scene.toml").string() +

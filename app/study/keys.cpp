@@ -93,7 +93,7 @@ constexpr StudyKey study_keys[] = {
     {"extrapolate", "power", "number, required", "the power, above 0, at most 10; 0.6666667 for a rate of reduction"},
     {"limit", "load",
      "one of `\"gravity\"` `\"applied\"` `\"left\"` `\"right\"` `\"east\"` `\"west\"` `\"north\"` `\"south\"` `\"up\"` "
-     "`\"down\"`",
+     "`\"down\"`, or a direction such as `\"1,0,-0.5\"`",
      "as after `voussoir limit --load`"},
     {"limit", "friction", "list of texts", "names as after `--friction`"},
     {"limit", "factor", "true or false", "`--factor`"},

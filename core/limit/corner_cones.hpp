@@ -53,8 +53,8 @@ template <int Dim>
 struct CornerAssembly {
   std::vector<CornerBody<Dim>> bodies;
   std::vector<CornerFace<Dim>> faces;
-  std::vector<CornerTie<Dim>> ties;
   std::vector<JointProperties> properties;  // Model::properties, of the faces
+  std::vector<CornerTie<Dim>> ties{};
 };
 
 // The areas by which present bodies touch (key_blocks/rock_contacts.hpp), without those between two that are held.
