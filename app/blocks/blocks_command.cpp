@@ -18,6 +18,7 @@
 #include "app/run_folder/run_folder.hpp"
 #include "app/view/page.hpp"
 #include "core/base/bad_input.hpp"
+#include "core/limit/block_factor.hpp"
 #include "core/output/atomic_file.hpp"
 #include "core/output/block_verdicts.hpp"
 #include "core/output/blocks_dxf.hpp"
@@ -140,10 +141,23 @@ ExitCode analyse_directions(const BlocksArguments& arguments, const SurveyReques
   return ExitCode::done;
 }
 
+// of blocks whose pressure does not balance the moments of pure sliding
+template <int Dim>
+void balance_moments(Survey<Dim>& survey) {
+  Block<Dim> block;
+  for (auto* list : {&survey.rows, &survey.clusters})
+    for (SurveyRow<Dim>& row : *list) {
+      if (!(row.eccentricity.value_or(0) > 1)) continue;
+      gather<Dim>(survey.assembly, row.bodies, {}, block);
+      row.factor_moments = factor_with_moments(survey.assembly, block);
+    }
+}
+
 template <int Dim>
 ExitCode judge_scene(const BlocksArguments& arguments, const SurveyRequest& request, const LoadedScene& scene) {
   const auto& prepared = std::get<Prepared<Dim>>(scene.prepared);
-  const Survey<Dim> survey = survey_blocks(prepared, request);
+  Survey<Dim> survey = survey_blocks(prepared, request);
+  balance_moments(survey);
   const Model<Dim>& model = survey.assembly.model;
   const std::vector<SectionPolygon> polygons = section_polygons(model, arguments.sections);
   const fs::path folder = folder_of(arguments);

@@ -51,7 +51,9 @@ std::string verdict_remarks(const Survey<Dim>& survey, const SurveyRow<Dim>& row
   std::vector<std::string> all;
   const std::string motion = motion_of(row);
   if (motion != "slides" && !motion.empty())
-    all.push_back(motion);
+    all.push_back(row.factor_moments && std::isfinite(*row.factor_moments)
+                      ? fmt::format("{}: at most {:.4g} with moments", motion, *row.factor_moments)
+                      : motion);
   else if (row.eccentricity && *row.eccentricity >= near_edge)
     all.push_back("near toppling");
   if (row.cluster > 0) all.push_back("lower than its blocks");

@@ -192,7 +192,7 @@ void add_limit(CLI::App& program, Action& action) {
               [](const std::string& text) {
                 return limit_load(text) ? std::string() : fmt::format("'{}' {}", text, limit_load_rule);
               },
-              "LOAD"));
+              fmt::format("{{{}}}", fmt::join(named_limit_loads, ","))));  // as bash completes them
   add_repeated(command, "--friction", arguments.properties,
                "name of joint_properties whose critical friction is sought; the others keep theirs; may be repeated "
                "(default: all)")

@@ -48,9 +48,10 @@ std::optional<LimitLoad> limit_load(const std::string& text) {
   std::optional<std::vector<double>> direction = numbers_of(text);
   if (!direction || (direction->size() != 2 && direction->size() != 3)) return {};
   Eigen::Map<Eigen::VectorXd> vector(direction->data(), static_cast<Eigen::Index>(direction->size()));
-  const double length = vector.stableNorm();
-  if (!(length > 0) || !std::isfinite(length)) return {};
-  vector /= length;
+  const double largest = vector.cwiseAbs().maxCoeff();
+  if (!(largest > 0)) return {};
+  vector /= largest;
+  vector.normalize();
   return LimitLoad{Kind::acceleration, text, std::move(*direction)};
 }
 

@@ -14,8 +14,11 @@ struct LimitLoad {
   std::vector<double> direction;  // of an acceleration, unit: two numbers in the plane, three in space
 };
 
-// gravity, applied, a direction by its name (in the plane left or right, in space east, west, north, south, up or
-// down), or as two or three numbers, "1,0,-0.5"; none: it is none of these
+inline const std::vector<std::string> named_limit_loads{"gravity", "applied", "left",  "right", "east",
+                                                        "west",    "north",   "south", "up",    "down"};
+
+// One of these (in the plane left or right, in space the others), or a direction as two or three numbers, "1,0,-0.5";
+// none: it is neither.
 std::optional<LimitLoad> limit_load(const std::string& text);
 
 // what it takes, for messages

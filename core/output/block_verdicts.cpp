@@ -90,6 +90,7 @@ std::string csv_row(const Survey<Dim>& survey, const SurveyRow<Dim>& row) {
   add(row.opening ? csv_cell(survey.joint_name(row.faces[row.opening_face])) : "");
   add(csv_cell(fmt::format("{}", fmt::join(closed, ";"))));
   add(row.eccentricity && std::isinf(*row.eccentricity) ? "inf" : csv_cell(row.eccentricity));
+  add(row.factor_moments && std::isinf(*row.factor_moments) ? "inf" : csv_cell(row.factor_moments));
   add(degrees(row.taper));
   add(round_cell(survey.below_one.round_of, row.bodies));
   add(round_cell(survey.frictionless.round_of, row.bodies));
@@ -107,7 +108,7 @@ std::string csv_header() {
       "normal_force_N,driving_N,resisting_N,factor,factor_friction_only,factor_passive,bolts,required,force_N,"
       "force_plunge_deg,force_trend_deg,force_is_least,bolt_force_N,worst_trend_deg,factor_worst,factor_own_trend,"
       "critical_coefficient,critical_coefficient_own_trend,critical_water,critical_level_m,opening_deg,opening_joint,"
-      "closed_by_elastic_shear,pressure_eccentricity,taper_deg,round_below_1,round_moves,indeterminate\n",
+      "closed_by_elastic_shear,pressure_eccentricity,factor_moments,taper_deg,round_below_1,round_moves,indeterminate\n",
       sizes, directions);
 }
 

@@ -68,6 +68,7 @@ Json entry_of(const Survey<Dim>& survey, const SurveyRow<Dim>& row) {
   entry["factor_passive"] = number(row.bolted.factor_passive);
   entry["indeterminate"] = verdict.indeterminate;
   entry["pressure_eccentricity"] = number(row.eccentricity);
+  if (row.factor_moments) entry["factor_moments"] = number(row.factor_moments);
   if (row.force) entry["force_N"] = numbers<Dim>(row.force->force);
   return entry;
 }
