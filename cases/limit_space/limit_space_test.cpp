@@ -39,7 +39,7 @@ double value_of(const LimitAnswer& answer, const std::string& name) {
   throw std::runtime_error("no " + name + ": " + answer.message);
 }
 
-LimitRequest load(LimitLoad direction, bool dilates) {
+LimitRequest load(const std::optional<LimitLoad>& direction, bool dilates) {
   LimitRequest request;
   request.load = direction;
   request.without_dilation = !dilates;
@@ -115,7 +115,7 @@ TEST(LimitSpace, WedgesArePushedOut) {
   for (int k = 0; k < 3; ++k) {
     std::vector<std::string> sets = overrides(symmetric[k]);
     sets.push_back("joint_properties.rock.friction_deg=" + text(friction[k]));
-    const LimitAnalysis<3> found = analyse(folder / "scene.toml", sets, load(LimitLoad::north, false));
+    const LimitAnalysis<3> found = analyse(folder / "scene.toml", sets, load(limit_load("north"), false));
     const reference::Wedge wedge = wedge_of(symmetric[k]);
     const std::string name =
         fmt::format("push to the north, wedge {} at {:g} degrees", name_of(symmetric[k]), friction[k]);
@@ -162,7 +162,7 @@ TEST(LimitSpace, BlocksOnInclinesSlideOrTopple) {
                  "joint_properties.rock.friction_deg=" + text(friction / degree),
                  fmt::format("stage.push.force.push.force=[{:.17g}, {:.17g}, {:.17g}]", weight * c * std::cos(azimuth),
                              weight * std::sin(azimuth), weight * s * std::cos(azimuth))},
-                load(LimitLoad::applied, false));
+                load(limit_load("applied"), false));
     const std::string name = fmt::format("push of {:g} x {:g} x {:g} m on a dip of {:g} degrees towards {:g}", along,
                                          across, height, dip / degree, push.azimuth);
     const double exact = reference::push_on_incline(push.block, azimuth);
@@ -239,7 +239,7 @@ TEST(LimitSpace, WallsComeDownInTheirPlaneAndAcross) {
   // with dilation as the plane's linear program, by the simplex method, finds it (to nine digits)
   for (const Trial& t : {Trial{{4, 3, 1, 0.5}, 0.4, 35, 0.663710961}, {{6, 4, 0.5, 0.25}, 0.3, 35, 0.615635676}}) {
     const std::filesystem::path scene = write_wall(t.wall, t.thickness, t.friction);
-    const LimitAnalysis<3> found = analyse(scene, {}, load(LimitLoad::east, false));
+    const LimitAnalysis<3> found = analyse(scene, {}, load(limit_load("east"), false));
     const std::string name = fmt::format("push of a wall of {} courses in its plane", t.wall.courses);
     report.record({name,
                    "1",
@@ -264,13 +264,13 @@ TEST(LimitSpace, WallsComeDownInTheirPlaneAndAcross) {
                    t.thickness / (t.wall.courses * t.wall.height),
                    {1e-8, 0},
                    because_rounding},
-                  value_of(analyse(scene, {}, load(LimitLoad::north, true)), "collapse_factor"));
+                  value_of(analyse(scene, {}, load(limit_load("north"), true)), "collapse_factor"));
   }
 }
 
 TEST(LimitSpace, AColumnTopplesBetweenItsNeighbours) {
   CaseReport report("limit_space");
-  const LimitAnalysis<3> found = analyse(folder / "column.toml", {}, load(LimitLoad::east, false));
+  const LimitAnalysis<3> found = analyse(folder / "column.toml", {}, load(limit_load("east"), false));
   report.record({std::string("push of a column between two blocks") + without_dilation,
                  "1",
                  Kind::exact,

@@ -169,7 +169,7 @@ TEST(Vaiont, HorizontalCoefficient) {
                    expected,
                    {0, 1e-5},
                    "corners rounded to 0.1 mm; the solver's tolerance is 1e-7 of a block's weight"},
-                  answer(analyse(cut.scene, {"joint_properties.slide.friction_deg=25"}, {LimitLoad::right, {}})));
+                  answer(analyse(cut.scene, {"joint_properties.slide.friction_deg=25"}, {limit_load("right"), {}})));
 }
 
 TEST(Vaiont, FactorOfSafety) {
