@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <cmath>
-
 #include "core/geometry/plunge_trend.hpp"
 #include "core/output/block_verdicts.hpp"
 
@@ -51,7 +49,7 @@ std::string verdict_remarks(const Survey<Dim>& survey, const SurveyRow<Dim>& row
   std::vector<std::string> all;
   const std::string motion = motion_of(row);
   if (motion != "slides" && !motion.empty())
-    all.push_back(row.factor_moments && std::isfinite(*row.factor_moments)
+    all.push_back(row.factor_moments && *row.factor_moments < row.bolted.factor.value_or(0)
                       ? fmt::format("{}: at most {:.4g} with moments", motion, *row.factor_moments)
                       : motion);
   else if (row.eccentricity && *row.eccentricity >= near_edge)

@@ -3,8 +3,9 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
-#include <cstdlib>
+#include <system_error>
 #include <utility>
 
 namespace voussoir {
@@ -13,14 +14,15 @@ namespace {
 // numbers parted by commas and nothing else
 std::optional<std::vector<double>> numbers_of(const std::string& text) {
   std::vector<double> numbers;
-  const char* at = text.c_str();
+  const char *at = text.data(), *const end = text.data() + text.size();
   while (true) {
-    char* end = nullptr;
-    numbers.push_back(std::strtod(at, &end));
-    if (end == at || !std::isfinite(numbers.back())) return {};
-    if (*end == '\0') return numbers;
-    if (*end != ',') return {};
-    at = end + 1;
+    double number = 0;
+    const auto [after, error] = std::from_chars(at, end, number);
+    if (error != std::errc() || !std::isfinite(number)) return {};
+    numbers.push_back(number);
+    if (after == end) return numbers;
+    if (*after != ',') return {};
+    at = after + 1;
   }
 }
 

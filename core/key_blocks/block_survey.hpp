@@ -52,7 +52,7 @@ struct SurveyRow {
   int opening_face = -1;                          // in `faces`
   std::vector<int> closed_faces;                  // by elastic shear, in `faces`
   std::optional<double> eccentricity{}, taper{};  // 1; rad
-  std::optional<double> factor_moments{};         // of blocks that must turn (limit/block_factor.hpp)
+  std::optional<double> factor_moments{};         // of blocks that must turn (limit/block_factor), upper bound
 
   BlockKind kind() const { return bolted.verdict.kind; }
 };
