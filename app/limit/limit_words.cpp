@@ -233,7 +233,8 @@ void tell_envelope(LimitAnswer& answer) {
 }
 
 const char* const any_gravity =
-    "without cohesion a multiple of gravity changes nothing: seek the critical friction, or state another --load, such "
+    "without cohesion or bolts a multiple of gravity changes nothing: seek the critical friction, or state another "
+    "--load, such "
     "as an acceleration";
 const char* const any_applied = "they press the blocks against fixed ones, or wedge them there";
 const char* const sought_of_gravity = "multiple of gravity at collapse";

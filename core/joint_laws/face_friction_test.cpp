@@ -179,5 +179,35 @@ TEST(FaceFriction, NoPlaceOfThePoleIsSpecial) {
   EXPECT_NEAR(straight.moment, 0.4 * 2 * 4 / 12, 1e-14);
 }
 
+// From the normal of a near trial, to the square of what differs: pressure, face, force and moment.
+TEST(FaceFriction, ReturnsNearAKnownNormal) {
+  Random random(11);
+  int slipped = 0;
+  for (int i = 0; i < 300; ++i) {
+    PressedPolygon p = rectangle(uniform(random, 0.2, 2), 1);
+    p.gradient = {0.4 * uniform(random, -1, 1), 0.4 * uniform(random, -1, 1)};
+    const double n = p.overlap * area(p), stiffness = 3 * area(p), twist = stiffness / 6;
+    const Vector<2> force = uniform(random, 0.5, 3) * n * shapes::direction<2>(random);
+    const double moment = uniform(random, -2, 2) * n;
+    const FaceSlip known = return_to_limit(p, n, stiffness, twist, force, moment);
+    if (known.normal.isZero(0) || known.slip.isZero(0)) continue;
+    ++slipped;
+    for (const double part : {1e-3, 1e-5}) {
+      PressedPolygon near = p;
+      near.overlap *= 1 + part * uniform(random, -1, 1);
+      near.gradient *= 1 + part * uniform(random, -1, 1);
+      const double pressure = n * (1 + part * uniform(random, -1, 1)),
+                   turn = moment * (1 + part * uniform(random, -1, 1));
+      const Vector<2> trial = force + part * n * shapes::direction<2>(random);
+      const FaceSlip fast = return_near(near, pressure, stiffness, twist, trial, turn, known.normal),
+                     exact = return_to_limit(near, pressure, stiffness, twist, trial, turn);
+      if (exact.slip.isZero(0)) continue;  // it sticks after all
+      EXPECT_LT((fast.force - exact.force).norm() + std::abs(fast.moment - exact.moment),
+                (20 * part * part + 1e-7) * n);
+    }
+  }
+  EXPECT_GT(slipped, 150);
+}
+
 }  // namespace
 }  // namespace voussoir::face_friction_test

@@ -108,7 +108,8 @@ std::string csv_header() {
       "normal_force_N,driving_N,resisting_N,factor,factor_friction_only,factor_passive,bolts,required,force_N,"
       "force_plunge_deg,force_trend_deg,force_is_least,bolt_force_N,worst_trend_deg,factor_worst,factor_own_trend,"
       "critical_coefficient,critical_coefficient_own_trend,critical_water,critical_level_m,opening_deg,opening_joint,"
-      "closed_by_elastic_shear,pressure_eccentricity,factor_moments,taper_deg,round_below_1,round_moves,indeterminate\n",
+      "closed_by_elastic_shear,pressure_eccentricity,factor_moments,taper_deg,round_below_1,round_moves,"
+      "indeterminate\n",
       sizes, directions);
 }
 
