@@ -190,9 +190,9 @@ void add_limit(CLI::App& program, Action& action) {
               "friction under gravity)")
           ->check(CLI::Validator(
               [](const std::string& text) {
-                return limit_load(text) ? std::string() : fmt::format("'{}' {}", text, limit_load_rule);
+                return limit_load(text) ? std::string() : fmt::format("'{}' {}", text, limit_load_rule());
               },
-              fmt::format("{{{}}}", fmt::join(named_limit_loads, ","))));  // as bash completes them
+              fmt::format("{{{}}}", fmt::join(named_limit_loads(), ","))));  // as bash completes them
   add_repeated(command, "--friction", arguments.properties,
                "name of joint_properties whose critical friction is sought; the others keep theirs; may be repeated "
                "(default: all)")

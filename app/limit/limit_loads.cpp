@@ -1,8 +1,10 @@
 #include "app/limit/limit_loads.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <Eigen/Core>
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <system_error>
@@ -10,6 +12,14 @@
 
 namespace voussoir {
 namespace {
+
+using Kind = LimitLoad::Kind;
+
+const std::vector<LimitLoad> named{{Kind::gravity, "gravity", {}},           {Kind::applied, "applied", {}},
+                                   {Kind::acceleration, "left", {-1, 0}},    {Kind::acceleration, "right", {1, 0}},
+                                   {Kind::acceleration, "east", {1, 0, 0}},  {Kind::acceleration, "west", {-1, 0, 0}},
+                                   {Kind::acceleration, "north", {0, 1, 0}}, {Kind::acceleration, "south", {0, -1, 0}},
+                                   {Kind::acceleration, "up", {0, 0, 1}},    {Kind::acceleration, "down", {0, 0, -1}}};
 
 // numbers parted by commas and nothing else
 std::optional<std::vector<double>> numbers_of(const std::string& text) {
@@ -28,25 +38,20 @@ std::optional<std::vector<double>> numbers_of(const std::string& text) {
 
 }  // namespace
 
-const char* const limit_load_rule =
-    "must be \"gravity\", \"applied\", \"left\", \"right\", \"east\", \"west\", \"north\", \"south\", \"up\", "
-    "\"down\", "
-    "or a direction such as \"1,0,-0.5\" (two numbers in the plane, three in space)";
+std::vector<std::string> named_limit_loads() {
+  std::vector<std::string> names;
+  for (const LimitLoad& load : named)
+    names.push_back(load.name);
+  return names;
+}
+
+std::string limit_load_rule() {
+  return fmt::format("must be \"{}\", or a direction such as \"1,0,-0.5\" (two numbers in the plane, three in space)",
+                     fmt::join(named_limit_loads(), "\", \""));
+}
 
 std::optional<LimitLoad> limit_load(const std::string& text) {
-  using Kind = LimitLoad::Kind;
-  if (text == "gravity") return LimitLoad{Kind::gravity, text, {}};
-  if (text == "applied") return LimitLoad{Kind::applied, text, {}};
-  static const std::array<std::pair<const char*, std::vector<double>>, 8> named{{{"left", {-1, 0}},
-                                                                                 {"right", {1, 0}},
-                                                                                 {"east", {1, 0, 0}},
-                                                                                 {"west", {-1, 0, 0}},
-                                                                                 {"north", {0, 1, 0}},
-                                                                                 {"south", {0, -1, 0}},
-                                                                                 {"up", {0, 0, 1}},
-                                                                                 {"down", {0, 0, -1}}}};
-  for (const auto& [name, direction] : named)
-    if (text == name) return LimitLoad{Kind::acceleration, text, direction};
+  if (const auto load = std::ranges::find(named, text, &LimitLoad::name); load != named.end()) return *load;
   std::optional<std::vector<double>> direction = numbers_of(text);
   if (!direction || (direction->size() != 2 && direction->size() != 3)) return {};
   Eigen::Map<Eigen::VectorXd> vector(direction->data(), static_cast<Eigen::Index>(direction->size()));

@@ -14,14 +14,13 @@ struct LimitLoad {
   std::vector<double> direction;  // of an acceleration, unit: two numbers in the plane, three in space
 };
 
-inline const std::vector<std::string> named_limit_loads{"gravity", "applied", "left",  "right", "east",
-                                                        "west",    "north",   "south", "up",    "down"};
+// gravity, applied, and the directions that have a name: in the plane left and right, in space the others
+std::vector<std::string> named_limit_loads();
 
-// One of these (in the plane left or right, in space the others), or a direction as two or three numbers, "1,0,-0.5";
-// none: it is neither.
+// One of these, or a direction as two or three numbers, "1,0,-0.5"; none: it is neither.
 std::optional<LimitLoad> limit_load(const std::string& text);
 
 // what it takes, for messages
-extern const char* const limit_load_rule;
+std::string limit_load_rule();
 
 }  // namespace voussoir

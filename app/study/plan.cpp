@@ -68,8 +68,8 @@ std::optional<OtherCommand> read_limit(const Subject& table) {
   refuse_unknown_keys(limit, "limit");
   std::vector<std::string> options;
   if (node->find("load")) {
-    const std::string& load = text_of(limit, "load", limit_load_rule);
-    if (!limit_load(load)) refuse(limit, "load", limit_load_rule);
+    const std::string& load = text_of(limit, "load", limit_load_rule());
+    if (!limit_load(load)) refuse(limit, "load", limit_load_rule());
     options = {"--load", load};
   }
   const bool factor = flag_of(limit, "factor");
