@@ -1,9 +1,10 @@
 # voussoir_flags: the compiler flags of every target of this project.
 # No contraction and no loop vectorisation: otherwise g++ 12 fuses multiply-adds, and the same scene must give the same bits
-# with any compiler and optimisation level.
+# with any compiler and optimisation level. Without errno, which nothing reads after arithmetic, a square root is one instruction
+# and not a call; its bits are the same.
 add_library(voussoir_flags INTERFACE)
 target_compile_features(voussoir_flags INTERFACE cxx_std_20)
-set(VOUSSOIR_ARITHMETIC -ffp-contract=off $<$<CXX_COMPILER_ID:GNU>:-fno-tree-vectorize>
+set(VOUSSOIR_ARITHMETIC -ffp-contract=off -fno-math-errno $<$<CXX_COMPILER_ID:GNU>:-fno-tree-vectorize>
   $<$<CXX_COMPILER_ID:Clang>:-fno-vectorize -fno-slp-vectorize -ffp-exception-behavior=maytrap>
   CACHE STRING "flags for the rounding of arithmetic; with any others bits differ; for measurements of their cost only")
 mark_as_advanced(VOUSSOIR_ARITHMETIC)

@@ -166,6 +166,33 @@ void answer(const Pair<Dim>& pair, const HalfSpaces<Dim>& planes, const FaceInte
     face.polygon.corners.clear();
 }
 
+// `may_lie`: two faces may lie on each other; `region`: its integrals, if they are known
+template <int Dim>
+bool integrate(const Pair<Dim>& pair, const HalfSpaces<Dim>& planes, bool may_lie, const RegionIntegral<Dim>* region,
+               Contact<Dim>& contact, IntegratedContact<Dim>& face) {
+  const int faces_a = static_cast<int>(pair.a->faces.size());
+  const double reach = reach_of(pair);
+  FaceIntegral<Dim> f;
+  const bool faces = may_lie && lie_on_each_other<Dim>(planes, faces_a, reach, contact.geometry, f, face.polygon);
+  if (faces && surely_flat(f, face.polygon)) {
+    answer<Dim>(pair, planes, f, {}, {1, 0, true}, contact, face);
+    return true;
+  }
+  RegionIntegral<Dim> r;
+  RegionStatus status = RegionStatus::ok;
+  if (region != nullptr)
+    r = *region;
+  else
+    status = integrate_region<Dim>(planes, faces_a, reach, r);
+  if (status == RegionStatus::ok)
+    answer<Dim>(pair, planes, f, r, faces ? blend(r.square / f.square) : Blend{0, 1, false}, contact, face);
+  else if (status == RegionStatus::empty && faces)
+    answer<Dim>(pair, planes, f, r, {1, 0, true}, contact, face);
+  else
+    without_pressure<Dim>(pair, planes, contact, face);
+  return status != RegionStatus::too_many_planes;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -185,23 +212,28 @@ void find_nearest_faces(const Pair<Dim>& pair, Contact<Dim>& contact, HalfSpaces
 template <int Dim>
 bool integrate_contact(const Pair<Dim>& pair, const HalfSpaces<Dim>& planes, Contact<Dim>& contact,
                        IntegratedContact<Dim>& face) {
-  const int faces_a = static_cast<int>(pair.a->faces.size());
-  const double reach = reach_of(pair);
-  FaceIntegral<Dim> f;
-  const bool faces = lie_on_each_other<Dim>(planes, faces_a, reach, contact.geometry, f, face.polygon);
-  if (faces && surely_flat(f, face.polygon)) {
-    answer<Dim>(pair, planes, f, {}, {1, 0, true}, contact, face);
-    return true;
+  return integrate<Dim>(pair, planes, true, nullptr, contact, face);
+}
+
+template <int Dim>
+void integrate_moved(const Pair<Dim>& pair, const Contact<Dim>& contact, const IntegratedContact<Dim>& face,
+                     std::span<const Pair<Dim>> moved, std::span<Contact<Dim>> contacts,
+                     std::span<IntegratedContact<Dim>> faces) {
+  static thread_local HalfSpaces<Dim> here;
+  static thread_local std::vector<HalfSpaces<Dim>> planes;
+  static thread_local std::vector<RegionIntegral<Dim>> regions;
+  planes.resize(moved.size());
+  regions.resize(moved.size());
+  assemble<Dim>(pair, contact.proof.point, here);
+  for (std::size_t k = 0; k < moved.size(); ++k) {
+    contacts[k] = contact;
+    find_nearest_faces<Dim>(moved[k], contacts[k], planes[k]);
   }
-  RegionIntegral<Dim> r;
-  const RegionStatus status = integrate_region<Dim>(planes, faces_a, reach, r);
-  if (status == RegionStatus::ok)
-    answer<Dim>(pair, planes, f, r, faces ? blend(r.square / f.square) : Blend{0, 1, false}, contact, face);
-  else if (status == RegionStatus::empty && faces)
-    answer<Dim>(pair, planes, f, r, {1, 0, true}, contact, face);
-  else
-    without_pressure<Dim>(pair, planes, contact, face);
-  return status != RegionStatus::too_many_planes;
+  const bool followed = integrate_moved_regions<Dim>(here, static_cast<int>(pair.a->faces.size()), reach_of(pair),
+                                                     face.flat, planes, std::span(regions));
+  for (std::size_t k = 0; k < moved.size(); ++k)
+    integrate<Dim>(moved[k], planes[k], !followed || face.flat, followed ? &regions[k] : nullptr, contacts[k],
+                   faces[k]);
 }
 
 template <int Dim>
@@ -288,9 +320,12 @@ void move_by(const Pair<Dim>& pair, const FaceSensitivity<Dim>& s, int freedom, 
   }
 }
 
-#define VOUSSOIR_INSTANTIATE(Dim)                                                                       \
-  template bool find_sensitivity<Dim>(const Pair<Dim>&, const Contact<Dim>&, FaceSensitivity<Dim>&);    \
-  template void move_by<Dim>(const Pair<Dim>&, const FaceSensitivity<Dim>&, int, double, Contact<Dim>&, \
+#define VOUSSOIR_INSTANTIATE(Dim)                                                                          \
+  template void integrate_moved<Dim>(const Pair<Dim>&, const Contact<Dim>&, const IntegratedContact<Dim>&, \
+                                     std::span<const Pair<Dim>>, std::span<Contact<Dim>>,                  \
+                                     std::span<IntegratedContact<Dim>>);                                   \
+  template bool find_sensitivity<Dim>(const Pair<Dim>&, const Contact<Dim>&, FaceSensitivity<Dim>&);       \
+  template void move_by<Dim>(const Pair<Dim>&, const FaceSensitivity<Dim>&, int, double, Contact<Dim>&,    \
                              IntegratedContact<Dim>&);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)

@@ -8,6 +8,8 @@
 // is: F = (g - r g') F_f + g' F_r, and the moment likewise.
 #pragma once
 
+#include <span>
+
 #include "core/contact/contact.hpp"
 #include "core/contact/face_sensitivity.hpp"
 #include "core/contact/pair.hpp"
@@ -47,6 +49,13 @@ bool integrate_contact(const Pair<Dim>& pair, const HalfSpaces<Dim>& planes, Con
 // of the polygon, inside of all planes by more than rounding.
 template <int Dim>
 bool integrate_as_before(const Pair<Dim>& pair, Contact<Dim>& contact, IntegratedContact<Dim>& face);
+
+// A contact after each of a few small motions, to first order in them: `moved` are the pair after them, `contacts` and
+// `faces` the results.
+template <int Dim>
+void integrate_moved(const Pair<Dim>& pair, const Contact<Dim>& contact, const IntegratedContact<Dim>& face,
+                     std::span<const Pair<Dim>> moved, std::span<Contact<Dim>> contacts,
+                     std::span<IntegratedContact<Dim>> faces);
 
 // How it changes as the second body moves, m and rad, world axes through that body's centroid; directions in world
 // axes, the moment about contact.proof.point. False, without a result, if not faces alone press, wide compared with

@@ -129,34 +129,56 @@ struct LiftedPolytope {
   }
 };
 
-// Corners are computed from their planes, without the errors of the cuts: one step of Newton's method on the planes of
-// each. If more than enough planes meet, or nearly depend on each other, the corner is kept.
+// What is left in the equations a·x + t = d of the planes that meet at a corner.
+template <int Dim>
+FixedMatrix<Dim + 1, 1> off_planes(const HalfSpaces<Dim>& planes, const Vector<Dim>& shift,
+                                   const LiftedPolytope<Dim>& polytope, const Corner<Dim>& c) {
+  FixedMatrix<Dim + 1, 1> off;
+  Planes left = c.on;
+  for (int k = 0; k <= Dim; ++k, left &= left - 1) {
+    const int b = std::countr_zero(left);
+    off[k] = -c.t;
+    if (b == base) continue;
+    const HalfSpace<Dim>& p = planes[polytope.plane[b]];
+    off[k] = (p.offset - p.normal.dot(shift)) - p.normal.dot(c.x) - c.t;
+  }
+  return off;
+}
+
+// The inverse of those equations' matrix: times off_planes it is the way to where the planes meet. False where more
+// planes meet than determine the corner, or where they nearly depend on each other.
+template <int Dim>
+bool find_way_to_planes(const HalfSpaces<Dim>& planes, const LiftedPolytope<Dim>& polytope, const Corner<Dim>& c,
+                        FixedMatrix<Dim + 1, Dim + 1>& way) {
+  if (!fewer_than<Dim + 2>(c.on) || (c.on & of_simplex) != 0) return false;
+  FixedMatrix<Dim + 1, Dim + 1> rows;
+  Planes left = c.on;
+  for (int k = 0; k <= Dim; ++k, left &= left - 1) {
+    const int b = std::countr_zero(left);
+    if (b == base)
+      rows.row(k) = FixedMatrix<1, Dim + 1>::Unit(Dim);
+    else
+      rows.row(k) << planes[polytope.plane[b]].normal.transpose(), 1;
+  }
+  bool independent = false;
+  rows.computeInverseWithCheck(way, independent);
+  return independent;
+}
+
+template <int Dim>
+void go(const FixedMatrix<Dim + 1, 1>& step, Corner<Dim>& c) {
+  c.x += step.template head<Dim>();
+  c.t += step[Dim];
+}
+
+// Corners without the errors of the cuts; one that its planes do not determine is kept.
 template <int Dim>
 void sharpen(const HalfSpaces<Dim>& planes, const Vector<Dim>& shift, double half, LiftedPolytope<Dim>& polytope) {
   for (Corner<Dim>& c : polytope.corners) {
-    if (!fewer_than<Dim + 2>(c.on) || (c.on & of_simplex) != 0) continue;
-    FixedMatrix<Dim + 1, Dim + 1> rows;
-    FixedMatrix<Dim + 1, 1> off;
-    Planes left = c.on;
-    for (int k = 0; k <= Dim; ++k, left &= left - 1) {
-      const int b = std::countr_zero(left);
-      if (b == base) {
-        rows.row(k) = FixedMatrix<1, Dim + 1>::Unit(Dim);
-        off[k] = -c.t;
-        continue;
-      }
-      const HalfSpace<Dim>& p = planes[polytope.plane[b]];
-      rows.row(k) << p.normal.transpose(), 1;
-      off[k] = (p.offset - p.normal.dot(shift)) - p.normal.dot(c.x) - c.t;
-    }
-    FixedMatrix<Dim + 1, Dim + 1> inverse;
-    bool independent = false;
-    rows.computeInverseWithCheck(inverse, independent);
-    if (!independent) continue;
-    const FixedMatrix<Dim + 1, 1> step = inverse * off;
-    if (!(step.norm() < cut_error * half)) continue;
-    c.x += step.template head<Dim>();
-    c.t += step[Dim];
+    FixedMatrix<Dim + 1, Dim + 1> way;
+    if (!find_way_to_planes(planes, polytope, c, way)) continue;
+    const FixedMatrix<Dim + 1, 1> step = way * off_planes(planes, shift, polytope, c);
+    if (step.norm() < cut_error * half) go<Dim>(step, c);
   }
 }
 
@@ -178,14 +200,69 @@ struct Piece {
   Vector<Dim> lever = Vector<Dim>::Zero();  // ∫ phi x dS
 };
 
-// corners of one piece, in any order
+// The corners at which two of its facets meet, in their order around the piece.
 template <int Dim>
-using PieceCorners = std::vector<const Corner<Dim>*>;
+struct PieceCorners {
+  int plane_a, plane_b;
+  std::vector<int> at;
+};
 
-Piece<2> measure(PieceCorners<2>& at, const Vector<2>&) {
+void put_in_order(const LiftedPolytope<2>&, const Vector<2>&, std::vector<int>&) {}
+
+// `normal`: of any length, near the piece's own
+void put_in_order(const LiftedPolytope<3>& polytope, const Vector<3>& normal, std::vector<int>& at) {
+  if (at.size() <= 3) return;
+  const Vector<3> n = normal.normalized(), e = perpendicular(n), f = n.cross(e);
+  Vector<3> middle = Vector<3>::Zero();
+  for (const int c : at)
+    middle += polytope.corners[c].x;
+  middle /= static_cast<double>(at.size());
+  static thread_local std::vector<std::pair<double, int>> round;
+  round.clear();
+  for (const int c : at) {
+    const Vector<3> from = polytope.corners[c].x - middle;
+    round.emplace_back(way_round(e.dot(from), f.dot(from)), c);
+  }
+  std::ranges::sort(round, {}, [](const auto& r) { return r.first; });
+  for (std::size_t k = 0; k < at.size(); ++k)
+    at[k] = round[k].second;
+}
+
+template <int Dim>
+struct Pieces {
+  std::vector<PieceCorners<Dim>> list;
+  int count = 0;  // of the list: the others keep their storage
+
+  // `energy`: also those between facets of one part, on which no force acts
+  void find(const HalfSpaces<Dim>& planes, int faces_a, bool energy, const LiftedPolytope<Dim>& polytope) {
+    Planes used = 0;
+    for (const Corner<Dim>& c : polytope.corners)
+      used |= c.on;
+    used &= bit(most_planes) - 1;
+    count = 0;
+    for (Planes i = used; i != 0; i &= i - 1)
+      for (Planes j = i & (i - 1); j != 0; j &= j - 1) {
+        const int p = polytope.plane[std::countr_zero(i)], q = polytope.plane[std::countr_zero(j)];
+        if (!energy && (p < faces_a) == (q < faces_a)) continue;
+        const Planes both = (i & -i) | (j & -j);
+        if (count == static_cast<int>(list.size())) list.emplace_back();
+        PieceCorners<Dim>& piece = list[count];
+        piece.at.clear();
+        for (std::size_t c = 0; c < polytope.corners.size(); ++c)
+          if ((polytope.corners[c].on & both) == both) piece.at.push_back(static_cast<int>(c));
+        if (piece.at.size() < Dim) continue;
+        piece.plane_a = p;
+        piece.plane_b = q;
+        put_in_order(polytope, Vector<Dim>(planes[p].normal - planes[q].normal), piece.at);
+        ++count;
+      }
+  }
+};
+
+Piece<2> measure(const std::vector<Corner<2>>& corners, const std::vector<int>& at) {
   Piece<2> piece;
   if (at.size() != 2) return piece;
-  const Corner<2>&p = *at[0], &q = *at[1];
+  const Corner<2>&p = corners[at[0]], &q = corners[at[1]];
   piece.area = perpendicular(Vector<2>(q.x - p.x));
   const double length = piece.area.norm();
   piece.weight = 0.5 * length * (p.t + q.t);
@@ -203,28 +280,10 @@ void add_triangle(const Corner<3>& p, const Corner<3>& q, const Corner<3>& r, Pi
   piece.lever += area / 12 * ((sum + p.t) * p.x + (sum + q.t) * q.x + (sum + r.t) * r.x);
 }
 
-// `normal`: of any length, near the piece's own
-Piece<3> measure(PieceCorners<3>& at, const Vector<3>& normal) {
+Piece<3> measure(const std::vector<Corner<3>>& corners, const std::vector<int>& at) {
   Piece<3> piece;
-  if (at.size() < 3) return piece;
-  if (at.size() > 3) {
-    const Vector<3> n = normal.normalized(), e = perpendicular(n), f = n.cross(e);
-    Vector<3> middle = Vector<3>::Zero();
-    for (const Corner<3>* c : at)
-      middle += c->x;
-    middle /= static_cast<double>(at.size());
-    static thread_local std::vector<std::pair<double, const Corner<3>*>> round;
-    round.clear();
-    for (const Corner<3>* c : at) {
-      const Vector<3> from = c->x - middle;
-      round.emplace_back(way_round(e.dot(from), f.dot(from)), c);
-    }
-    std::ranges::sort(round, {}, [](const auto& r) { return r.first; });
-    for (std::size_t k = 0; k < at.size(); ++k)
-      at[k] = round[k].second;
-  }
   for (std::size_t k = 1; k + 1 < at.size(); ++k)
-    add_triangle(*at[0], *at[k], *at[k + 1], piece);
+    add_triangle(corners[at[0]], corners[at[k]], corners[at[k + 1]], piece);
   return piece;
 }
 
@@ -235,56 +294,44 @@ Piece<3> measure(PieceCorners<3>& at, const Vector<3>& normal) {
 //
 // where |a_i - a_j|/2 is the cosine between the surface and either plane; the force is one over those of two parts.
 template <int Dim>
-void sum_up(const HalfSpaces<Dim>& planes, const Vector<Dim>& shift, int faces_a, const LiftedPolytope<Dim>& polytope,
-            RegionIntegral<Dim>& region) {
-  static thread_local PieceCorners<Dim> at;
-  Planes used = 0;
-  for (const Corner<Dim>& c : polytope.corners)
-    used |= c.on;
-  used &= bit(most_planes) - 1;
+void sum_up(const HalfSpaces<Dim>& planes, const Vector<Dim>& shift, int faces_a, const Pieces<Dim>& pieces,
+            const std::vector<Corner<Dim>>& corners, RegionIntegral<Dim>& region) {
   region = {};
   double weight = 0;
   Vector<Dim> lever = Vector<Dim>::Zero(), whole = Vector<Dim>::Zero();
-  for (Planes i = used; i != 0; i &= i - 1)
-    for (Planes j = i & (i - 1); j != 0; j &= j - 1) {
-      const Planes both = (i & -i) | (j & -j);
-      at.clear();
-      for (const Corner<Dim>& c : polytope.corners)
-        if ((c.on & both) == both) at.push_back(&c);
-      if (at.size() < Dim) continue;
-      const int p = polytope.plane[std::countr_zero(i)], q = polytope.plane[std::countr_zero(j)];
-      const Vector<Dim> apart = planes[p].normal - planes[q].normal;
-      const Piece<Dim> piece = measure(at, apart);
-      region.square += 2 * apart.norm() * piece.square;
-      if ((p < faces_a) == (q < faces_a)) continue;
-      const double length = piece.area.norm();
-      if (!(length > 0)) continue;
-      // from the first part to the second
-      const bool along = (piece.area.dot(apart) > 0) == (p < faces_a);
-      const Vector<Dim> n = (along ? 1 : -1) / length * piece.area;
-      region.force += 2 * piece.weight * n;
-      region.moment += 2 * moment(piece.lever, n);
-      whole += length * n;
-      weight += piece.weight;
-      lever += piece.lever;
-    }
+  for (int k = 0; k < pieces.count; ++k) {
+    const int p = pieces.list[k].plane_a, q = pieces.list[k].plane_b;
+    const Vector<Dim> apart = planes[p].normal - planes[q].normal;
+    const Piece<Dim> piece = measure(corners, pieces.list[k].at);
+    region.square += 2 * apart.norm() * piece.square;
+    if ((p < faces_a) == (q < faces_a)) continue;
+    const double length = piece.area.norm();
+    if (!(length > 0)) continue;
+    // from the first part to the second
+    const bool along = (piece.area.dot(apart) > 0) == (p < faces_a);
+    const Vector<Dim> n = (along ? 1 : -1) / length * piece.area;
+    region.force += 2 * piece.weight * n;
+    region.moment += 2 * moment(piece.lever, n);
+    whole += length * n;
+    weight += piece.weight;
+    lever += piece.lever;
+  }
   if (!(weight > 0)) return;
   region.pressure = lever / weight;
-  for (const Corner<Dim>& c : polytope.corners)
+  for (const Corner<Dim>& c : corners)
     region.spread = std::max(region.spread, (c.x - region.pressure).squaredNorm());
   region.pressure += shift;
   region.moment += moment(shift, region.force);
   region.area = whole.norm();
 }
 
-}  // namespace
-
+// The corners of the region and where their origin lies.
 template <int Dim>
-RegionStatus integrate_region(const HalfSpaces<Dim>& planes, int faces_a, double reach, RegionIntegral<Dim>& region) {
-  static thread_local LiftedPolytope<Dim> polytope;
+RegionStatus cut_region(const HalfSpaces<Dim>& planes, double reach, LiftedPolytope<Dim>& polytope,
+                        Vector<Dim>& shift) {
   static thread_local std::vector<std::pair<double, int>> order;  // nearest first: the others soon cut no corner
   double half = reach, extent = 0;
-  Vector<Dim> shift = Vector<Dim>::Zero();
+  shift.setZero();
   for (int pass = 0; pass < most_passes; ++pass) {
     order.clear();
     for (int i = 0; i < static_cast<int>(planes.size()); ++i)
@@ -318,11 +365,51 @@ RegionStatus integrate_region(const HalfSpaces<Dim>& planes, int faces_a, double
     half = 2 * extent;
   }
   if (extent < small * half) sharpen(planes, shift, half, polytope);
-  sum_up(planes, shift, faces_a, polytope, region);
+  return RegionStatus::ok;
+}
+
+}  // namespace
+
+template <int Dim>
+RegionStatus integrate_region(const HalfSpaces<Dim>& planes, int faces_a, double reach, RegionIntegral<Dim>& region) {
+  static thread_local LiftedPolytope<Dim> polytope;
+  static thread_local Pieces<Dim> pieces;
+  Vector<Dim> shift;
+  const RegionStatus status = cut_region(planes, reach, polytope, shift);
+  if (status != RegionStatus::ok) return status;
+  pieces.find(planes, faces_a, true, polytope);
+  sum_up(planes, shift, faces_a, pieces, polytope.corners, region);
   return region.square > 0 && region.area > 0 ? RegionStatus::ok : RegionStatus::empty;
+}
+
+template <int Dim>
+bool integrate_moved_regions(const HalfSpaces<Dim>& planes, int faces_a, double reach, bool energy,
+                             std::span<const HalfSpaces<Dim>> moved, std::span<RegionIntegral<Dim>> regions) {
+  static thread_local LiftedPolytope<Dim> polytope;
+  static thread_local Pieces<Dim> pieces;
+  static thread_local std::vector<FixedMatrix<Dim + 1, Dim + 1>> ways;
+  static thread_local std::vector<Corner<Dim>> there;
+  Vector<Dim> shift;
+  if (cut_region(planes, reach, polytope, shift) != RegionStatus::ok) return false;
+  ways.resize(polytope.corners.size());
+  for (std::size_t i = 0; i < ways.size(); ++i)
+    if (!find_way_to_planes(planes, polytope, polytope.corners[i], ways[i])) return false;
+  pieces.find(planes, faces_a, energy, polytope);
+  for (std::size_t k = 0; k < moved.size(); ++k) {
+    there = polytope.corners;
+    for (std::size_t i = 0; i < ways.size(); ++i)
+      go<Dim>(ways[i] * off_planes(moved[k], shift, polytope, polytope.corners[i]), there[i]);
+    sum_up(moved[k], shift, faces_a, pieces, there, regions[k]);
+    if (!(regions[k].area > 0)) return false;
+  }
+  return true;
 }
 
 template RegionStatus integrate_region<2>(const HalfSpaces<2>&, int, double, RegionIntegral<2>&);
 template RegionStatus integrate_region<3>(const HalfSpaces<3>&, int, double, RegionIntegral<3>&);
+template bool integrate_moved_regions<2>(const HalfSpaces<2>&, int, double, bool, std::span<const HalfSpaces<2>>,
+                                         std::span<RegionIntegral<2>>);
+template bool integrate_moved_regions<3>(const HalfSpaces<3>&, int, double, bool, std::span<const HalfSpaces<3>>,
+                                         std::span<RegionIntegral<3>>);
 
 }  // namespace voussoir

@@ -16,6 +16,8 @@
 // 2 k times its volume, the surface is the set where two of its facets of different parts meet.
 #pragma once
 
+#include <span>
+
 #include "core/geometry/half_space.hpp"
 
 namespace voussoir {
@@ -38,5 +40,13 @@ enum class RegionStatus { ok, empty, too_many_planes };
 // error of all else that, times the extent over the thickness; moment and place relative to the extent.
 template <int Dim>
 RegionStatus integrate_region(const HalfSpaces<Dim>& planes, int faces_a, double reach, RegionIntegral<Dim>& region);
+
+// The integrals over the region of `planes` after each of a few small motions, to first order: `moved[k]` are the same
+// planes after motion k. The region is cut once, then its corners follow the planes that meet there. Without `energy`,
+// `square` is not summed. False where a corner lies on more planes than determine it, or where they nearly depend on
+// each other: then it parts, and each motion needs a cut of its own.
+template <int Dim>
+bool integrate_moved_regions(const HalfSpaces<Dim>& planes, int faces_a, double reach, bool energy,
+                             std::span<const HalfSpaces<Dim>> moved, std::span<RegionIntegral<Dim>> regions);
 
 }  // namespace voussoir

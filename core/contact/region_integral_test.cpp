@@ -295,6 +295,48 @@ TEST(RegionIntegral, ForceAndMomentAreTheEnergysDerivative) {
   expect_derivatives<3>();
 }
 
+// whose corners follow their planes, against cuts anew
+template <int Dim>
+void expect_regions_followed() {
+  Random random(12);
+  int followed = 0;
+  for (int i = 0; i < 60; ++i) {
+    Overlapping<Dim> o;
+    const double depth = power_of_ten(random, -4, -0.5);
+    put_together(random, depth, o);
+    const int faces_a = static_cast<int>(o.a.faces.size());
+    std::vector<HalfSpaces<Dim>> planes(freedoms<Dim>);
+    std::vector<RegionIntegral<Dim>> regions(freedoms<Dim>);
+    for (int f = 0; f < freedoms<Dim>; ++f)
+      assemble<Dim>(moved(o.pair, f, 1e-6 * depth), o.contact.proof.point, planes[f]);
+    if (!integrate_moved_regions<Dim>(seen_planes(o), faces_a, reach_of(o.pair), i % 2 == 0, planes, regions)) continue;
+    ++followed;
+    for (int f = 0; f < freedoms<Dim>; ++f) {
+      const RegionIntegral<Dim> cut = region_of<Dim>(planes[f], faces_a, reach_of(o.pair));
+      const double scale = allowed(cut);
+      if (i % 2 == 0) EXPECT_NEAR(regions[f].square, cut.square, scale * cut.square) << i;
+      EXPECT_LT((regions[f].force - cut.force).norm(), scale * cut.force.norm()) << i;
+      EXPECT_LT((regions[f].moment - cut.moment).norm(), scale * cut.force.norm()) << i;
+      EXPECT_LT((regions[f].pressure - cut.pressure).norm(), scale) << i;
+    }
+  }
+  EXPECT_GT(followed, 50);
+}
+
+TEST(RegionIntegral, CornersFollowTheirPlanesInSmallMotions) {
+  expect_regions_followed<2>();
+  expect_regions_followed<3>();
+}
+
+TEST(RegionIntegral, ACornerOnMorePlanesThanDetermineItIsNotFollowed) {
+  std::vector<HalfSpaces<3>> pyramid(1);
+  for (const Vector<3>& n : {Vector<3>(1, 0, 1), Vector<3>(-1, 0, 1), Vector<3>(0, 1, 1), Vector<3>(0, -1, 1)})
+    pyramid[0].push_back({n.normalized(), 1});
+  pyramid[0].push_back({{0, 0, -1}, 0});
+  std::vector<RegionIntegral<3>> regions(1);
+  EXPECT_FALSE(integrate_moved_regions<3>(pyramid[0], 4, 8, true, pyramid, regions));
+}
+
 template <int Dim>
 void expect_swap_and_scale() {
   Random random(13);

@@ -1,6 +1,7 @@
 #include "core/step/pair_stiffness.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -210,29 +211,37 @@ struct JointFrom {
 template <int Dim>
 void difference_of_face(const Model<Dim>& model, const BodiesState<Dim>& bodies, const ContactsState<Dim>& contacts,
                         const JointFrom<Dim>& joint, PairStiffness<Dim>& p) {
-  static thread_local IntegratedContact<Dim> pressed;
-  static thread_local HalfSpaces<Dim> planes;
+  constexpr int F = freedoms<Dim>;
+  static thread_local std::vector<IntegratedContact<Dim>> faces(F);
+  static thread_local std::vector<Contact<Dim>> moved_contacts(F);
+  static thread_local std::vector<Pair<Dim>> pairs(F);
   const Contact<Dim>& c = contacts.list[p.contact];
   const IntegratedContact<Dim>& face = contacts.faces[p.contact];
   const Pair<Dim> here = pair_of(model, bodies, c.part_a, c.part_b, QueryLevel::area);
   Vector<3> slips = Vector<3>::Zero();
   p.wrench = joint.wrench(c, {}, &face, &slips);
+  std::array<double, F> steps;
+  for (int f = 0; f < F; ++f)
+    steps[f] = step_along(model, c, p, f);
   FaceSensitivity<Dim> sensitivity;
-  const bool closed_form = find_sensitivity<Dim>(here, c, sensitivity);
-  const double longer = closed_form ? 1 : step_on_face(model, c, p) / step_along(model, c, p, 0);
-  for (int f = 0; f < freedoms<Dim>; ++f) {
-    const double step = longer * step_along(model, c, p, f);
-    Contact<Dim> then = c;
-    Vector<3> slips_then = slips;
-    if (closed_form) {
-      pressed = face;
-      move_by<Dim>(here, sensitivity, f, step, then, pressed);
-    } else {
-      const Pair<Dim> pair = moved(here, joint.b, f, step);
-      find_nearest_faces<Dim>(pair, then, planes);
-      integrate_contact<Dim>(pair, planes, then, pressed);
+  if (find_sensitivity<Dim>(here, c, sensitivity)) {
+    for (int f = 0; f < F; ++f) {
+      moved_contacts[f] = c;
+      faces[f] = face;
+      move_by<Dim>(here, sensitivity, f, steps[f], moved_contacts[f], faces[f]);
     }
-    p.stiffness.col(f) = (p.wrench - joint.wrench_after(f, step, then, {}, &pressed, &slips_then)) / step;
+  } else {
+    const double longer = step_on_face(model, c, p) / steps[0];
+    for (int f = 0; f < F; ++f) {
+      steps[f] *= longer;
+      pairs[f] = moved(here, joint.b, f, steps[f]);
+    }
+    integrate_moved<Dim>(here, c, face, pairs, moved_contacts, faces);
+  }
+  for (int f = 0; f < F; ++f) {
+    Vector<3> slips_then = slips;
+    p.stiffness.col(f) =
+        (p.wrench - joint.wrench_after(f, steps[f], moved_contacts[f], {}, &faces[f], &slips_then)) / steps[f];
   }
 }
 
