@@ -98,13 +98,16 @@ double taken_out_of(const Levels& levels, const TrialEstimate& last) {
   return std::abs(levels.level_of(last.critical) - levels.level_of(last.critical - last.taken_out));
 }
 
+// with the way back to the bracket of an estimate outside of it, by less than the tolerance
 double error_of_estimate(const Levels& levels, const Bracket& bracket, const std::vector<TrialEstimate>& estimates) {
   const TrialEstimate& last = estimates.back();
   const std::size_t n = estimates.size();
   const double level = levels.level_of(last.critical), taken_out = taken_out_of(levels, last);
   const double other = n < 2 ? 0.5 * std::abs(bracket.failed - bracket.stable)
                              : std::abs(level - levels.level_of(estimates[n - 2].critical));
-  return error_of_line * taken_out + other;
+  const double outside =
+      std::max({0.0, levels.direction * (level - bracket.failed), levels.direction * (bracket.stable - level)});
+  return error_of_line * taken_out + other + outside;
 }
 
 // why the trials give no strength at no displacement

@@ -123,6 +123,11 @@ TEST(SearchEstimates, AnEstimateThatTheBracketContradictsDoesNotCount) {
   EXPECT_NEAR(inside.taken_out, 1e-4 * 1.4 * 1.4, 1e-6);
   EXPECT_EQ(inside.bracket_because, "");
 
+  // outside by less than the tolerance: the bar reaches into the bracket
+  const CriticalLevel beside = critical_level(levels, {1.401, 1.405}, known);
+  EXPECT_NEAR(beside.level, 1.4001, 1e-12);
+  EXPECT_NEAR(beside.error_bar, inside.error_bar + 0.0009, 1e-12);
+
   const CriticalLevel outside = critical_level(levels, {1.42, 1.43}, known);
   EXPECT_EQ(outside.by, CriticalBy::bracket);
   EXPECT_NEAR(outside.level, 1.425, 1e-12);
