@@ -103,8 +103,10 @@ for figure in contact_planes contact_vertices; do
   (cd "$benchmarks" && "$source/reports/draw.sh" "$source/reports/$figure.gp" "$reports/figures/$figure.svg")
   settle $? "figure $figure"
 done
-(cd "$source/reports" && ./draw.sh rest_cost.gp "$reports/figures/rest_cost.svg")
-settle $? "figure rest_cost"
+for figure in rest_cost limit_cost; do
+  (cd "$source/reports" && ./draw.sh $figure.gp "$reports/figures/$figure.svg")
+  settle $? "figure $figure"
+done
 
 cases=$(cut -d, -f1 "$reports/history.csv" 2>/dev/null | tail -n +2 | awk '!seen[$0]++' | paste -sd '|')
 if [ -n "$cases" ]; then

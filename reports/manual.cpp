@@ -140,13 +140,13 @@ std::vector<Part> all_parts(const Sources& sources) {
   add_cases(sources, CaseState::not_modelled, true, "Not yet modelled", parts);
   add_matrix(sources, parts);
   parts.push_back({"Speed", "what-accuracy-costs", "Cost of accuracy", trade_page(folders, sources.missing)});
-  parts.push_back(
-      {"Speed", "what-a-slope-costs", "Cost on a slope", text_page(folders, "slope_cost", "what-a-slope-costs")});
+  parts.push_back({"Speed", "what-a-slope-costs", "Cost on a slope",
+                   text_page(folders, "slope_cost", "what-a-slope-costs", sources.missing)});
   parts.push_back({"Speed", "what-equilibrium-costs", "Cost of equilibrium",
-                   text_page(folders, "rest_cost", "what-equilibrium-costs")});
+                   text_page(folders, "rest_cost", "what-equilibrium-costs", sources.missing)});
   parts.push_back({"Speed", "contact-kernel", "The contact kernel", kernel_page(folders, sources.missing)});
-  parts.push_back(
-      {"Reference", "what-water-means", "Water in the model", text_page(folders, "water", "what-water-means")});
+  parts.push_back({"Reference", "what-water-means", "Water in the model",
+                   text_page(folders, "water", "what-water-means", sources.missing)});
   parts.push_back({"Reference", "scene-keys", "Scene keys", scene_keys(sources)});
   return parts;
 }

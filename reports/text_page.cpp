@@ -9,7 +9,8 @@ namespace voussoir::reports {
 
 namespace fs = std::filesystem;
 
-std::string text_page(const Folders& folders, const std::string& name, const std::string& anchor) {
+std::string text_page(const Folders& folders, const std::string& name, const std::string& anchor,
+                      std::vector<std::string>& missing) {
   const std::string text = verification::read_text(folders.source / "reports" / (name + ".md"));
   const LinkRules rules{[](const std::string& target) -> std::optional<std::string> {
                           const fs::path path(target);
@@ -22,7 +23,10 @@ std::string text_page(const Folders& folders, const std::string& name, const std
                         [&](const std::string& target, const std::string& caption) -> std::optional<std::string> {
                           const fs::path figures = folders.build / "reports" / "figures";
                           const std::string stem = fs::path(target).stem().string();
-                          if (!fs::exists(figures / (stem + ".svg"))) return {};  // not drawn
+                          if (!fs::exists(figures / (stem + ".svg"))) {
+                            missing.push_back(fmt::format("{}: the figure {} was not drawn", name, target));
+                            return fmt::format("<p class=\"note\">The figure {} was not drawn.</p>\n", escape(target));
+                          }
                           return drawn_figure({figures}, stem, slug(stem), caption);
                         }};
   return fmt::format("<section class=\"case\" id=\"{}\">\n<h2>{}</h2>\n{}</section>\n", anchor,

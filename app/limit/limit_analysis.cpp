@@ -15,10 +15,10 @@
 namespace voussoir {
 namespace {
 
-const char* const dilating_caveat =
+constexpr const char* dilating_caveat =
     "associated flow: forces and mechanism enclose the strength of joints that dilate as they slip; of joints that do "
     "not it is an upper bound, often several degrees or tens of percent unsafe (Goodman & Bray's slope: 33.4 for 38.15 "
-    "degrees), without bound where blocks are held by their sides; confirm it with 'voussoir run'";
+    "degrees), without bound where blocks are held by their sides; {}confirm it with 'voussoir run'";
 const char* const pressed_caveat =
     "carried by self-stress, normal forces between blocks that the loads do not ask for: without dilation nothing "
     "says that they are there; confirm it with 'voussoir run'";
@@ -210,7 +210,8 @@ LimitAnalysis<Dim> analyse_limit(const LoadedScene& scene, const LimitRequest& r
   const Prepared<Dim>& prepared = std::get<Prepared<Dim>>(scene.prepared);
   refuse_what_limit_leaves_out(prepared);
   LimitAnalysis<Dim> analysis;
-  analysis.caveats = {dilating_caveat};
+  analysis.caveats = {fmt::format(
+      dilating_caveat, request.without_dilation ? "" : "state --without-dilation for the answer of such joints, or ")};
   analysis.title = scene.title;
   analysis.input_hash = scene.hash;
   analysis.model = prepared.model;
