@@ -147,7 +147,7 @@ void balance_moments(Survey<Dim>& survey) {
   Block<Dim> block;
   for (auto* list : {&survey.rows, &survey.clusters})
     for (SurveyRow<Dim>& row : *list) {
-      if (!(row.eccentricity.value_or(0) > 1)) continue;
+      if (!(row.eccentricity.value_or(0) > 1) && row.kind() != BlockKind::stable) continue;
       gather<Dim>(survey.assembly, row.bodies, {}, block);
       row.factor_moments = factor_with_moments(survey.assembly, block);
     }

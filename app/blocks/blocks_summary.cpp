@@ -143,6 +143,26 @@ std::string worst_rows(const Survey<Dim>& survey, int top) {
   return text;
 }
 
+// stable as they slide, but not as they turn
+template <int Dim>
+std::string turning_rows(const Survey<Dim>& survey) {
+  std::vector<std::string> list;
+  std::size_t count = 0;
+  for (const auto* rows : {&survey.clusters, &survey.rows})
+    for (const SurveyRow<Dim>& row : *rows) {
+      if (row.kind() != BlockKind::stable || !row.factor_moments || *row.factor_moments >= survey.request.required)
+        continue;
+      if (++count <= most_listed)
+        list.push_back(fmt::format("{} (at most {:.4g})", survey.body_names(row), *row.factor_moments));
+    }
+  if (count == 0) return "";
+  return fmt::format("stable without friction as they slide, but with moments below {:g}: {}{}\n",
+                     survey.request.required, fmt::join(list, ", "),
+                     count > most_listed
+                         ? fmt::format(" and {} more: factor_moments of blocks_verdicts.csv", count - most_listed)
+                         : "");
+}
+
 template <int Dim>
 std::string header(const Survey<Dim>& survey, const std::string& title) {
   std::vector<std::string> strengths;
@@ -237,7 +257,8 @@ std::string least_line(const Survey<Dim>& survey) {
 
 template <int Dim>
 std::string blocks_summary(const Survey<Dim>& survey, const std::string& title, int top) {
-  std::string text = header(survey, title) + classes(survey) + worst_rows(survey, top) + least_line(survey);
+  std::string text =
+      header(survey, title) + classes(survey) + worst_rows(survey, top) + turning_rows(survey) + least_line(survey);
   text += volumes_line(survey);
   text += fmt::format(
       "clusters: {} of free neighbours, {} move as one, {} lower than their blocks; looked at: up to {} blocks, a "

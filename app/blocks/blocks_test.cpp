@@ -27,6 +27,32 @@ std::vector<std::string> column(const fs::path& file, const std::string& name) {
   return cells;
 }
 
+TEST_F(Program, BlocksNamesABlockThatNeedsNoFrictionButTopples) {
+  write("lean.toml", R"(dimension = 2
+gravity = [0, -9.81]
+density = 2600
+blocks = [
+  { name = "floor", box = { min = [-2, -1], max = [9, 0] }, fixed = true },
+  { name = "leans", vertices = [[0, 0], [1, 0], [3, 1], [2, 1]] },
+  { name = "stands", vertices = [[5, 0], [6, 0], [6.5, 1], [5.5, 1]] },
+]
+[[joint_properties]]
+name = "rock"
+normal_stiffness = 1e9
+shear_stiffness = 1e9
+friction_deg = 40
+[[stage]]
+name = "settle"
+kind = "settle"
+)");
+  const Ended ended = run("blocks lean.toml --out out");
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_NE(ended.out.find("stable without friction as they slide, but with moments below 1: 0 (at most 0)\n"),
+            std::string::npos)
+      << ended.out;
+  EXPECT_EQ(column(folder_ / "out/blocks_verdicts.csv", "factor_moments"), (std::vector<std::string>{"0", "inf"}));
+}
+
 TEST_F(Program, BlocksFindsThePairOfTheTutorial) {
   const Ended ended =
       run("blocks " + quoted("examples/tutorial/slope.toml") + "--out out --required 1.3 --dxf --section 90/90/-3/0/0");
