@@ -5,8 +5,9 @@
 
 namespace voussoir {
 
-// Of all Model::bolts, between bodies that are not both held. End-anchored bolts tie the first block to the last.
-// Throws BadInput for a bolt without a yield force, whose tension has no bound, and for grouted ones.
+// Of all Model::bolts, between bodies that are not both held. End-anchored bolts tie the first block to the last;
+// grouted ones may cross one joint, and pull no more than the bond holds on either side of it. Throws BadInput for
+// grouted bolts that cross more, and for a bolt whose tension has no bound.
 template <int Dim>
 std::vector<CornerTie<Dim>> ties_of(const Model<Dim>& model);
 

@@ -117,8 +117,51 @@ TEST(BoltTies, RefuseWhatHasNoBound) {
     return std::string("accepted");
   };
   EXPECT_NE(message("stiffness = 1e8").find("bolts 'b' state no yield"), std::string::npos);
-  EXPECT_NE(message("kind = \"grouted\", axial_stiffness = 1e8, bond_stiffness = 1e8, yield = 15e3").find("grouted"),
+  EXPECT_NE(message("kind = \"grouted\", axial_stiffness = 1e8, bond_stiffness = 1e8").find("or bond_strength"),
             std::string::npos);
+}
+
+TEST(BoltTies, RefuseAGroutedBarAcrossSeveralJoints) {
+  const auto model = prepare<2>(parse_scene(R"(dimension = 2
+gravity = [0, -10]
+density = 2000
+blocks = [
+  { name = "floor", box = { min = [-1, -3], max = [1, 0] }, fixed = true },
+  { name = "lower", box = { min = [-1, 0], max = [1, 1] } },
+  { name = "upper", box = { min = [-1, 1], max = [1, 2] } },
+]
+joint_properties = [{ name = "rock", normal_stiffness = 1e9, shear_stiffness = 1e9, friction_deg = 30 }]
+bolts = [{ name = "b", from = [0, 2], to = [0, -2], kind = "grouted", axial_stiffness = 1e8, bond_stiffness = 1e8, yield = 15e3 }]
+stage = [{ name = "s", kind = "settle", install = ["b"] }]
+)",
+                                            "scene.toml"))
+                         .model;
+  EXPECT_THROW(ties_of(model), BadInput);
+}
+
+// 0.5 m of the bar in the block, 2 m in the floor
+TEST(BoltTies, AGroutedBarPullsNoMoreThanItsBond) {
+  const std::string bar = "kind = \"grouted\", axial_stiffness = 1e8, bond_stiffness = 1e8, ";
+  const auto bounds = [&](const std::string& keys) {
+    const CornerTie<2> tie = Bolted<2>(bar + keys).assembly.ties.at(0);
+    return std::pair(tie.least, tie.most);
+  };
+  const auto near = [](std::pair<double, double> found, double least, double most) {
+    EXPECT_NEAR(found.first, least, 1e-6);
+    EXPECT_NEAR(found.second, most, 1e-6);
+  };
+  near(bounds("yield = 15e3"), -15e3, 15e3);                      // the bond never slips
+  near(bounds("yield = 15e3, bond_strength = 10e3"), -5e3, 5e3);  // out of the block
+  near(bounds("bond_strength = 10e3, free_length = 0.2"), -3e3, 3e3);
+  const std::string plate = ", plate = \"spring\", plate_stiffness = 1e8";
+  near(bounds("yield = 15e3, bond_strength = 10e3" + plate), -5e3, 15e3);
+  near(bounds("yield = 15e3, bond_strength = 4e3" + plate), -2e3, 8e3);  // out of the floor
+  near(bounds("bond_strength = 4e3, plate = \"tied\""), -8e3, 8e3);
+
+  const Bolted<2> tied(bar + "yield = 15e3, bond_strength = 10e3");
+  const double normal = weight * std::cos(slope), shear = weight * std::sin(slope);
+  EXPECT_NEAR(find_critical_friction(tied.assembly, tied.gravity, tied.all()).stands,
+              std::atan((shear - 5e3 * std::sin(lean)) / (normal + 5e3 * std::cos(lean))), 5e-8);
 }
 
 }  // namespace
