@@ -21,7 +21,7 @@ set logscale xy
 set xlabel 'free blocks'
 set ylabel 'processor seconds of one thread'
 set xrange [30:4000]
-set yrange [0.05:1000]
+set yrange [0.01:1000]
 set format y '10^{%T}'
 set key inside bottom right vertical Left reverse samplen 2.5
 of(i, value) = strcol('method') eq method[i] ? value : NaN
