@@ -200,8 +200,7 @@ struct Piece {
   Vector<Dim> lever = Vector<Dim>::Zero();  // ∫ phi x dS
 };
 
-// The corners at which two of its facets meet, in their order around the piece.
-template <int Dim>
+// The corners at which two of the polytope's facets meet, in their order around the piece.
 struct PieceCorners {
   int plane_a, plane_b;
   std::vector<int> at;
@@ -230,7 +229,7 @@ void put_in_order(const LiftedPolytope<3>& polytope, const Vector<3>& normal, st
 
 template <int Dim>
 struct Pieces {
-  std::vector<PieceCorners<Dim>> list;
+  std::vector<PieceCorners> list;
   int count = 0;  // of the list: the others keep their storage
 
   // `energy`: also those between facets of one part, on which no force acts
@@ -246,7 +245,7 @@ struct Pieces {
         if (!energy && (p < faces_a) == (q < faces_a)) continue;
         const Planes both = (i & -i) | (j & -j);
         if (count == static_cast<int>(list.size())) list.emplace_back();
-        PieceCorners<Dim>& piece = list[count];
+        PieceCorners& piece = list[count];
         piece.at.clear();
         for (std::size_t c = 0; c < polytope.corners.size(); ++c)
           if ((polytope.corners[c].on & both) == both) piece.at.push_back(static_cast<int>(c));

@@ -43,7 +43,7 @@ RegionStatus integrate_region(const HalfSpaces<Dim>& planes, int faces_a, double
 
 // The integrals over the region of `planes` after each of a few small motions, to first order: `moved[k]` are the same
 // planes after motion k. The region is cut once, then its corners follow the planes that meet there. Without `energy`,
-// `square` is not summed. False where a corner lies on more planes than determine it, or where they nearly depend on
+// `square` has no meaning. False where a corner lies on more planes than determine it, or where they nearly depend on
 // each other: then it parts, and each motion needs a cut of its own.
 template <int Dim>
 bool integrate_moved_regions(const HalfSpaces<Dim>& planes, int faces_a, double reach, bool energy,
