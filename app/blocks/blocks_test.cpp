@@ -47,7 +47,7 @@ kind = "settle"
 )");
   const Ended ended = run("blocks lean.toml --out out");
   EXPECT_EQ(ended.code, 0) << ended.err;
-  EXPECT_NE(ended.out.find("stable without friction as they slide, but with moments below 1: 0 (at most 0)\n"),
+  EXPECT_NE(ended.out.find("stable without friction as they slide, but with moments below 1.5: 0 (at most 0)\n"),
             std::string::npos)
       << ended.out;
   EXPECT_EQ(column(folder_ / "out/blocks_verdicts.csv", "factor_moments"), (std::vector<std::string>{"0", "inf"}));
