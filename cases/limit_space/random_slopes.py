@@ -2,27 +2,39 @@
 """Random sliced slopes in space: critical friction by limit analysis, with dilation and without, beside distinct elements on
 whole faces at two stiffnesses.
 
-    random_slopes.py VOUSSOIR FOLDER FIRST LAST        seeds; a line each, and FOLDER/random_slopes.csv
+    random_slopes.py VOUSSOIR FOLDER KIND FIRST LAST     seeds; a line each, and FOLDER/random_slopes.csv
 
-A face that dips to the east is cut by two beds that dip out of it, two steep joints along it and one or two across; the rock
-below the lowest bed is fixed. Elastic joints are soft by 1/k: their rigid limit is extrapolated from both stiffnesses."""
+A face that dips to the east, cut by steep joints along and across it, and, by kind: `beds`, two beds that dip out of it;
+`wedge`, two planes whose line plunges out of it; `columns`, a base and joints that dip steeply into it. The rock below the
+lowest bed, either plane, the base is fixed. Elastic joints are soft by 1/k: their rigid limit is extrapolated."""
 import csv, json, pathlib, random, subprocess, sys
 
 STIFF = (1e9, 4e9)  # Pa/m
+LONGEST = 40  # s of a run or an analysis
 
 
-def slope(seed):
+def slope(kind, seed):
     draw = random.Random(seed).uniform
-    dip, step, text = draw(20, 40), draw(1.2, 2), []
+    dip, step, text, fixed = draw(20, 40), draw(1.2, 2), [], ["bed0"]
     plane = lambda name, dip, direction, point: text.append(
         f'[[joints]]\nname = "{name}"\ndip = {dip:.4f}\ndip_direction = {direction % 360:.4f}\npoint = [{point[0]:.4f}, {point[1]:.4f}, {point[2]:.4f}]\n')
     face = draw(60, 80)
-    for k in range(2):
-        plane(f"bed{k}", dip + draw(-5, 5), 90 + draw(-20, 20), (2, 0, -4 + k * step))
-    for k in range(2):
+    if kind == "beds":
+        for k in range(2):
+            plane(f"bed{k}", dip + draw(-5, 5), 90 + draw(-20, 20), (2, 0, -4 + k * step))
+    elif kind == "wedge":
+        fixed = ["left", "right"]
+        plane("left", draw(40, 60), 90 + draw(30, 50), (2, 0, -4))
+        plane("right", draw(40, 60), 90 - draw(30, 50), (2, 0, -4))
+    else:
+        plane("bed0", draw(10, 25), 90 + draw(-10, 10), (2, 0, -4))
+        for k in range(3):
+            plane(f"column{k}", draw(68, 80), 270 + draw(-10, 10), (1 - 1.1 * k + draw(-0.2, 0.2), 0, -3))
+    for k in range(0 if kind == "columns" else 2):
         plane(f"steep{k}", draw(65, 88), (90 if draw(0, 1) < 0.5 else 270) + draw(-15, 15), (-2.5 + 2.2 * k + draw(-0.5, 0.5), 0, -2))
     for k in range(1 + (draw(0, 1) < 0.5)):
         plane(f"cross{k}", draw(70, 88), (0 if draw(0, 1) < 0.5 else 180) + draw(-20, 20), (0, -0.8 + 1.6 * k + draw(-0.4, 0.4), -2))
+    fix = "".join(f'[[fix]]\nbelow = ["{name}"]\n' for name in fixed)
     return f'''dimension = 3
 gravity = [0, 0, -9.81]
 density = 2600
@@ -44,9 +56,7 @@ name = "rock"
 normal_stiffness = 1e9
 shear_stiffness = 1e8
 friction_deg = 80
-[[fix]]
-below = ["bed0"]
-[[stage]]
+{fix}[[stage]]
 name = "settle"
 kind = "settle"
 gravity_ramp_s = 0.1
@@ -74,17 +84,17 @@ def named(values):
 
 def call(program, *arguments):
     try:
-        ended = subprocess.run([program, *map(str, arguments)], capture_output=True, text=True, timeout=300)
+        ended = subprocess.run([program, *map(str, arguments)], capture_output=True, text=True, timeout=LONGEST)
         return ended.returncode, ended.stdout + ended.stderr
     except subprocess.TimeoutExpired:
-        return -1, "longer than 300 s"
+        return -1, f"longer than {LONGEST} s"
 
 
-def judge(program, folder, seed):
+def judge(program, folder, kind, seed):
     folder.mkdir(parents=True, exist_ok=True)
     scene = folder / f"{seed}.toml"
-    scene.write_text(slope(seed))
-    row = {"seed": seed}
+    scene.write_text(slope(kind, seed))
+    row = {"kind": kind, "seed": seed}
     code, said = call(program, "limit", scene, "--without-dilation", "--out", folder / f"{seed}_limit", "--overwrite")
     found = values(folder / f"{seed}_limit")
     for key in ("lower_bound", "least", "largest"):
@@ -102,11 +112,11 @@ def judge(program, folder, seed):
     return row
 
 
-def main(program, folder, first, last):
+def main(program, folder, kind, first, last):
     folder = pathlib.Path(folder)
     rows = []
     for seed in range(int(first), int(last) + 1):
-        row = judge(program, folder, seed)
+        row = judge(program, folder, kind, seed)
         rows.append(row)
         shown = {k: f"{v:.3f}" if isinstance(v, float) else v for k, v in row.items()}
         print(" ".join(f"{k}={v}" for k, v in shown.items() if k not in ("said", "blocks")), row["said"][:60], flush=True)

@@ -5,6 +5,8 @@
 #include <functional>
 #include <optional>
 
+#include "core/limit/shortfall.hpp"
+
 namespace voussoir {
 namespace {
 
@@ -209,11 +211,13 @@ FactorWithoutDilation<Dim> find_factor_without_dilation(const CornerAssembly<Dim
   FixedPoints<Dim> points(assembly, dead, live, hook);
   if (!points.has_load()) return result.status = LimitStatus::no_load, result;
 
+  // any multiple of the live loads is carried if joints without friction carry these alone
   CornerAssembly<Dim> smooth = assembly;
+  smooth.ties.clear();
   for (CornerFace<Dim>& face : smooth.faces)
     face.friction = face.cohesion = 0;
-  const bool pressed = solve(corner_program(smooth, dead, live)).status == ConeStatus::unbounded;
-  if (pressed) return result.status = LimitStatus::carries_any, result.programs = 1, result;
+  const Shortfall alone = shortfall(smooth, corner_program(smooth, live));
+  if (!alone.failed() && alone.stands()) return result.status = LimitStatus::carries_any, result.programs = 1, result;
 
   // the second has no part that vanishes with ε, but may end at forces that the loads do not ask for
   std::optional<Interval> lowest = closed(points), other = loosened(points);

@@ -5,8 +5,10 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <tuple>
 
+#include "core/scene/scene.hpp"
 #include "core/testing/corner_scenes.hpp"
 
 namespace voussoir::without_dilation_test {
@@ -52,6 +54,41 @@ TEST(WithoutDilation, AColumnTopplesBetweenItsNeighbours) {
   for (const auto& [a, b, y] : {std::tuple{left, column, 1.0}, {column, right, 1.5}})
     scene.touch(a, b, {{0.75, y, 0}, {1.25, y, 0}, {1.25, y, 2}, {0.75, y, 2}}, {0, 1, 0}, 35);
   expect_interval(scene, 0.25, 0.699264);
+}
+
+// A wedge on joints left and right that others cut into blocks: it slides as one at 40.6598 degrees (Hoek & Bray), on
+// joints that dilate at 38.07. Pushed out of the slope it was once said to carry any load.
+TEST(WithoutDilation, AWedgeOfSeveralBlocksIsNotCarriedByItsPush) {
+  const auto pushed = [](double friction_deg) {
+    const std::string joints =
+        "joints = [{ name = \"left\", dip = 49.313, dip_direction = 130.1568, point = [2, 0, -4] },\n"
+        "{ name = \"right\", dip = 51.7477, dip_direction = 56.3068, point = [2, 0, -4] },\n"
+        "{ name = \"s0\", dip = 76.7739, dip_direction = 278.7893, point = [-2.9059, 0, -2] },\n"
+        "{ name = \"s1\", dip = 71.9782, dip_direction = 99.2893, point = [-0.1066, 0, -2] },\n"
+        "{ name = \"c0\", dip = 87.6795, dip_direction = 186.1569, point = [0, -0.7075, -2] },\n"
+        "{ name = \"c1\", dip = 72.8349, dip_direction = 1.1353, point = [0, 0.4476, -2] }]\n";
+    const Model<3> model =
+        prepare<3>(
+            parse_scene(
+                "dimension = 3\ngravity = [0, 0, -9.81]\ndensity = 2600\n" + joints +
+                    "fix = [{ below = [\"left\"] }, { below = [\"right\"] }]\n"
+                    "slicing.smallest_inscribed_radius = 0.05\n"
+                    "domain = { box = { min = [-5, -2, -6], max = [4, 2, 0] }, planes = [{ name = \"face\", dip = "
+                    "78.4842, dip_direction = 90, point = [2, 0, -4], keep = \"below\" }] }\n"
+                    "joint_properties = [{ name = \"rock\", normal_stiffness = 1e9, shear_stiffness = 1e9, "
+                    "friction_deg = " +
+                    std::to_string(friction_deg) + " }]\nstage = [{ name = \"s\", kind = \"settle\" }]\n",
+                "scene.toml"))
+            .model;
+    const CornerAssembly<3> assembly = corner_assembly(model, model.gravity.norm());
+    return find_factor_without_dilation(assembly, loads_of_acceleration(model, model.gravity),
+                                        loads_of_acceleration(model, Vector<3>(9.78, -0.78, 0)));
+  };
+  const FactorWithoutDilation<3> weak = pushed(40.4), strong = pushed(40.9);
+  ASSERT_EQ(weak.status, LimitStatus::found);
+  ASSERT_EQ(strong.status, LimitStatus::found);
+  EXPECT_LT(weak.largest.factor, 0);
+  EXPECT_GT(strong.least.factor, 0);
 }
 
 // The largest is that of joints that dilate; the least that of moments about the corner bricks' toes.
