@@ -295,7 +295,7 @@ TEST(RegionIntegral, ForceAndMomentAreTheEnergysDerivative) {
   expect_derivatives<3>();
 }
 
-// whose corners follow their planes, against cuts anew
+// whose corners follow their planes, against regions that are cut again
 template <int Dim>
 void expect_regions_followed() {
   Random random(12);
