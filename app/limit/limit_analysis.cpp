@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/limit/limit_proof.hpp"
 #include "app/limit/limit_words.hpp"
@@ -15,10 +16,13 @@
 namespace voussoir {
 namespace {
 
-constexpr const char* dilating_caveat =
+const char* const dilating_caveat =
     "associated flow: forces and mechanism enclose the strength of joints that dilate as they slip; of joints that do "
     "not it is an upper bound, often several degrees or tens of percent unsafe (Goodman & Bray's slope: 33.4 for 38.15 "
-    "degrees), without bound where blocks are held by their sides; {}confirm it with 'voussoir run'";
+    "degrees), without bound where blocks are held by their sides; confirm it with 'voussoir run'";
+const char* const history_caveat =
+    "rigid blocks without history: what stress the joints were put in with is not known, and a run on elastic joints "
+    "may fall earlier";
 const char* const pressed_caveat =
     "carried by self-stress, normal forces between blocks that the loads do not ask for: without dilation nothing "
     "says that they are there; confirm it with 'voussoir run'";
@@ -79,6 +83,30 @@ void warn_of_self_stress(const std::vector<int>& faces, LimitAnalysis<Dim>& anal
       names_of_faces(analysis, faces)));
 }
 
+bool follows_envelopes(const std::vector<JointProperties>& properties) {
+  return std::ranges::any_of(properties, &JointProperties::follows_barton_bandis);
+}
+
+template <int Dim>
+void keep_mechanism(LimitState<Dim> state, LimitAnalysis<Dim>& analysis) {
+  if (state.forces.empty()) return;
+  analysis.state = std::move(state);
+  analysis.flow = "without dilation";
+}
+
+bool dilates_only(const LimitRequest& request, const std::vector<JointProperties>& properties) {
+  return request.with_dilation || follows_envelopes(properties);
+}
+
+template <int Dim>
+void seek_factor_without_dilation(const LimitRequest& request, const LiveLoad<Dim>& live, const Loads<Dim>& dead,
+                                  LimitAnalysis<Dim>& analysis) {
+  FactorWithoutDilation<Dim> found =
+      find_factor_without_dilation(analysis.assembly, dead, loads_of(analysis.model, live.load), request.after_round);
+  tell_factor_ends(found, analysis);
+  keep_mechanism(std::move(found.state), analysis);
+}
+
 template <int Dim>
 void seek_factor(const LimitRequest& request, const LiveLoad<Dim>& live, const LoadParts<Dim>& gravity,
                  LimitAnalysis<Dim>& analysis) {
@@ -92,33 +120,9 @@ void seek_factor(const LimitRequest& request, const LiveLoad<Dim>& live, const L
   tell_load_factor(found.status, found.factor, "cone program", live.if_any, analysis);
   analysis.answered = found.status == LimitStatus::found;
   if (found.status == LimitStatus::carries_any && live.beside_gravity) analysis.caveats.push_back(pressed_caveat);
-  warn_of_self_stress(found.self_stress, analysis);
-}
-
-void refuse_envelopes(const std::vector<JointProperties>& properties) {
-  for (const JointProperties& p : properties)
-    if (p.follows_barton_bandis())
-      throw BadInput(
-          fmt::format("--without-dilation: joint_properties '{}' follow Barton and Bandis' envelope, which is followed "
-                      "with dilation only; leave out --without-dilation",
-                      p.name));
-}
-
-template <int Dim>
-void keep_mechanism(LimitState<Dim> state, LimitAnalysis<Dim>& analysis) {
-  if (state.forces.empty()) return;
-  analysis.state = std::move(state);
-  analysis.flow = "without dilation";
-}
-
-template <int Dim>
-void seek_factor_without_dilation(const LimitRequest& request, const LiveLoad<Dim>& live, const Loads<Dim>& gravity,
-                                  LimitAnalysis<Dim>& analysis) {
-  FactorWithoutDilation<Dim> found =
-      find_factor_without_dilation(analysis.assembly, live.beside_gravity ? gravity : Loads<Dim>(gravity.size()),
-                                   loads_of(analysis.model, live.load), request.after_round);
-  tell_factor_ends(found, analysis);
-  keep_mechanism(std::move(found.state), analysis);
+  if (dilates_only(request, analysis.model.properties)) return warn_of_self_stress(found.self_stress, analysis);
+  if (found.status == LimitStatus::found || found.status == LimitStatus::carries_any)
+    seek_factor_without_dilation(request, live, loads_of(analysis.model, dead), analysis);
 }
 
 template <int Dim>
@@ -134,9 +138,9 @@ void seek_strength(const LimitRequest& request, const Loads<Dim>& gravity, Limit
   request.factor ? tell_factor_of_safety(request, dilating, cohesive, rule, analysis)
                  : tell_friction(request, dilating, rule, analysis);
   analysis.answered = dilating.status == LimitStatus::found || dilating.status == LimitStatus::carries_any;
-  warn_of_self_stress(dilating.self_stress, analysis);
-  const bool sought = dilating.status == LimitStatus::found || dilating.status == LimitStatus::not_attained;
-  if (!request.without_dilation || !sought) return;
+  if (dilates_only(request, analysis.model.properties)) return warn_of_self_stress(dilating.self_stress, analysis);
+  const bool sought = dilating.status == LimitStatus::found && std::isfinite(dilating.collapses);
+  if (!sought && dilating.status != LimitStatus::not_attained) return;
   StrengthWithoutDilation<Dim> found =
       request.factor
           ? find_factor_of_safety_without_dilation(analysis.assembly, gravity, chosen, dilating, request.after_round)
@@ -210,17 +214,21 @@ LimitAnalysis<Dim> analyse_limit(const LoadedScene& scene, const LimitRequest& r
   const Prepared<Dim>& prepared = std::get<Prepared<Dim>>(scene.prepared);
   refuse_what_limit_leaves_out(prepared);
   LimitAnalysis<Dim> analysis;
-  analysis.caveats = {fmt::format(
-      dilating_caveat, request.without_dilation ? "" : "state --without-dilation for the answer of such joints, or ")};
   analysis.title = scene.title;
   analysis.input_hash = scene.hash;
   analysis.model = prepared.model;
   const Model<Dim>& model = analysis.model;
-  if (request.without_dilation) refuse_envelopes(model.properties);
+  analysis.caveats = {dilates_only(request, model.properties) ? dilating_caveat : history_caveat};
+  if (!request.with_dilation && follows_envelopes(model.properties))
+    analysis.warnings.push_back(
+        "joints after Barton and Bandis: their envelope is followed for joints that dilate by its slope only; the "
+        "result is a bound on the unsafe side");
   const StagePlan* analysed = stage_of_forces(prepared.stages, request);
   analysis.bound = request.load || request.factor
-                       ? "upper bound: joints that do not dilate as they slip carry no more, and may carry far less"
-                       : "lower bound: joints that do not dilate as they slip need as much friction or more";
+                       ? "the upper bound is of joints that dilate as they slip, by their friction angle: joints that "
+                         "do not carry no more, and may carry far less"
+                       : "the lower bound is of joints that dilate as they slip, by their friction angle: joints that "
+                         "do not need as much friction or more";
   const LoadParts<Dim> parts_of_gravity = gravity_and_water(model);
   const Loads<Dim> gravity = loads_of(model, parts_of_gravity);
   std::optional<LiveLoad<Dim>> live;
@@ -244,8 +252,6 @@ LimitAnalysis<Dim> analyse_limit(const LoadedScene& scene, const LimitRequest& r
     seek_factor(request, *live, parts_of_gravity, analysis);
   else
     seek_strength(request, gravity, analysis);
-  const bool empty = analysis.status == LimitStatus::nothing_free || analysis.status == LimitStatus::no_load;
-  if (live && request.without_dilation && !empty) seek_factor_without_dilation(request, *live, gravity, analysis);
   tell_envelope(analysis);
   refuse_empty(analysis, model.gravity.isZero(0), analysed);
   if (analysis.status == LimitStatus::solver_failed)

@@ -17,8 +17,9 @@ struct LimitRequest {
   std::vector<std::string> properties;  // whose friction is sought, or whose strength is divided; none: all
   bool factor = false;                  // the factor of safety is sought instead
   bool cohesion = false;                // also joints that only a stage bonds have their cohesion
-  bool without_dilation = false;        // the answer of joints that do not dilate, too
-  RoundHook after_round = {};           // of its rounds
+  bool with_dilation = false;           // joints dilate by their friction angle: the bound alone, by one program
+  bool decide = false;                  // between unequal ends by runs on elastic joints
+  RoundHook after_round = {};           // without dilation
   bool proof = false;                   // of a load: its bounds are proved without rounding
 };
 
@@ -29,12 +30,20 @@ struct ProvedBounds {
   std::string file;  // the proof (limit_proof.hpp); empty if neither is proved
 };
 
+// how the answer without dilation was found
+struct DilationRounds {
+  int rounds = 0;
+  bool converged = false;
+  bool apart = false;  // between its ends normal forces that the loads do not ask for hold the mechanism's blocks
+};
+
 struct LimitAnswer {
   std::string title, input_hash;
   std::string sought;  // "critical friction angle of all joints", "factor of safety of all joints", …
   LimitStatus status = LimitStatus::found;
   bool answered = false;  // a value was found, that no friction is needed included
   bool enclosed = false;  // without dilation: both ends of an interval were found
+  std::optional<DilationRounds> without_dilation{};
   std::string message;    // the reason and the repair if no value was found, or the meaning of the value; else empty
   std::string flow = "associated flow";  // of the mechanism and the forces
   std::string bound;                     // what the value bounds where joints do not dilate

@@ -22,7 +22,7 @@ struct LimitArguments {
   bool factor = false;                  // the factor of safety is sought
   std::vector<std::string> joints;      // of whose joint_properties; none: of all
   bool cohesion = false;                // joints have the cohesion that their properties state
-  bool without_dilation = false;        // also the factor of joints that do not dilate
+  bool with_dilation = false;           // the bound of joints that dilate, alone
   bool proof = false;                   // the load's factor is proved without rounding
   bool overwrite = false;
   bool quiet = false;
@@ -35,7 +35,7 @@ LimitRequest request_of(const LimitArguments& arguments) {
   request.properties = arguments.factor ? arguments.joints : arguments.properties;
   request.factor = arguments.factor;
   request.cohesion = arguments.cohesion;
-  request.without_dilation = arguments.without_dilation;
+  request.with_dilation = arguments.with_dilation;
   request.proof = arguments.proof;
   request.load = limit_load(arguments.load);
   return request;
@@ -54,6 +54,8 @@ void line(const char* label, const std::string& text) {
 void print_values(const LimitAnswer& analysis) {
   if (!analysis.message.empty()) line("result", analysis.message);
   for (const auto& [name, value] : analysis.values) {
+    // two ends that agree are one number
+    if (analysis.answered && (name.ends_with("_least") || name.ends_with("_largest"))) continue;
     line(analysis.message.empty() && name == analysis.values.front().first ? "result" : "",
          fmt::format("{} {:.9g}{}{}", name, value.value,
                      value.error_bar ? fmt::format(" ± {:.1g}", *value.error_bar) : "",
@@ -115,6 +117,10 @@ void print_analysis(const LimitAnalysis<Dim>& analysis, const fs::path& folder) 
   fmt::print("{}limit analysis\n", analysis.title.empty() ? "" : analysis.title + " - ");
   line("sought", analysis.sought);
   print_values(analysis);
+  if (analysis.without_dilation)
+    line("dilation", fmt::format("none: the lowest mechanism of {} rounds from loose joints{}",
+                                 analysis.without_dilation->rounds,
+                                 analysis.without_dilation->converged ? "" : "; not converged: estimates"));
   if (!analysis.values.empty() && analysis.status != LimitStatus::carries_any) {
     line("bound", analysis.bound);
     line("enclosed", fmt::format("for joints that dilate: forces and mechanism differ by {:.2g}, forces out of balance "
@@ -128,6 +134,10 @@ void print_analysis(const LimitAnalysis<Dim>& analysis, const fs::path& folder) 
   line("solved", fmt::format("{} cone program{} over {} interfaces, {} corners", evidence.programs,
                              evidence.programs == 1 ? "" : "s", analysis.assembly.faces.size(), corners));
   print_mechanism(analysis);
+  if (analysis.without_dilation && analysis.without_dilation->apart)
+    line("self-stress", fmt::format("holds the {} blocks of the mechanism between the two ends: normal forces that the "
+                                    "loads do not ask for",
+                                    analysis.mechanism.moving.size()));
   for (const std::string& caveat : analysis.caveats)
     line(&caveat == &analysis.caveats.front() ? "caveat" : "", caveat);
   fmt::print("results: {}\n", folder.string());
@@ -212,8 +222,9 @@ void add_limit(CLI::App& program, Action& action) {
                     "include the cohesion of all joint_properties, also of those that only a stage bonds (those with "
                     "bonds = \"as_sliced\" "
                     "always have theirs); it is plastic, and tension is left out");
-  command->add_flag("--without-dilation", arguments.without_dilation,
-                    "the answer of joints that slip without opening first: hundreds of programs");
+  command->add_flag("--with-dilation", arguments.with_dilation,
+                    "only the bound on the unsafe side, of joints that dilate by their friction angle: one program "
+                    "instead of hundreds");
   command
       ->add_flag("--proof", arguments.proof,
                  "prove the bounds of the load's factor without rounding, as proof.json.gz; for joints that do not "

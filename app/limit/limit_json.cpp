@@ -143,6 +143,15 @@ std::string limit_json(const LimitAnalysis<Dim>& analysis) {
     json["evidence"]["envelope"] = {{"rounds_of_tangents", evidence.rounds_of_tangents},
                                     {"agree", evidence.tangents_agree}};
   json["bound"] = analysis.bound;
+  if (analysis.without_dilation) {
+    Json held = Json::array();
+    if (analysis.without_dilation->apart)
+      for (const BlockMotion<Dim>& motion : analysis.mechanism.moving)
+        held.push_back(motion.body);
+    json["without_dilation"] = {{"rounds", analysis.without_dilation->rounds},
+                                {"converged", analysis.without_dilation->converged},
+                                {"held_by_self_stress", held}};
+  }
   if (analysis.proof) json["proof"] = proof_json(*analysis.proof);
   if (analysis.values.empty()) json["evidence"] = {{"cone_programs", evidence.programs}};
   json["mechanism"] = mechanism_json(analysis);

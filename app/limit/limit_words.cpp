@@ -151,7 +151,7 @@ void tell_factor_of_safety(const LimitRequest& request, const StrengthBracket& f
                            const std::string& rule, LimitAnswer& answer) {
   tell_strength(request, found, "factor of safety of ", answer);
   if (found.status == LimitStatus::found && std::isfinite(found.collapses)) {
-    answer.values.emplace_back("factor_of_safety", bracketed(found.stands, found.collapses, "1", rule));
+    answer.values.emplace_back("factor_of_safety_upper_bound", bracketed(found.stands, found.collapses, "1", rule));
     answer.values.back().second.divides = divided_by_factor(request.properties, cohesive);
     answer.values.emplace_back("force_missing_beyond", Value{found.missing, "weight of a block", {}, ""});
   } else if (found.status == LimitStatus::found) {
@@ -177,7 +177,7 @@ void tell_friction(const LimitRequest& request, const StrengthBracket& found, co
                    LimitAnswer& answer) {
   tell_strength(request, found, "critical friction angle of ", answer);
   if (found.status == LimitStatus::found) {
-    answer.values.emplace_back("critical_friction",
+    answer.values.emplace_back("critical_friction_lower_bound",
                                bracketed(to_degrees(found.collapses), to_degrees(found.stands), "deg", rule));
     answer.values.emplace_back("force_missing_below", Value{found.missing, "weight of a block", {}, ""});
   }
@@ -200,7 +200,8 @@ void tell_friction(const LimitRequest& request, const StrengthBracket& found, co
 void tell_load_factor(LimitStatus status, double factor, const std::string& rule, const std::string& if_any,
                       LimitAnswer& answer) {
   answer.status = status;
-  if (status == LimitStatus::found) answer.values.emplace_back("collapse_factor", Value{factor, "1", {}, rule});
+  if (status == LimitStatus::found)
+    answer.values.emplace_back("collapse_factor_upper_bound", Value{factor, "1", {}, rule});
   if (status == LimitStatus::carries_any)
     answer.message = "carried up to a million times the blocks' weight: this load causes no collapse; " + if_any;
   if (status == LimitStatus::carries_nothing)

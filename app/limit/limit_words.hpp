@@ -30,6 +30,7 @@ void warn_of_changes(const std::vector<StagePlan>& stages, const StagePlan* anal
 // stress.
 void refuse_unknown_properties(const LimitRequest& request, const std::vector<JointProperties>& properties);
 
+// What joints that dilate carry: NAME_upper_bound, of a friction angle NAME_lower_bound.
 // `cohesive`: the factor divides cohesion, too; `rule`: how the bracket was found
 void tell_factor_of_safety(const LimitRequest& request, const StrengthBracket& found, bool cohesive,
                            const std::string& rule, LimitAnswer& answer);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "text/angle.hpp"
 
@@ -12,15 +13,6 @@ namespace {
 
 const char* const rule_of_ends = "joints that slip without opening";
 constexpr double one_number = 0.01;  // of the ends: the plain name then holds their mean
-
-// of NAME: what joints that dilate carry, under another name
-void rename_bound(const std::string& name, const char* bound, LimitAnswer& answer) {
-  for (auto& [known, value] : answer.values)
-    if (known == name) {
-      known = name + bound;
-      value.divides.clear();
-    }
-}
 
 struct NamedEnds {
   std::string name, unit;
@@ -35,6 +27,9 @@ void add_ends(const NamedEnds& ends, LimitAnswer& answer) {
     const std::optional<double> bar = ends.settled ? std::optional(error) : std::nullopt;
     first.emplace_back(name, Value{value, ends.unit, bar, rule_of_ends});
   };
+  std::string divides;  // of a factor of safety: said once, of the first value
+  for (auto& [name, value] : answer.values)
+    if (!value.divides.empty()) divides = std::exchange(value.divides, {});
   answer.answered = false;
   if (ends.least && ends.largest) {
     const double apart = ends.largest->factor - ends.least->factor,
@@ -45,18 +40,14 @@ void add_ends(const NamedEnds& ends, LimitAnswer& answer) {
     answer.enclosed = ends.settled;
     answer.answered = ends.settled && std::abs(apart) <= ends.least->error + ends.largest->error;
   }
+  answer.without_dilation->apart = !answer.answered && ends.settled;
   if (ends.least) add(ends.name + "_least", ends.least->factor, ends.least->error);
   if (ends.largest) add(ends.name + "_largest", ends.largest->factor, ends.largest->error);
+  if (!first.empty()) first.front().second.divides = divides;
   answer.values.insert(answer.values.begin(), first.begin(), first.end());
 }
 
-void tell_how(int rounds, bool settled, LimitAnswer& answer) {
-  answer.caveats.push_back(fmt::format(
-      "without dilation: of the lowest mechanism that was found, in {} rounds from loose joints; nothing proves that "
-      "there is no lower one{}",
-      rounds, settled ? "" : ", and its slips did not settle: take the numbers as estimates"));
-}
-
+const char* const no_proof = "nothing proves that there is no lower mechanism without dilation";
 const char* const held_between =
     "without dilation: from the least to the largest blocks are held by forces that the loads do not ask for. Of "
     "columns "
@@ -67,12 +58,12 @@ const char* const held_between =
 
 void tell_factor_ends(const FactorEnds& found, LimitAnswer& answer) {
   answer.evidence.programs += found.programs;
-  rename_bound("collapse_factor", "_upper_bound", answer);
   answer.answered = false;
   if (found.status == LimitStatus::carries_any) {
     answer.caveats.push_back("without dilation: normal forces alone, without friction, carry any factor");
     return;
   }
+  answer.without_dilation = DilationRounds{found.rounds, found.settled, false};
   if (found.status != LimitStatus::found) {
     answer.caveats.push_back("without dilation: no mechanism was found, as forces grow without bound");
     return;
@@ -82,7 +73,7 @@ void tell_factor_ends(const FactorEnds& found, LimitAnswer& answer) {
   add_ends({"collapse_factor", "1", found.least, found.unbounded ? std::nullopt : std::optional(found.largest),
             found.settled},
            answer);
-  tell_how(found.rounds, found.settled, answer);
+  answer.caveats.push_back(no_proof);
   if (found.unbounded)
     answer.caveats.push_back(
         "without dilation: no factor is the largest, as normal forces between blocks that the loads do not ask for may "
@@ -97,8 +88,8 @@ void tell_factor_ends(const FactorEnds& found, LimitAnswer& answer) {
 
 void tell_strength_ends(const LimitRequest& request, const StrengthEnds& found, LimitAnswer& answer) {
   answer.evidence.programs += found.programs;
+  answer.without_dilation = DilationRounds{found.rounds, found.settled, false};
   const std::string name = request.factor ? "factor_of_safety" : "critical_friction";
-  rename_bound(name, request.factor ? "_upper_bound" : "_lower_bound", answer);
   answer.answered = false;
   answer.message.clear();
   if (!found.strongest)
@@ -109,7 +100,8 @@ void tell_strength_ends(const LimitRequest& request, const StrengthEnds& found, 
             : "no friction up to 89 degrees is enough without dilation, unless forces that the loads do not ask for "
               "hold "
               "blocks";
-  if (found.status == LimitStatus::carries_nothing) return tell_how(found.rounds, found.settled, answer);
+  answer.caveats.push_back(no_proof);
+  if (found.status == LimitStatus::carries_nothing) return;
   if (found.status != LimitStatus::found) {
     answer.caveats.push_back("without dilation: no mechanism was found, as forces grow without bound");
     return;
@@ -122,7 +114,6 @@ void tell_strength_ends(const LimitRequest& request, const StrengthEnds& found, 
     add_ends({name, "1", found.strongest, found.weakest, found.settled}, answer);
   else
     add_ends({name, "deg", in_degrees(found.weakest), in_degrees(found.strongest), found.settled}, answer);
-  tell_how(found.rounds, found.settled, answer);
   if (!answer.answered && found.strongest) answer.caveats.push_back(held_between);
 }
 

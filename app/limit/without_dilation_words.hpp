@@ -1,4 +1,4 @@
-// What `voussoir limit --without-dilation` says of its results.
+// What `voussoir limit` says of joints that slip without opening.
 #pragma once
 
 #include "app/limit/limit_answer.hpp"
@@ -7,8 +7,8 @@
 namespace voussoir {
 
 // They put the answer of joints that slip without opening first: NAME_least and NAME_largest, and NAME where the two
-// agree to 1 %. What joints that dilate carry becomes NAME_upper_bound (of a friction angle NAME_lower_bound). The
-// question is answered if both ends agree within their error bars.
+// agree to 1 %, in front of what joints that dilate carry. The question is answered if both ends agree within their
+// error bars.
 void tell_factor_ends(const FactorEnds& found, LimitAnswer& answer);
 void tell_strength_ends(const LimitRequest& request, const StrengthEnds& found, LimitAnswer& answer);
 

@@ -99,8 +99,9 @@ constexpr StudyKey study_keys[] = {
     {"limit", "factor", "true or false", "`--factor`"},
     {"limit", "joint", "list of texts", "names as after `--joint`"},
     {"limit", "cohesion", "true or false", "`--cohesion`"},
-    {"limit", "without_dilation", "true or false",
-     "`--without-dilation`; its quantities are `…_least` and `…_largest`, and the plain name where they agree to 1 %"},
+    {"limit", "with_dilation", "true or false",
+     "`--with-dilation`: the bound alone. Without it the quantities are `…_least` and `…_largest`, and the plain name where "
+     "they agree to 1 %"},
     {"blocks", "strength_of", "text", "as after `voussoir blocks --strength-of`"},
     {"blocks", "after", "text", "`--after`"},
     {"blocks", "seismic", "text", "`--seismic`"},

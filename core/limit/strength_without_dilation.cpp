@@ -20,16 +20,17 @@ struct TrialWithoutDilation {
   bool settled = true;
 };
 
-// a load on every body along the mechanism's momentum, as large as its weight
+// A load on every body along its velocity in the mechanism, its weight on the fastest. Under gravity alone the velocities'
+// sum over all weights may vanish, as that of a symmetric arch, and has no part along gravity.
 template <int Dim>
 Loads<Dim> load_along(const CornerAssembly<Dim>& assembly, const std::vector<BodyVelocity<Dim>>& velocities) {
-  Vector<Dim> momentum = Vector<Dim>::Zero();
-  for (std::size_t b = 0; b < velocities.size(); ++b)
-    if (assembly.bodies[b].moves()) momentum += assembly.bodies[b].weight * velocities[b].velocity;
+  double fastest = 0;
+  for (const BodyVelocity<Dim>& velocity : velocities)
+    fastest = std::max(fastest, velocity.velocity.norm());
   Loads<Dim> loads(assembly.bodies.size());
-  if (momentum.norm() > 0)
-    for (std::size_t b = 0; b < loads.size(); ++b)
-      if (assembly.bodies[b].moves()) loads[b].force = assembly.bodies[b].weight * momentum.normalized();
+  if (fastest > 0)
+    for (std::size_t b = 0; b < velocities.size(); ++b)
+      if (assembly.bodies[b].moves()) loads[b].force = assembly.bodies[b].weight / fastest * velocities[b].velocity;
   return loads;
 }
 

@@ -158,7 +158,7 @@ def resume(folder: str | os.PathLike[str], **options: Option) -> Folder:
 
 def limit(scene: Source, out: str | os.PathLike[str] | None = None, *, set: Mapping[str, Any] | None = None,
           **options: Option) -> Folder:
-    """Limit analysis: `voussoir limit`, with its options (load, factor, cohesion, without_dilation, …)."""
+    """Limit analysis: `voussoir limit`, with its options (load, factor, cohesion, with_dilation, …)."""
     return _results("limit", scene, out, "_limit", set, options)
 
 
