@@ -11,6 +11,7 @@ namespace {
 constexpr double first_step = 0.01;  // of the range of the measure: from what joints that dilate need
 constexpr double longer = 2.5;       // each further step
 constexpr int most_trials_of_an_end = 25;
+constexpr int most_lower = 4;   // mechanisms that are found beyond a root
 constexpr double accurate = 3;  // times a factor's error: a trial whose factor is nearer to zero is the root
 
 // factors at a strength
@@ -18,10 +19,11 @@ struct TrialWithoutDilation {
   double at = 0;
   EndOfFactor least, largest;  // infinite where forces grow without bound
   bool settled = true;
+  std::vector<double> slips;  // of the mechanism
 };
 
-// A load on every body along its velocity in the mechanism, its weight on the fastest. Under gravity alone the velocities'
-// sum over all weights may vanish, as that of a symmetric arch, and has no part along gravity.
+// A load on every body along its velocity in the mechanism, its weight on the fastest. Under gravity alone the
+// velocities' sum over all weights may vanish, as that of a symmetric arch, and has no part along gravity.
 template <int Dim>
 Loads<Dim> load_along(const CornerAssembly<Dim>& assembly, const std::vector<BodyVelocity<Dim>>& velocities) {
   double fastest = 0;
@@ -49,38 +51,61 @@ class SearchWithoutDilation {
   StrengthWithoutDilation<Dim> find() {
     const bool driven = std::ranges::any_of(live_, [](const Load<Dim>& load) { return !load.force.isZero(0); });
     if (!driven) return result_.status = LimitStatus::carries_nothing, result_;
-    if (!add(needed_)) return result_;
-    for (double step = first_step * strength_.strongest; trials_.back().least.factor < 0; step *= longer) {
-      const double next = std::min(needed_ + step, strength_.strongest);
-      if (!add(next)) return result_;
-      if (next == strength_.strongest) break;
+    if (!raise(needed_)) return result_;
+    find_roots();
+    // What was followed from weaker joints need not be the lowest: once more from loose joints, beyond the root.
+    for (int again = 0; again < most_lower && result_.strongest; ++again) {
+      const double beyond = result_.strongest->factor + 2 * result_.strongest->error;
+      if (beyond >= strength_.strongest) break;
+      if (!add(beyond, {})) return result_;
+      const auto at_it = std::ranges::find(trials_, beyond, &TrialWithoutDilation::at);
+      if (at_it->least.factor >= 0 || !at_it->settled) break;
+      std::erase_if(trials_, [&](const TrialWithoutDilation& trial) { return trial.at > beyond; });
+      if (!raise(beyond)) return result_;
+      find_roots();
     }
-    result_.weakest = root_of(&TrialWithoutDilation::largest);
-    result_.strongest = root_of(&TrialWithoutDilation::least);
-    result_.settled = std::ranges::all_of(trials_, &TrialWithoutDilation::settled);
     if (!result_.weakest && !result_.strongest) result_.status = LimitStatus::carries_nothing;
     return result_;
   }
 
  private:
+  // from a strength up, in growing steps, until a trial stands; false: no mechanism was found at one of them
+  bool raise(double from) {
+    if (trials_.empty() && !add(from, {})) return false;
+    for (double step = first_step * strength_.strongest; trials_.back().least.factor < 0; step *= longer) {
+      const double next = std::min(from + step, strength_.strongest);
+      if (!add(next, trials_.back().slips)) return false;
+      if (next == strength_.strongest) break;
+    }
+    return true;
+  }
+
   // solves at a strength; false: no mechanism was found there
-  bool add(double at) {
+  bool add(double at, const std::vector<double>& neighbour) {
     strength_.weaken(at, trial_);
     FactorWithoutDilation<Dim> found = find_factor_without_dilation(
         trial_, loads_, live_,
-        hook_ ? RoundHook([&](int rounds, double factor) { hook_(result_.rounds + rounds, factor); }) : RoundHook());
+        hook_ ? RoundHook([&](int rounds, double factor) { hook_(result_.rounds + rounds, factor); }) : RoundHook(),
+        neighbour);
     result_.rounds += found.rounds;
     result_.programs += found.programs;
     constexpr EndOfFactor unbounded{std::numeric_limits<double>::infinity(), 0};
-    TrialWithoutDilation trial{at, found.least, found.unbounded ? unbounded : found.largest, found.settled};
+    TrialWithoutDilation trial{at, found.least, found.unbounded ? unbounded : found.largest, found.settled,
+                               std::move(found.slips)};
     if (found.status == LimitStatus::carries_any)
-      trial = {at, unbounded, unbounded, true};
+      trial = {at, unbounded, unbounded, true, {}};
     else if (found.status != LimitStatus::found)
       return result_.status = found.status, false;
     if (trials_.empty() || trial.least.factor <= 0) result_.state = std::move(found.state);
-    trials_.push_back(trial);
+    trials_.push_back(std::move(trial));
     std::ranges::sort(trials_, {}, &TrialWithoutDilation::at);
     return true;
+  }
+
+  void find_roots() {
+    result_.settled = true;
+    result_.weakest = root_of(&TrialWithoutDilation::largest);
+    result_.strongest = root_of(&TrialWithoutDilation::least);
   }
 
   // Where an end of the factor vanishes, by the rule of false position with halved ordinates (Illinois) between the
@@ -95,20 +120,24 @@ class SearchWithoutDilation {
       const TrialWithoutDilation low = *(above - 1), high = *above;
       const EndOfFactor at_low = low.*end, at_high = high.*end;
       const double width = high.at - low.at;
+      const bool settled = low.settled && high.settled;
       double next = low.at + 0.5 * width;
       if (std::isfinite(at_high.factor)) {
         const double slope = (at_high.factor - at_low.factor) / width, root = low.at - at_low.factor / slope;
         const bool near_low = -at_low.factor <= accurate * at_low.error,
                    near_high = at_high.factor <= accurate * at_high.error;
-        if (near_low || near_high || width <= strength_.tolerance)
+        if (near_low || near_high || width <= strength_.tolerance) {
+          result_.settled = result_.settled && settled;
           return EndOfFactor{root, strength_.tolerance + std::min(width, (at_low.error + at_high.error) / slope +
                                                                              std::min(root - low.at, high.at - root))};
+        }
         const double weighted = halved_low * at_low.factor, other = halved_high * at_high.factor;
         next = low.at - weighted * width / (other - weighted);
       } else if (width <= strength_.tolerance) {
+        result_.settled = result_.settled && settled;
         return EndOfFactor{next, width};
       }
-      if (!add(std::clamp(next, low.at + 0.01 * width, high.at - 0.01 * width))) return {};
+      if (!add(std::clamp(next, low.at + 0.01 * width, high.at - 0.01 * width), low.slips)) return {};
       const auto added = std::ranges::find_if(trials_, [&](const auto& trial) { return trial.at > low.at; });
       const int side = ((*added).*end).factor > 0 ? 1 : -1;
       halved_low = side == 1 && last_side == 1 ? 0.5 * halved_low : 1;

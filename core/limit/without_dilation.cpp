@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <optional>
+#include <utility>
 
 #include "core/limit/shortfall.hpp"
 
@@ -11,14 +12,18 @@ namespace voussoir {
 namespace {
 
 // In the program's units a block that moves alone slips by about 1, whatever its size.
-constexpr double loose = 5;          // slip of all corners at the start
-constexpr double closing = 0.3;      // part of the way to the mechanism's slips in a round
-constexpr int most_rounds = 200;     // of a fixed point
-constexpr int standing_rounds = 10;  // in which the factor must not change
-constexpr double standing = 1e-6;    // of the factor
+constexpr double loose = 5;           // slip of all corners at the start
+constexpr double closing = 0.3;       // part of the way to the mechanism's slips in a round
+constexpr double slow_closing = 0.1;  // likewise, in the second half of the rounds
+constexpr int most_rounds = 200;      // of a fixed point
+constexpr int standing_rounds = 10;   // in which the factor must not change
+constexpr double standing = 1e-6;     // of the factor
+// rounds of one factor after which slips that still change by this much, of the fastest, are taken to their limit
+constexpr int slow_rounds = 25;
+constexpr double slow_change = 0.01, largest_ratio = 0.995;
 constexpr int most_polishing = 40;
-constexpr double slips_equal = 1e-9;                        // of the largest
-constexpr double slips_agree = 1e-4;                        // of the largest
+constexpr double slips_equal = 1e-9;                        // of the fastest
+constexpr double slips_agree = 1e-4;                        // of the fastest
 constexpr double first_excess = 0.01, last_excess = 0.001;  // ε
 constexpr double numerical = 1e-6;                          // of 1 or of a factor: closed forms are met to 1e-7
 constexpr double same_mechanism = 1e-4;                     // of the factor: a lower one belongs to another
@@ -40,10 +45,21 @@ class FixedPoints {
   int rounds() const { return rounds_; }
   int programs() const { return programs_; }
 
-  void loosen() {
+  // slips from which fixed points are sought: of a neighbour's mechanism, else those of loose joints
+  void begin_at(std::span<const double> neighbour) {
     slips_ = sines_of_cones(assembly_);
-    for (double& slip : slips_)
-      slip *= loose;
+    step_.assign(slips_.size(), 0);
+    step_before_ = step_;
+    const bool of_neighbour = neighbour.size() == slips_.size();
+    for (std::size_t k = 0; k < slips_.size(); ++k)
+      slips_[k] *= of_neighbour ? neighbour[k] : loose;
+  }
+
+  std::vector<double> slips() const {
+    std::vector<double> slips = sines_of_cones(assembly_);
+    for (std::size_t k = 0; k < slips.size(); ++k)
+      slips[k] = slips[k] > 0 ? slips_[k] / slips[k] : 0;
+    return slips;
   }
 
   // with s = (1 + excess)|u_T|; none: no round of it was bounded
@@ -53,14 +69,16 @@ class FixedPoints {
   };
   std::optional<Settled> settle(double excess) {
     std::optional<Settled> last;
-    int stood = 0;
+    int stood = 0, same = 0;  // rounds of one factor: with slips that agree, with any
     for (int round = 0; round < most_rounds && stood < standing_rounds; ++round) {
-      const std::optional<Round> found = next(excess, closing);
+      const std::optional<Round> found = next(excess, round < most_rounds / 2 ? closing : slow_closing);
       if (!found) continue;  // unbounded: joints stay as loose as they are
       const bool stands =
           last && std::abs(found->factor - last->factor) <= standing * std::max(1.0, std::abs(found->factor));
+      same = stands ? same + 1 : 0;
       stood = stands && (stood > 0 || found->change <= slips_agree) ? stood + 1 : 0;
       last = Settled{false, found->factor};
+      if (same > 0 && same % slow_rounds == 0 && found->change > slow_change) go_to_limit();
     }
     if (!last || stood < standing_rounds) return last;
     last->settled = true;
@@ -92,33 +110,44 @@ class FixedPoints {
 
  private:
   struct Round {
-    double factor = 0, change = 0;  // of the slips, over the largest
+    double factor = 0, change = 0;  // of the slips, over the fastest opening or slip
   };
   // slips move by `part` of the way to those of the mechanism that they give; none: it is not bounded
   std::optional<Round> next(double excess, double part) {
     ++rounds_;
     const ConeProgramAnswer answer = solve_with(1, slips_);
     if (answer.status != ConeStatus::optimal) return {};
-    double largest = 0, change = 0;
+    double fastest = 0, change = 0;
     for (std::size_t k = 0; k < slips_.size(); ++k) {
       if (!is_frictional(program_.cones[k])) continue;
-      const double slip = (1 + excess) * slip_of(program_.cones[k], answer.y);
-      largest = std::max(largest, slip);
+      const Vector<Dim> opening = opening_of(program_.cones[k], answer.y);
+      const double slip = (1 + excess) * opening.template tail<Dim - 1>().norm();
+      fastest = std::max(fastest, opening.norm());
       change = std::max(change, std::abs(slip - slips_[k]));
-      slips_[k] += part * (slip - slips_[k]);
+      step_before_[k] = std::exchange(step_[k], part * (slip - slips_[k]));
+      slips_[k] += step_[k];
     }
     if (hook_) hook_(rounds_, answer.factor / scale_);
-    return Round{answer.factor / scale_, largest > 0 ? change / largest : 0};
+    return Round{answer.factor / scale_, fastest > 0 ? change / fastest : 0};
+  }
+
+  // Slips of one mechanism tend to its own in steps of a ratio, which is near 1 where blocks follow each other: to the
+  // sum of all that follow (Aitken).
+  void go_to_limit() {
+    for (std::size_t k = 0; k < slips_.size(); ++k) {
+      const double ratio = step_before_[k] != 0 ? step_[k] / step_before_[k] : 0;
+      if (ratio > 0 && ratio < largest_ratio) slips_[k] = std::max(0.0, slips_[k] + step_[k] * ratio / (1 - ratio));
+    }
   }
 
   static bool is_frictional(const Cone& cone) { return cone.head == 0; }
 
-  static double slip_of(const Cone& cone, const Eigen::VectorXd& y) {
+  static Vector<Dim> opening_of(const Cone& cone, const Eigen::VectorXd& y) {
     constexpr int rows = freedoms<Dim>;
     Vector<Dim> speed = Vector<Dim>::Zero();
     if (cone.body_a >= 0) speed += cone.on_a.transpose() * y.segment<rows>(rows * cone.body_a);
     if (cone.body_b >= 0) speed += cone.on_b.transpose() * y.segment<rows>(rows * cone.body_b);
-    return speed.template tail<Dim - 1>().norm();
+    return speed;
   }
 
   ConeProgramAnswer solve_with(double part, const std::vector<double>& slips) {
@@ -131,7 +160,8 @@ class FixedPoints {
   const CornerAssembly<Dim>& assembly_;
   const RoundHook& hook_;
   CornerProgram<Dim> program_;
-  std::vector<double> slips_;  // by cone: sin φ |u_T|, as the cone's numbers have it
+  std::vector<double> slips_;               // by cone: sin φ |u_T|, as the cone's numbers have it
+  std::vector<double> step_, step_before_;  // of the last two rounds
   double scale_ = 0;
   int rounds_ = 0, programs_ = 0;
 };
@@ -142,6 +172,7 @@ struct Interval {
   bool settled = false, unbounded = false;
   EndOfFactor least, largest;
   ConeProgramAnswer at_least;
+  std::vector<double> slips;
 };
 
 // where a number that is at `first` and at `last` of something small goes as it vanishes; it may be off by as much as
@@ -155,7 +186,7 @@ template <int Dim>
 std::optional<Interval> interval_at(double excess, FixedPoints<Dim>& points) {
   const auto settled = points.settle(excess);
   if (!settled) return {};
-  Interval found{.settled = settled->settled};
+  Interval found{.settled = settled->settled, .slips = points.slips()};
   const auto end = [&](double sign) -> std::optional<EndOfFactor> {
     double at[2];
     for (int k = 0; k < 2; ++k) {
@@ -176,8 +207,8 @@ std::optional<Interval> interval_at(double excess, FixedPoints<Dim>& points) {
 
 // slips of which a part vanishes as ε does
 template <int Dim>
-std::optional<Interval> loosened(FixedPoints<Dim>& points) {
-  points.loosen();
+std::optional<Interval> loosened(FixedPoints<Dim>& points, std::span<const double> neighbour) {
+  points.begin_at(neighbour);
   const std::optional<Interval> first = interval_at(first_excess, points);
   if (!first) return {};
   std::optional<Interval> last = interval_at(last_excess, points);
@@ -195,8 +226,8 @@ std::optional<Interval> loosened(FixedPoints<Dim>& points) {
 }
 
 template <int Dim>
-std::optional<Interval> closed(FixedPoints<Dim>& points) {
-  points.loosen();
+std::optional<Interval> closed(FixedPoints<Dim>& points, std::span<const double> neighbour) {
+  points.begin_at(neighbour);
   return interval_at(0, points);
 }
 
@@ -204,7 +235,8 @@ std::optional<Interval> closed(FixedPoints<Dim>& points) {
 
 template <int Dim>
 FactorWithoutDilation<Dim> find_factor_without_dilation(const CornerAssembly<Dim>& assembly, const Loads<Dim>& dead,
-                                                        const Loads<Dim>& live, const RoundHook& hook) {
+                                                        const Loads<Dim>& live, const RoundHook& hook,
+                                                        std::span<const double> neighbour) {
   FactorWithoutDilation<Dim> result;
   if (std::ranges::none_of(assembly.bodies, &CornerBody<Dim>::moves))
     return result.status = LimitStatus::nothing_free, result;
@@ -220,7 +252,7 @@ FactorWithoutDilation<Dim> find_factor_without_dilation(const CornerAssembly<Dim
   if (!alone.failed() && alone.stands()) return result.status = LimitStatus::carries_any, result.programs = 1, result;
 
   // the second has no part that vanishes with ε, but may end at forces that the loads do not ask for
-  std::optional<Interval> lowest = closed(points), other = loosened(points);
+  std::optional<Interval> lowest = closed(points, neighbour), other = loosened(points, neighbour);
   const auto is_lower = [](const Interval& a, const Interval& b) {
     return a.least.factor < b.least.factor - same_mechanism * std::max(1.0, std::abs(b.least.factor));
   };
@@ -229,6 +261,7 @@ FactorWithoutDilation<Dim> find_factor_without_dilation(const CornerAssembly<Dim
   result.programs = 1 + points.programs();
   if (!lowest) return result.status = LimitStatus::solver_failed, result;
   result.settled = lowest->settled;
+  result.slips = std::move(lowest->slips);
   result.least = lowest->least;
   result.largest = lowest->largest;
   result.unbounded = lowest->unbounded;
@@ -247,8 +280,10 @@ FactorWithoutDilation<Dim> find_factor_without_dilation(const CornerAssembly<Dim
 }
 
 template FactorWithoutDilation<2> find_factor_without_dilation(const CornerAssembly<2>&, const Loads<2>&,
-                                                               const Loads<2>&, const RoundHook&);
+                                                               const Loads<2>&, const RoundHook&,
+                                                               std::span<const double>);
 template FactorWithoutDilation<3> find_factor_without_dilation(const CornerAssembly<3>&, const Loads<3>&,
-                                                               const Loads<3>&, const RoundHook&);
+                                                               const Loads<3>&, const RoundHook&,
+                                                               std::span<const double>);
 
 }  // namespace voussoir

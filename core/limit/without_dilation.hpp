@@ -8,6 +8,8 @@
 
 #include <functional>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "core/limit/limit.hpp"
 
@@ -30,14 +32,17 @@ struct FactorEnds {
 
 template <int Dim>
 struct FactorWithoutDilation : FactorEnds {
-  LimitState<Dim> state;  // forces of the least factor, and the mechanism
+  LimitState<Dim> state;      // forces of the least factor, and the mechanism
+  std::vector<double> slips;  // of the mechanism, in the program's units
 };
 
 // Of the live loads, in addition to the dead ones, as find_load_factor; a negative factor: the dead loads alone are not
-// carried. 90 to 600 programs.
+// carried. 50 to 600 programs. `neighbour`: slips of the same blocks' mechanism at another strength under the same live
+// loads, from which this one is followed; none: joints begin loose.
 template <int Dim>
 FactorWithoutDilation<Dim> find_factor_without_dilation(const CornerAssembly<Dim>& assembly, const Loads<Dim>& dead,
-                                                        const Loads<Dim>& live, const RoundHook& hook = {});
+                                                        const Loads<Dim>& live, const RoundHook& hook = {},
+                                                        std::span<const double> neighbour = {});
 
 // The strength of joints that do not dilate at which loads are just supported: where the largest and where the least
 // factor of a further load in the direction of the mechanism of joints that dilate vanish.
