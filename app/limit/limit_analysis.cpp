@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/limit/decide.hpp"
 #include "app/limit/limit_proof.hpp"
 #include "app/limit/limit_words.hpp"
 #include "app/limit/without_dilation_words.hpp"
@@ -12,6 +13,7 @@
 #include "core/limit/bolt_ties.hpp"
 #include "core/limit/without_dilation.hpp"
 #include "core/model/water_surfaces.hpp"
+#include "text/angle.hpp"
 
 namespace voussoir {
 namespace {
@@ -22,7 +24,7 @@ const char* const dilating_caveat =
     "degrees), without bound where blocks are held by their sides; confirm it with 'voussoir run'";
 const char* const history_caveat =
     "rigid blocks without history: what stress the joints were put in with is not known, and a run on elastic joints "
-    "may fall earlier";
+    "may fall earlier, or stand longer where blocks slip on each other as they turn";
 const char* const pressed_caveat =
     "carried by self-stress, normal forces between blocks that the loads do not ask for: without dilation nothing "
     "says that they are there; confirm it with 'voussoir run'";
@@ -92,6 +94,57 @@ void keep_mechanism(LimitState<Dim> state, LimitAnalysis<Dim>& analysis) {
   if (state.forces.empty()) return;
   analysis.state = std::move(state);
   analysis.flow = "without dilation";
+}
+
+// of an acceleration, on every body that may follow it
+template <int Dim>
+std::vector<ForcePlan> forces_of(const Model<Dim>& model, const Vector<Dim>& acceleration) {
+  std::vector<ForcePlan> forces;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const Body<Dim>& body = model.bodies[b];
+    if (!body.present || body.fixed) continue;
+    const Vector<Dim> place = model.origin + body.reference, force = body.mass * acceleration;
+    ForcePlan plan;
+    plan.name = fmt::format("load {}", b);
+    plan.bodies.inside = std::vector<double>(place.begin(), place.end());
+    plan.force = std::vector<double>(force.begin(), force.end());
+    forces.push_back(std::move(plan));
+  }
+  return forces;
+}
+
+// what a decision's runs begin with, from the values of the answer; none: nothing to decide between
+std::optional<std::pair<double, double>> between(const LimitAnswer& answer, const char* least, const char* most) {
+  std::optional<double> from, to;
+  for (const auto& [name, value] : answer.values) {
+    if (name.ends_with(least)) from = value.value;
+    if (name.ends_with(most)) to = value.value;
+  }
+  if (!from) return {};
+  return std::pair(*from, to.value_or(*from + std::max(1.0, std::abs(*from))));
+}
+
+template <int Dim>
+void decide(const Prepared<Dim>& scene, const LimitRequest& request, const LiveLoad<Dim>* live,
+            const StagePlan* analysed, LimitAnalysis<Dim>& analysis) {
+  const DecideHook hook = request.on_run ? request.on_run : [](const std::string&) {};
+  Decision found;
+  if (live) {
+    const auto ends = between(analysis, "_least", "_upper_bound");
+    if (!ends) return;
+    const bool of_gravity = request.load->kind == LimitLoad::Kind::gravity;
+    const std::vector<ForcePlan> forces = of_gravity ? std::vector<ForcePlan>()
+                                          : analysed ? analysed->change.force
+                                                     : forces_of(analysis.model, live->load.acceleration);
+    found = decide_factor(scene, forces, of_gravity, ends->first, ends->second, hook);
+  } else {
+    const auto ends =
+        request.factor ? between(analysis, "_least", "_upper_bound") : between(analysis, "_largest", "_lower_bound");
+    if (!ends) return;
+    const double unit = request.factor ? 1 : degree;
+    found = decide_strength(scene, request, unit * ends->first, unit * ends->second, hook);
+  }
+  tell_decision(request, found, analysis);
 }
 
 bool dilates_only(const LimitRequest& request, const std::vector<JointProperties>& properties) {
@@ -248,10 +301,16 @@ LimitAnalysis<Dim> analyse_limit(const LoadedScene& scene, const LimitRequest& r
   warn_of_strengths(model.properties, cohesive, analysis.warnings);
   warn_of_changes(prepared.stages, analysed, analysis.warnings);
 
-  if (live)
-    seek_factor(request, *live, parts_of_gravity, analysis);
-  else
-    seek_strength(request, gravity, analysis);
+  try {
+    if (live)
+      seek_factor(request, *live, parts_of_gravity, analysis);
+    else
+      seek_strength(request, gravity, analysis);
+    if (request.decide) decide(prepared, request, live ? &*live : nullptr, analysed, analysis);
+  } catch (const StopRounds&) {
+    analysis.answered = false;
+    analysis.caveats = {dilating_caveat, "interrupted: the answer without dilation was not found"};
+  }
   tell_envelope(analysis);
   refuse_empty(analysis, model.gravity.isZero(0), analysed);
   if (analysis.status == LimitStatus::solver_failed)

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 
 #include "app/base/arguments.hpp"
+#include "app/base/interruption.hpp"
 #include "app/base/message.hpp"
 #include "app/base/progress_line.hpp"
 #include "app/limit/limit_files.hpp"
@@ -23,6 +25,7 @@ struct LimitArguments {
   std::vector<std::string> joints;      // of whose joint_properties; none: of all
   bool cohesion = false;                // joints have the cohesion that their properties state
   bool with_dilation = false;           // the bound of joints that dilate, alone
+  bool decide = false;                  // by runs on elastic joints
   bool proof = false;                   // the load's factor is proved without rounding
   bool overwrite = false;
   bool quiet = false;
@@ -30,12 +33,15 @@ struct LimitArguments {
 
 namespace fs = std::filesystem;
 
+constexpr double long_bound = 2;  // s: hundreds of programs take minutes then
+
 LimitRequest request_of(const LimitArguments& arguments) {
   LimitRequest request;
   request.properties = arguments.factor ? arguments.joints : arguments.properties;
   request.factor = arguments.factor;
   request.cohesion = arguments.cohesion;
   request.with_dilation = arguments.with_dilation;
+  request.decide = arguments.decide;
   request.proof = arguments.proof;
   request.load = limit_load(arguments.load);
   return request;
@@ -55,7 +61,7 @@ void print_values(const LimitAnswer& analysis) {
   if (!analysis.message.empty()) line("result", analysis.message);
   for (const auto& [name, value] : analysis.values) {
     // two ends that agree are one number
-    if (analysis.answered && (name.ends_with("_least") || name.ends_with("_largest"))) continue;
+    if (analysis.answered && !analysis.decided && (name.ends_with("_least") || name.ends_with("_largest"))) continue;
     line(analysis.message.empty() && name == analysis.values.front().first ? "result" : "",
          fmt::format("{} {:.9g}{}{}", name, value.value,
                      value.error_bar ? fmt::format(" ± {:.1g}", *value.error_bar) : "",
@@ -118,9 +124,9 @@ void print_analysis(const LimitAnalysis<Dim>& analysis, const fs::path& folder) 
   line("sought", analysis.sought);
   print_values(analysis);
   if (analysis.without_dilation)
-    line("dilation", fmt::format("none: the lowest mechanism of {} rounds from loose joints{}",
-                                 analysis.without_dilation->rounds,
-                                 analysis.without_dilation->converged ? "" : "; not converged: estimates"));
+    line("dilation",
+         fmt::format("none: the lowest mechanism of {} rounds from loose joints{}", analysis.without_dilation->rounds,
+                     analysis.without_dilation->converged ? "" : "; not converged: estimates"));
   if (!analysis.values.empty() && analysis.status != LimitStatus::carries_any) {
     line("bound", analysis.bound);
     line("enclosed", fmt::format("for joints that dilate: forces and mechanism differ by {:.2g}, forces out of balance "
@@ -144,6 +150,7 @@ void print_analysis(const LimitAnalysis<Dim>& analysis, const fs::path& folder) 
 }
 
 ExitCode exit_code(const LimitAnswer& analysis) {
+  if (interruption() != 0) return ended_by(interruption());
   if (analysis.status == LimitStatus::solver_failed) return ExitCode::numerical;
   return analysis.answered ? ExitCode::done : ExitCode::incomplete;
 }
@@ -164,9 +171,23 @@ ExitCode limit_command(const LimitArguments& arguments) {
   const LoadedScene scene = load_scene(arguments.scene.scene, arguments.scene.overrides);
   LimitRequest request = request_of(arguments);
   StatusLine status(!arguments.quiet);
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point began = Clock::now();
+  note_interruptions();
   request.after_round = [&](int rounds, double factor) {
+    if (interruption() != 0) throw StopRounds();
+    const double seconds = std::chrono::duration<double>(Clock::now() - began).count();
+    if (rounds == 1 && seconds > long_bound && !arguments.quiet)
+      tell(
+          "voussoir: the bound took {}; without dilation hundreds of programs follow (Ctrl-C ends them and keeps the "
+          "bound, --with-dilation seeks no more than it)\n",
+          duration_text(seconds));
     if (status.is_due())
       status.show(fmt::format("without dilation: round {} from loose joints, factor {:.6g}", rounds, factor));
+  };
+  request.on_run = [&](const std::string& what) {
+    if (interruption() != 0) throw StopRounds();
+    if (status.is_due()) status.show("decide: " + what);
   };
   const auto analyse = [&]<int Dim>() {
     LimitAnalysis<Dim> analysis = analyse_limit<Dim>(scene, request);
@@ -225,6 +246,10 @@ void add_limit(CLI::App& program, Action& action) {
   command->add_flag("--with-dilation", arguments.with_dilation,
                     "only the bound on the unsafe side, of joints that dilate by their friction angle: one program "
                     "instead of hundreds");
+  command
+      ->add_flag("--decide", arguments.decide,
+                 "decide by runs of the blocks on their elastic joints, between and beside the ends without dilation")
+      ->excludes("--with-dilation");
   command
       ->add_flag("--proof", arguments.proof,
                  "prove the bounds of the load's factor without rounding, as proof.json.gz; for joints that do not "

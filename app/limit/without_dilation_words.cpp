@@ -117,4 +117,27 @@ void tell_strength_ends(const LimitRequest& request, const StrengthEnds& found, 
   if (!answer.answered && found.strongest) answer.caveats.push_back(held_between);
 }
 
+void tell_decision(const LimitRequest& request, const Decision& found, LimitAnswer& answer) {
+  if (!found.rests || !found.falls) {
+    answer.caveats.push_back(
+        fmt::format("not decided by {} runs on elastic joints: {}", found.runs,
+                    found.because.empty() ? "no factor was found at which they rest" : found.because));
+    return;
+  }
+  const bool angle = !request.load && !request.factor;
+  const std::string name = request.load ? "collapse_factor" : request.factor ? "factor_of_safety" : "critical_friction";
+  const double unit = angle ? to_degrees(1) : 1, rests = unit * *found.rests, falls = unit * *found.falls;
+  std::erase_if(answer.values, [&](const auto& value) { return value.first == name; });
+  answer.values.emplace(answer.values.begin(), name,
+                        Value{0.5 * (rests + falls), angle ? "deg" : "1", 0.5 * std::abs(falls - rests),
+                              fmt::format("{} runs on elastic joints: the blocks rest at {:.6g} and fall at {:.6g}",
+                                          found.runs, rests, falls)});
+  answer.answered = answer.decided = true;
+  answer.caveats.push_back(
+      fmt::format("decided by {} run{} with the scene's joint stiffness: the error bar is half of their bracket, and "
+                  "leaves out what "
+                  "the stiffness changes",
+                  found.runs, found.runs == 1 ? "" : "s"));
+}
+
 }  // namespace voussoir

@@ -1,6 +1,7 @@
 // What `voussoir limit` says of joints that slip without opening.
 #pragma once
 
+#include "app/limit/decide.hpp"
 #include "app/limit/limit_answer.hpp"
 #include "core/limit/without_dilation.hpp"
 
@@ -11,5 +12,8 @@ namespace voussoir {
 // error bars.
 void tell_factor_ends(const FactorEnds& found, LimitAnswer& answer);
 void tell_strength_ends(const LimitRequest& request, const StrengthEnds& found, LimitAnswer& answer);
+
+// The plain name holds what runs on elastic joints found.
+void tell_decision(const LimitRequest& request, const Decision& found, LimitAnswer& answer);
 
 }  // namespace voussoir

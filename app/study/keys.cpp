@@ -102,6 +102,7 @@ constexpr StudyKey study_keys[] = {
     {"limit", "with_dilation", "true or false",
      "`--with-dilation`: the bound alone. Without it the quantities are `…_least` and `…_largest`, and the plain name where "
      "they agree to 1 %"},
+    {"limit", "decide", "true or false", "`--decide`: the plain name holds what runs on elastic joints find"},
     {"blocks", "strength_of", "text", "as after `voussoir blocks --strength-of`"},
     {"blocks", "after", "text", "`--after`"},
     {"blocks", "seismic", "text", "`--seismic`"},

@@ -81,6 +81,7 @@ std::optional<OtherCommand> read_limit(const Subject& table) {
   if (factor) options.emplace_back("--factor");
   if (flag_of(limit, "cohesion")) options.emplace_back("--cohesion");
   if (flag_of(limit, "with_dilation")) options.emplace_back("--with-dilation");
+  if (flag_of(limit, "decide")) options.emplace_back("--decide");
   for (const char* key : {"friction", "joint"})
     for (const std::string& name : texts_of(limit, key, "must be a list of names of joint_properties"))
       options.insert(options.end(), {fmt::format("--{}", key), name});

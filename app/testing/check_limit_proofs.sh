@@ -8,7 +8,7 @@ if ! command -v python3 >/dev/null; then
 fi
 prove() {
   while read -r name scene load options; do
-    "$1" limit "$2/cases/$scene.toml" --load "$load" $options --proof --out "$3/$name" --overwrite --quiet
+    "$1" limit "$2/cases/$scene.toml" --load "$load" $options --with-dilation --proof --out "$3/$name" --overwrite --quiet
   done
 }
 check=$(dirname "$0")/check_limit_proof.py

@@ -12,12 +12,13 @@ namespace voussoir {
 namespace {
 
 // In the program's units a block that moves alone slips by about 1, whatever its size.
-constexpr double loose = 5;           // slip of all corners at the start
-constexpr double closing = 0.3;       // part of the way to the mechanism's slips in a round
-constexpr double slow_closing = 0.1;  // likewise, in the second half of the rounds
-constexpr int most_rounds = 200;      // of a fixed point
-constexpr int standing_rounds = 10;   // in which the factor must not change
-constexpr double standing = 1e-6;     // of the factor
+constexpr double loose = 5;            // slip of all corners at the start
+constexpr int halving_rounds = 60;     // the first, with ε: to the mechanism's slips, but at most half way to none
+constexpr double part_closed = 0.3;    // then the part of the way to the mechanism's slips
+constexpr double slowly_closed = 0.1;  // in the second half of the rounds
+constexpr int most_rounds = 260;       // of a fixed point
+constexpr int standing_rounds = 10;    // in which the factor must not change
+constexpr double standing = 1e-6;      // of the factor
 // rounds of one factor after which slips that still change by this much, of the fastest, are taken to their limit
 constexpr int slow_rounds = 25;
 constexpr double slow_change = 0.01, largest_ratio = 0.995;
@@ -71,7 +72,9 @@ class FixedPoints {
     std::optional<Settled> last;
     int stood = 0, same = 0;  // rounds of one factor: with slips that agree, with any
     for (int round = 0; round < most_rounds && stood < standing_rounds; ++round) {
-      const std::optional<Round> found = next(excess, round < most_rounds / 2 ? closing : slow_closing);
+      const std::optional<Round> found = next(excess, excess > 0 && round < halving_rounds ? 0
+                                                      : round < most_rounds / 2            ? part_closed
+                                                                                           : slowly_closed);
       if (!found) continue;  // unbounded: joints stay as loose as they are
       const bool stands =
           last && std::abs(found->factor - last->factor) <= standing * std::max(1.0, std::abs(found->factor));
@@ -112,7 +115,8 @@ class FixedPoints {
   struct Round {
     double factor = 0, change = 0;  // of the slips, over the fastest opening or slip
   };
-  // slips move by `part` of the way to those of the mechanism that they give; none: it is not bounded
+  // Slips move by `part` of the way to those of the mechanism that they give; 0: all the way, but none to less than
+  // half of itself. None: the mechanism is not bounded.
   std::optional<Round> next(double excess, double part) {
     ++rounds_;
     const ConeProgramAnswer answer = solve_with(1, slips_);
@@ -124,7 +128,8 @@ class FixedPoints {
       const double slip = (1 + excess) * opening.template tail<Dim - 1>().norm();
       fastest = std::max(fastest, opening.norm());
       change = std::max(change, std::abs(slip - slips_[k]));
-      step_before_[k] = std::exchange(step_[k], part * (slip - slips_[k]));
+      const double step = part > 0 ? part * (slip - slips_[k]) : std::max(slip, 0.5 * slips_[k]) - slips_[k];
+      step_before_[k] = std::exchange(step_[k], step);
       slips_[k] += step_[k];
     }
     if (hook_) hook_(rounds_, answer.factor / scale_);
