@@ -32,7 +32,7 @@ constexpr const char* not_asked_for =
 TEST_F(LimitWords, OfParallelWallsAreNoAngleAndNoFactor) {
   write_slot(0);
   for (const std::string option : {"", "--factor"}) {
-    const Ended ended = limit(option);
+    const Ended ended = limit(option + " --with-dilation");
     EXPECT_EQ(ended.code, 1) << ended.out << ended.err;
     EXPECT_TRUE(says(ended, "above 0, by unbounded normal forces, which need not exist")) << ended.out;
     EXPECT_TRUE(says(ended, option.empty() ? "stable at any friction" : "stable at any strength")) << ended.out;
@@ -45,16 +45,20 @@ TEST_F(LimitWords, OfParallelWallsAreNoAngleAndNoFactor) {
 
 TEST_F(LimitWords, OfASlotThatOpensDownwardsAreACaveat) {
   write_slot(0.2);
-  const Ended ended = limit("--factor");
+  const Ended ended = limit("--factor --with-dilation");
   EXPECT_EQ(ended.code, 0);
-  EXPECT_TRUE(says(ended, "factor_of_safety 2.886")) << ended.out;
+  EXPECT_TRUE(says(ended, "factor_of_safety_upper_bound 2.886")) << ended.out;
   EXPECT_TRUE(says(ended, not_asked_for)) << ended.out;
   EXPECT_NE(results("out")["caveat"].get<std::string>().find(not_asked_for), std::string::npos);
-  EXPECT_TRUE(says(limit(), not_asked_for));
+  EXPECT_TRUE(says(limit("--with-dilation"), not_asked_for));
   EXPECT_TRUE(says(limit("--load left"), "result")) << "with any value";
+  // nothing presses it: it falls
+  const Ended falls = limit();
+  EXPECT_EQ(falls.code, 1);
+  EXPECT_TRUE(says(falls, "no friction up to 89 degrees is enough without dilation")) << falls.out;
   write_slot(-0.2);  // the walls support the key without friction
-  EXPECT_FALSE(says(limit(), not_asked_for));
-  EXPECT_TRUE(says(limit(), "associated flow"));
+  EXPECT_FALSE(says(limit("--with-dilation"), not_asked_for));
+  EXPECT_TRUE(says(limit("--with-dilation"), "associated flow"));
 }
 
 // If the strength that is needed is less than the search resolves, there is no number either.

@@ -111,6 +111,7 @@ Node part_of_run(const Scene& scene, bool with_history) {
 Node part_of_limit(const Scene& scene, const std::vector<std::string>& options) {
   Node tree = shared_part(scene, static_cast<int>(scene.stages.size()));
   const auto asked = [&](const char* option) { return std::ranges::find(options, option) != options.end(); };
+  if (asked("--decide")) return *scene.tree;  // which runs
   Names sought;
   for (std::size_t k = 0; k + 1 < options.size(); ++k)
     if (options[k] == "--friction") sought.insert(options[k + 1]);

@@ -126,7 +126,7 @@ Found judge_load(double stiffness, double narrow, CaseReport& report) {
 
 double limit_analysis() {
   const LoadedScene scene = load_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / "quarter_point.toml");
-  const LimitAnalysis<2> analysis = analyse_limit<2>(scene, {limit_load("applied"), {}});
+  const LimitAnalysis<2> analysis = analyse_limit<2>(scene, {.load = limit_load("applied"), .with_dilation = true});
   if (!analysis.answered) throw std::runtime_error(analysis.message);
   return analysis.values.front().second.value * stated_load;
 }

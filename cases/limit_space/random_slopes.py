@@ -91,7 +91,7 @@ def judge(program, folder, kind, seed):
     scene = folder / f"{seed}.toml"
     scene.write_text(slope(kind, seed))
     row = {"kind": kind, "seed": seed}
-    said = call(program, "limit", scene, "--without-dilation", "--out", folder / f"{seed}_limit", "--overwrite")
+    said = call(program, "limit", scene, "--out", folder / f"{seed}_limit", "--overwrite")
     found = values(folder / f"{seed}_limit")
     for key in ("lower_bound", "least", "largest"):
         row[key] = found.get(f"critical_friction_{key}", {}).get("value")

@@ -54,7 +54,7 @@ std::vector<BudgetScene> draw(unsigned seed, std::size_t count, int most_layers,
 }
 
 double by_limit_analysis(const BudgetScene& scene) {
-  const LimitAnalysis<2> analysis = analyse_limit<2>(load_scene(scene.scene));
+  const LimitAnalysis<2> analysis = analyse_limit<2>(load_scene(scene.scene), {.with_dilation = true});
   if (analysis.status != LimitStatus::found) throw std::runtime_error(scene.label + ": " + analysis.message);
   return analysis.values.front().second.value;
 }

@@ -26,7 +26,7 @@ reference::SlopeCollapse without_dilation() {
 }
 
 LimitAnalysis<2> by_limit_analysis() {
-  return analyse_limit<2>(load_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / "scene.toml"));
+  return analyse_limit<2>(load_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / "scene.toml"), {.with_dilation = true});
 }
 
 double expected_deg(const reference::SlopeCollapse& collapse) {

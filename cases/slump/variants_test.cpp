@@ -114,7 +114,7 @@ Manner manner_of(const Variant& v, const Model<2>& model, double friction,
 }
 
 Manner by_limit_analysis(const Variant& v, const std::filesystem::path& scene) {
-  const LimitAnalysis<2> analysis = analyse_limit<2>(load_scene(scene));
+  const LimitAnalysis<2> analysis = analyse_limit<2>(load_scene(scene), {.with_dilation = true});
   if (analysis.status != LimitStatus::found) throw std::runtime_error(v.name() + ": " + analysis.message);
   return manner_of(v, analysis.model, analysis.values.front().second.value, analysis.state.velocities);
 }

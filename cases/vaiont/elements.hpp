@@ -38,7 +38,8 @@ inline Overrides water_above_the_seat(double metres) {
 // deg: by rigid-block limit analysis of the same blocks
 inline double by_limit_analysis(const std::string& scene, const Overrides& settings) {
   const LimitAnalysis<2> found =
-      analyse_limit<2>(load_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / scene, settings), {{}, {"slide"}});
+      analyse_limit<2>(load_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / scene, settings),
+                       {.properties = {"slide"}, .with_dilation = true});
   if (found.status != LimitStatus::found) throw std::runtime_error(scene + ": " + found.message);
   return found.values.front().second.value;
 }

@@ -32,7 +32,7 @@ const std::vector<Cut> wet_cuts{
     {"wet.toml", "3 blocks"}, {"wet_80.toml", "33 blocks, 80 m"}, {"wet_40.toml", "114 blocks, 40 m"}};
 
 LimitAnalysis<2> analyse(const std::string& scene, const std::vector<std::string>& overrides,
-                         const LimitRequest& request = {{}, {"slide"}}) {
+                         const LimitRequest& request = {.properties = {"slide"}, .with_dilation = true}) {
   LimitAnalysis<2> found =
       analyse_limit<2>(load_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / scene, overrides), request);
   if (found.status != LimitStatus::found) throw std::runtime_error(scene + ": " + found.message);
@@ -169,7 +169,8 @@ TEST(Vaiont, HorizontalCoefficient) {
                    expected,
                    {0, 1e-5},
                    "corners rounded to 0.1 mm; the solver's tolerance is 1e-7 of a block's weight"},
-                  answer(analyse(cut.scene, {"joint_properties.slide.friction_deg=25"}, {limit_load("right"), {}})));
+                  answer(analyse(cut.scene, {"joint_properties.slide.friction_deg=25"},
+                                 {.load = limit_load("right"), .with_dilation = true})));
 }
 
 TEST(Vaiont, FactorOfSafety) {
@@ -177,7 +178,7 @@ TEST(Vaiont, FactorOfSafety) {
   const std::vector<SectionBlock> blocks = section_blocks(reference::vaiont_section(), {});
   const double expected = section_factor_of_safety(blocks, {12 * degree, rock});
   LimitRequest request;
-  request.factor = true;
+  request.factor = request.with_dilation = true;
   for (const Cut& cut : cuts)
     report.record({"factor of safety, slide 12°, rock 40°, " + cut.name,
                    "1",

@@ -15,7 +15,7 @@
 namespace voussoir::cases {
 
 inline double limit_answer(const std::string& scene, const std::vector<std::string>& overrides,
-                           const LimitRequest& request = {}) {
+                           const LimitRequest& request = {.with_dilation = true}) {
   const LimitAnalysis<2> found =
       analyse_limit<2>(load_scene(std::filesystem::path(VOUSSOIR_CASE_DIR) / scene, overrides), request);
   if (found.status != LimitStatus::found) throw std::runtime_error(scene + ": " + found.message);

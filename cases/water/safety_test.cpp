@@ -22,8 +22,7 @@ double judge_factor(CaseReport& report, const std::string& scene, const std::str
                  {0, 2e-3},
                  "half the bracket is 0.0005; the water that the block leaves before it counts as failed, 0.01 deg"},
                 value(done, "factor_of_safety"), cost(done));
-  LimitRequest request{{}, {"joint"}};
-  request.factor = request.cohesion = true;
+  const LimitRequest request{.properties = {"joint"}, .factor = true, .cohesion = true, .with_dilation = true};
   const double limit = limit_answer(scene, overrides, request);
   report.record({"factor of safety, limit analysis" + of,
                  "1",
