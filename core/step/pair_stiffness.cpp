@@ -207,6 +207,21 @@ struct JointFrom {
   }
 };
 
+// Whether the steps change a face contact so little that its sensitivity describes it: one that hardly presses may lose
+// its area in a step, or have its force turned round.
+template <int Dim>
+bool is_slight(const Contact<Dim>& c, const IntegratedContact<Dim>& face, const FaceSensitivity<Dim>& s,
+               const std::array<double, freedoms<Dim>>& steps) {
+  constexpr double most_of_area = 0.5, least_cosine = -1 + 1e-6;
+  for (int f = 0; f < freedoms<Dim>; ++f) {
+    const Vector<Dim> force = face.force + steps[f] * s.force.col(f);
+    if (!(std::abs(steps[f] * s.area[f]) < most_of_area * c.geometry.area) ||
+        !(force.dot(face.normal) > least_cosine * force.norm()))
+      return false;
+  }
+  return true;
+}
+
 // of an integrated face contact: moved by its sensitivity, or, where not faces alone press, computed again
 template <int Dim>
 void difference_of_face(const Model<Dim>& model, const BodiesState<Dim>& bodies, const ContactsState<Dim>& contacts,
@@ -224,7 +239,7 @@ void difference_of_face(const Model<Dim>& model, const BodiesState<Dim>& bodies,
   for (int f = 0; f < F; ++f)
     steps[f] = step_along(model, c, p, f);
   FaceSensitivity<Dim> sensitivity;
-  if (find_sensitivity<Dim>(here, c, sensitivity)) {
+  if (find_sensitivity<Dim>(here, c, sensitivity) && is_slight(c, face, sensitivity, steps)) {
     for (int f = 0; f < F; ++f) {
       moved_contacts[f] = c;
       faces[f] = face;
