@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
 
+#include "core/run/run.hpp"
 #include "core/run/simulate.hpp"
 #include "text/angle.hpp"
 
@@ -20,7 +20,6 @@ constexpr double strong_friction = 85;  // deg, while the blocks settle before a
 constexpr double wider = 1.25;          // than the ends: the range of a search for a factor
 constexpr double wider_deg = 5;         // of one for an angle
 constexpr double tolerance_deg = 0.1;   // of its bracket
-constexpr std::string_view in_equilibrium = "equilibrium";
 
 // what the stages of the scene install, from the beginning, as limit analysis has it
 template <int Dim>
@@ -63,7 +62,9 @@ Ended ended(const Prepared<Dim>& scene, const std::string& what, const DecideHoo
   const bool done = simulate(scene, progress, watcher);
   if (fell || !progress.results.moved.empty()) return Ended::falls;
   if (!done || progress.results.stages.empty()) return Ended::undecided;
-  return progress.results.stages.back().ended == in_equilibrium ? Ended::rests : Ended::undecided;
+  const std::string& reason = progress.results.stages.back().ended;
+  if (reason == describe(StopReason::falls_free)) return Ended::falls;
+  return reason == describe(StopReason::equilibrium) ? Ended::rests : Ended::undecided;
 }
 
 }  // namespace
@@ -105,11 +106,11 @@ Decision decide_factor(const Prepared<Dim>& scene, const std::vector<ForcePlan>&
     end = at(low -= step);
   if (end == Ended::falls) decision.because = fmt::format("the blocks fall down to a factor of {:.6g}", low);
   if (end != Ended::rests) return decision;
+  // a level that no run decides is left above: the bracket then stays wider
   double high = decision.falls.value_or(most);
-  while (end != Ended::undecided && decision.runs < most_runs && high - low > close * std::abs(low)) {
+  while (decision.runs < most_runs && high - low > close * std::abs(low)) {
     const double middle = 0.5 * (low + high);
-    end = at(middle);
-    (end == Ended::rests ? low : high) = middle;
+    (at(middle) == Ended::rests ? low : high) = middle;
   }
   if (!decision.falls) decision.falls = most;
   return decision;

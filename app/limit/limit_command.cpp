@@ -141,9 +141,10 @@ void print_analysis(const LimitAnalysis<Dim>& analysis, const fs::path& folder) 
                              evidence.programs == 1 ? "" : "s", analysis.assembly.faces.size(), corners));
   print_mechanism(analysis);
   if (analysis.without_dilation && analysis.without_dilation->apart)
-    line("self-stress", fmt::format("holds the {} blocks of the mechanism between the two ends: normal forces that the "
-                                    "loads do not ask for",
-                                    analysis.mechanism.moving.size()));
+    line("self-stress", fmt::format("holds {} between the two ends: normal forces that the loads do not ask for",
+                                    analysis.mechanism.moving.size() == 1
+                                        ? "the mechanism's block"
+                                        : fmt::format("the mechanism's {} blocks", analysis.mechanism.moving.size())));
   for (const std::string& caveat : analysis.caveats)
     line(&caveat == &analysis.caveats.front() ? "caveat" : "", caveat);
   fmt::print("results: {}\n", folder.string());
