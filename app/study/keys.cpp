@@ -100,7 +100,8 @@ constexpr StudyKey study_keys[] = {
     {"limit", "joint", "list of texts", "names as after `--joint`"},
     {"limit", "cohesion", "true or false", "`--cohesion`"},
     {"limit", "with_dilation", "true or false",
-     "`--with-dilation`: the bound alone. Without it the quantities are `…_least` and `…_largest`, and the plain name where "
+     "`--with-dilation`: the bound alone. Without it the quantities are `…_least` and `…_largest`, and the plain name "
+     "where "
      "they agree to 1 %"},
     {"limit", "decide", "true or false", "`--decide`: the plain name holds what runs on elastic joints find"},
     {"blocks", "strength_of", "text", "as after `voussoir blocks --strength-of`"},
