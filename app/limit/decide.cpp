@@ -12,7 +12,8 @@
 namespace voussoir {
 namespace {
 
-constexpr double moved = 0.02;          // of a block's inscribed radius: it has fallen
+// of a block's inscribed radius: it has fallen; under gravity itself all joints close, too
+constexpr double moved = 0.02, moved_by_gravity = 0.1;
 constexpr double close = 0.01;          // of the level, or of the ends' distance: what a decision is worth
 constexpr int most_runs = 8;            // of a load
 constexpr int look_every = 100;         // at a run
@@ -46,7 +47,7 @@ enum class Ended { rests, falls, undecided };
 
 // the last stage of the scene: whether the blocks come to rest in it
 template <int Dim>
-Ended ended(const Prepared<Dim>& scene, const std::string& what, const DecideHook& hook) {
+Ended ended(const Prepared<Dim>& scene, double most_way, const std::string& what, const DecideHook& hook) {
   Progress<Dim> progress = initial_progress(scene);
   Watcher<Dim> watcher;
   const int last = static_cast<int>(scene.stages.size()) - 1;
@@ -57,7 +58,7 @@ Ended ended(const Prepared<Dim>& scene, const std::string& what, const DecideHoo
     if (pushed && begin.empty()) begin = displacements(now.state.bodies);
     if (now.state.counters.steps % look_every != 0) return false;
     hook(fmt::format("{}, step {}", what, now.state.counters.steps));
-    return fell = pushed && way_of(scene.model, displacements(now.state.bodies), begin) > moved;
+    return fell = pushed && way_of(scene.model, displacements(now.state.bodies), begin) > most_way;
   };
   const bool done = simulate(scene, progress, watcher);
   if (fell || !progress.results.moved.empty()) return Ended::falls;
@@ -70,8 +71,9 @@ Ended ended(const Prepared<Dim>& scene, const std::string& what, const DecideHoo
 }  // namespace
 
 template <int Dim>
-Decision decide_factor(const Prepared<Dim>& scene, const std::vector<ForcePlan>& forces, bool of_gravity, double least,
-                       double most, const DecideHook& hook) {
+Decision decide_factor(const Prepared<Dim>& scene, const LimitRequest& request, const std::vector<ForcePlan>& forces,
+                       double least, double most, const DecideHook& hook) {
+  const bool of_gravity = request.load->kind == LimitLoad::Kind::gravity;
   Decision decision;
   const auto at = [&](double factor) {
     Prepared<Dim> trial = scene;
@@ -86,13 +88,15 @@ Decision decide_factor(const Prepared<Dim>& scene, const std::vector<ForcePlan>&
       pushed.name = "pushed";
       pushed.plan = SettlePlan{};
       pushed.change.force = forces;
+      pushed.change.bond = request.cohesion;
       for (ForcePlan& force : pushed.change.force)
         for (double& part : force.force)
           part *= factor;
       trial.stages.push_back(std::move(pushed));
     }
     ++decision.runs;
-    const Ended end = ended(trial, fmt::format("run {} at a factor of {:.6g}", decision.runs, factor), hook);
+    const Ended end = ended(trial, of_gravity ? moved_by_gravity : moved,
+                            fmt::format("run {} at a factor of {:.6g}", decision.runs, factor), hook);
     if (end == Ended::rests) decision.rests = factor;
     if (end == Ended::falls) decision.falls = factor;
     if (end == Ended::undecided)
@@ -140,6 +144,7 @@ Decision decide_strength(const Prepared<Dim>& scene, const LimitRequest& request
   reduce.name = "decide";
   reduce.plan = plan;
   reduce.change.friction_as_stated = true;
+  reduce.change.bond = request.cohesion;
   search.stages = {settle, reduce};
 
   Progress<Dim> progress = initial_progress(search);
@@ -163,9 +168,9 @@ Decision decide_strength(const Prepared<Dim>& scene, const LimitRequest& request
   return decision;
 }
 
-template Decision decide_factor(const Prepared<2>&, const std::vector<ForcePlan>&, bool, double, double,
+template Decision decide_factor(const Prepared<2>&, const LimitRequest&, const std::vector<ForcePlan>&, double, double,
                                 const DecideHook&);
-template Decision decide_factor(const Prepared<3>&, const std::vector<ForcePlan>&, bool, double, double,
+template Decision decide_factor(const Prepared<3>&, const LimitRequest&, const std::vector<ForcePlan>&, double, double,
                                 const DecideHook&);
 template Decision decide_strength(const Prepared<2>&, const LimitRequest&, double, double, const DecideHook&);
 template Decision decide_strength(const Prepared<3>&, const LimitRequest&, double, double, const DecideHook&);

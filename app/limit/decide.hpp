@@ -21,11 +21,11 @@ struct Decision {
 using DecideHook = std::function<void(const std::string&)>;
 
 // Of a load: the blocks settle under gravity, then with a multiple of the forces; a block that moves by a fiftieth of
-// its inscribed radius then has fallen. Runs begin below `least`; nothing carries `most`. `of_gravity`: gravity itself
-// is multiplied.
+// its inscribed radius then has fallen (by a tenth if gravity itself is multiplied). Runs begin below `least`; nothing
+// carries `most`. With the request's cohesion closed joints are bonded.
 template <int Dim>
-Decision decide_factor(const Prepared<Dim>& scene, const std::vector<ForcePlan>& forces, bool of_gravity, double least,
-                       double most, const DecideHook& hook);
+Decision decide_factor(const Prepared<Dim>& scene, const LimitRequest& request, const std::vector<ForcePlan>& forces,
+                       double least, double most, const DecideHook& hook);
 
 // Of the strength of joints: a search by bisection as that of a stage of kind reduce, from strong joints to weak ones.
 // The ends are angles (rad) or factors.

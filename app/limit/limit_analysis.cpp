@@ -136,7 +136,7 @@ void decide(const Prepared<Dim>& scene, const LimitRequest& request, const LiveL
     const std::vector<ForcePlan> forces = of_gravity ? std::vector<ForcePlan>()
                                           : analysed ? analysed->change.force
                                                      : forces_of(analysis.model, live->load.acceleration);
-    found = decide_factor(scene, forces, of_gravity, ends->first, ends->second, hook);
+    found = decide_factor(scene, request, forces, ends->first, ends->second, hook);
   } else {
     const auto ends =
         request.factor ? between(analysis, "_least", "_upper_bound") : between(analysis, "_largest", "_lower_bound");

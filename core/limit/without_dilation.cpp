@@ -261,7 +261,9 @@ FactorWithoutDilation<Dim> find_factor_without_dilation(const CornerAssembly<Dim
   const auto is_lower = [](const Interval& a, const Interval& b) {
     return a.least.factor < b.least.factor - same_mechanism * std::max(1.0, std::abs(b.least.factor));
   };
-  if (other && (!lowest || is_lower(*other, *lowest))) lowest = std::move(other);
+  // and where forces are free, as of a bolt that the mechanism does not stretch, its factor need not stand
+  const bool stands_instead = other && lowest && other->settled && !lowest->settled && !is_lower(*lowest, *other);
+  if (other && (!lowest || is_lower(*other, *lowest) || stands_instead)) lowest = std::move(other);
   result.rounds = points.rounds();
   result.programs = 1 + points.programs();
   if (!lowest) return result.status = LimitStatus::solver_failed, result;
