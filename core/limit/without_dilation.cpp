@@ -236,6 +236,14 @@ std::optional<Interval> closed(FixedPoints<Dim>& points, std::span<const double>
   return interval_at(0, points);
 }
 
+// of two fixed points of one mechanism
+void take_wider(const Interval& other, Interval& found) {
+  found.settled = found.settled || other.settled;
+  found.unbounded = found.unbounded || other.unbounded;
+  if (other.largest.factor > found.largest.factor + same_mechanism * std::max(1.0, std::abs(found.largest.factor)))
+    found.largest = other.largest;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -261,9 +269,11 @@ FactorWithoutDilation<Dim> find_factor_without_dilation(const CornerAssembly<Dim
   const auto is_lower = [](const Interval& a, const Interval& b) {
     return a.least.factor < b.least.factor - same_mechanism * std::max(1.0, std::abs(b.least.factor));
   };
-  // and where forces are free, as of a bolt that the mechanism does not stretch, its factor need not stand
-  const bool stands_instead = other && lowest && other->settled && !lowest->settled && !is_lower(*lowest, *other);
-  if (other && (!lowest || is_lower(*other, *lowest) || stands_instead)) lowest = std::move(other);
+  if (other && (!lowest || is_lower(*other, *lowest)))
+    lowest = std::move(other);
+  else if (other && !is_lower(*lowest, *other))
+    // one mechanism: where forces are free, as of a bolt that it does not stretch, one of both need not stand
+    take_wider(*other, *lowest);
   result.rounds = points.rounds();
   result.programs = 1 + points.programs();
   if (!lowest) return result.status = LimitStatus::solver_failed, result;
