@@ -120,7 +120,8 @@ class SearchWithoutDilation {
       const TrialWithoutDilation low = *(above - 1), high = *above;
       const EndOfFactor at_low = low.*end, at_high = high.*end;
       const double width = high.at - low.at;
-      const bool settled = low.settled && high.settled;
+      // what joints that dilate need these need too, whether their slips settle there or not
+      const bool settled = high.settled && (low.settled || low.at == needed_);
       double next = low.at + 0.5 * width;
       if (std::isfinite(at_high.factor)) {
         const double slope = (at_high.factor - at_low.factor) / width, root = low.at - at_low.factor / slope;
