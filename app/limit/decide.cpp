@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/run/run.hpp"
 #include "core/run/simulate.hpp"
@@ -33,6 +34,21 @@ StagePlan settle_first(const Prepared<Dim>& scene) {
   return stage;
 }
 
+// the scene's blocks in stages of our own, without anything that is only watched or written
+template <int Dim>
+Prepared<Dim> in_stages(const Prepared<Dim>& scene, std::vector<StagePlan> stages) {
+  Prepared<Dim> run = scene;
+  run.stages = std::move(stages);
+  run.last_stage.reset();
+  run.monitors.clear();
+  run.output = {};
+  return run;
+}
+
+void tell_run(const LimitRequest& request, const std::string& what) {
+  if (request.on_run) request.on_run(what);
+}
+
 // the farthest that a free block has moved since the stage began, over its inscribed radius
 template <int Dim>
 double way_of(const Model<Dim>& model, const std::vector<Vector<Dim>>& now, const std::vector<Vector<Dim>>& begin) {
@@ -47,7 +63,7 @@ enum class Ended { rests, falls, undecided };
 
 // the last stage of the scene: whether the blocks come to rest in it
 template <int Dim>
-Ended ended(const Prepared<Dim>& scene, double most_way, const std::string& what, const DecideHook& hook) {
+Ended ended(const Prepared<Dim>& scene, const LimitRequest& request, double most_way, const std::string& what) {
   Progress<Dim> progress = initial_progress(scene);
   Watcher<Dim> watcher;
   const int last = static_cast<int>(scene.stages.size()) - 1;
@@ -57,7 +73,7 @@ Ended ended(const Prepared<Dim>& scene, double most_way, const std::string& what
     const bool pushed = now.stage == last && now.stage_under_way;
     if (pushed && begin.empty()) begin = displacements(now.state.bodies);
     if (now.state.counters.steps % look_every != 0) return false;
-    hook(fmt::format("{}, step {}", what, now.state.counters.steps));
+    tell_run(request, fmt::format("{}, step {}", what, now.state.counters.steps));
     return fell = pushed && way_of(scene.model, displacements(now.state.bodies), begin) > most_way;
   };
   const bool done = simulate(scene, progress, watcher);
@@ -72,17 +88,13 @@ Ended ended(const Prepared<Dim>& scene, double most_way, const std::string& what
 
 template <int Dim>
 Decision decide_factor(const Prepared<Dim>& scene, const LimitRequest& request, const std::vector<ForcePlan>& forces,
-                       double least, double most, const DecideHook& hook) {
+                       double least, double most) {
   const bool of_gravity = request.load->kind == LimitLoad::Kind::gravity;
   Decision decision;
   const auto at = [&](double factor) {
-    Prepared<Dim> trial = scene;
-    trial.last_stage.reset();
-    trial.monitors.clear();
-    trial.output = {};
-    trial.stages = {settle_first(scene)};
+    std::vector<StagePlan> stages{settle_first(scene)};
     if (of_gravity) {
-      trial.stages.back().plan = SettlePlan{.gravity = {.to = factor}};
+      stages.back().plan = SettlePlan{.gravity = {.to = factor}};
     } else {
       StagePlan pushed;
       pushed.name = "pushed";
@@ -92,11 +104,11 @@ Decision decide_factor(const Prepared<Dim>& scene, const LimitRequest& request, 
       for (ForcePlan& force : pushed.change.force)
         for (double& part : force.force)
           part *= factor;
-      trial.stages.push_back(std::move(pushed));
+      stages.push_back(std::move(pushed));
     }
     ++decision.runs;
-    const Ended end = ended(trial, of_gravity ? moved_by_gravity : moved,
-                            fmt::format("run {} at a factor of {:.6g}", decision.runs, factor), hook);
+    const Ended end = ended(in_stages(scene, std::move(stages)), request, of_gravity ? moved_by_gravity : moved,
+                            fmt::format("run {} at a factor of {:.6g}", decision.runs, factor));
     if (end == Ended::rests) decision.rests = factor;
     if (end == Ended::falls) decision.falls = factor;
     if (end == Ended::undecided)
@@ -121,13 +133,8 @@ Decision decide_factor(const Prepared<Dim>& scene, const LimitRequest& request, 
 }
 
 template <int Dim>
-Decision decide_strength(const Prepared<Dim>& scene, const LimitRequest& request, double strong, double weak,
-                         const DecideHook& hook) {
+Decision decide_strength(const Prepared<Dim>& scene, const LimitRequest& request, double strong, double weak) {
   Decision decision;
-  Prepared<Dim> search = scene;
-  search.last_stage.reset();
-  search.monitors.clear();
-  search.output = {};
   StagePlan settle = settle_first(scene), reduce;
   settle.change.friction = strong_friction * degree;
   ReducePlan plan;
@@ -145,14 +152,14 @@ Decision decide_strength(const Prepared<Dim>& scene, const LimitRequest& request
   reduce.plan = plan;
   reduce.change.friction_as_stated = true;
   reduce.change.bond = request.cohesion;
-  search.stages = {settle, reduce};
 
+  const Prepared<Dim> search = in_stages(scene, {settle, reduce});
   Progress<Dim> progress = initial_progress(search);
   Watcher<Dim> watcher;
   watcher.pause = [&](const Progress<Dim>& now) {
     if (now.state.counters.steps % look_every == 0)
-      hook(fmt::format("search on elastic joints, trial {}, step {}", now.reduction.trial + 1,
-                       now.state.counters.steps));
+      tell_run(request, fmt::format("search on elastic joints, trial {}, step {}", now.reduction.trial + 1,
+                                    now.state.counters.steps));
     return false;
   };
   simulate(search, progress, watcher);
@@ -168,11 +175,9 @@ Decision decide_strength(const Prepared<Dim>& scene, const LimitRequest& request
   return decision;
 }
 
-template Decision decide_factor(const Prepared<2>&, const LimitRequest&, const std::vector<ForcePlan>&, double, double,
-                                const DecideHook&);
-template Decision decide_factor(const Prepared<3>&, const LimitRequest&, const std::vector<ForcePlan>&, double, double,
-                                const DecideHook&);
-template Decision decide_strength(const Prepared<2>&, const LimitRequest&, double, double, const DecideHook&);
-template Decision decide_strength(const Prepared<3>&, const LimitRequest&, double, double, const DecideHook&);
+template Decision decide_factor(const Prepared<2>&, const LimitRequest&, const std::vector<ForcePlan>&, double, double);
+template Decision decide_factor(const Prepared<3>&, const LimitRequest&, const std::vector<ForcePlan>&, double, double);
+template Decision decide_strength(const Prepared<2>&, const LimitRequest&, double, double);
+template Decision decide_strength(const Prepared<3>&, const LimitRequest&, double, double);
 
 }  // namespace voussoir

@@ -2,7 +2,6 @@
 // blocks come to have on elastic joints, found by runs.
 #pragma once
 
-#include <functional>
 #include <string>
 
 #include "app/limit/limit_answer.hpp"
@@ -17,20 +16,16 @@ struct Decision {
   std::string because{};  // why one is missing
 };
 
-// what a run is about to do, or does; may throw StopRounds
-using DecideHook = std::function<void(const std::string&)>;
-
 // Of a load: the blocks settle under gravity, then with a multiple of the forces; a block that moves by a fiftieth of
 // its inscribed radius then has fallen (by a tenth if gravity itself is multiplied). Runs begin below `least`; nothing
 // carries `most`. With the request's cohesion closed joints are bonded.
 template <int Dim>
 Decision decide_factor(const Prepared<Dim>& scene, const LimitRequest& request, const std::vector<ForcePlan>& forces,
-                       double least, double most, const DecideHook& hook);
+                       double least, double most);
 
 // Of the strength of joints: a search by bisection as that of a stage of kind reduce, from strong joints to weak ones.
 // The ends are angles (rad) or factors.
 template <int Dim>
-Decision decide_strength(const Prepared<Dim>& scene, const LimitRequest& request, double strong, double weak,
-                         const DecideHook& hook);
+Decision decide_strength(const Prepared<Dim>& scene, const LimitRequest& request, double strong, double weak);
 
 }  // namespace voussoir

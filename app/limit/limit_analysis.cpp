@@ -127,7 +127,6 @@ std::optional<std::pair<double, double>> between(const LimitAnswer& answer, cons
 template <int Dim>
 void decide(const Prepared<Dim>& scene, const LimitRequest& request, const LiveLoad<Dim>* live,
             const StagePlan* analysed, LimitAnalysis<Dim>& analysis) {
-  const DecideHook hook = request.on_run ? request.on_run : [](const std::string&) {};
   Decision found;
   if (live) {
     const auto ends = between(analysis, "_least", "_upper_bound");
@@ -136,13 +135,13 @@ void decide(const Prepared<Dim>& scene, const LimitRequest& request, const LiveL
     const std::vector<ForcePlan> forces = of_gravity ? std::vector<ForcePlan>()
                                           : analysed ? analysed->change.force
                                                      : forces_of(analysis.model, live->load.acceleration);
-    found = decide_factor(scene, request, forces, ends->first, ends->second, hook);
+    found = decide_factor(scene, request, forces, ends->first, ends->second);
   } else {
     const auto ends =
         request.factor ? between(analysis, "_least", "_upper_bound") : between(analysis, "_largest", "_lower_bound");
     if (!ends) return;
     const double unit = request.factor ? 1 : degree;
-    found = decide_strength(scene, request, unit * ends->first, unit * ends->second, hook);
+    found = decide_strength(scene, request, unit * ends->first, unit * ends->second);
   }
   tell_decision(request, found, analysis);
 }

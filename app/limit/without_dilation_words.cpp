@@ -135,8 +135,7 @@ void tell_decision(const LimitRequest& request, const Decision& found, LimitAnsw
   answer.answered = answer.decided = true;
   answer.caveats.push_back(
       fmt::format("decided by {} run{} with the scene's joint stiffness: the error bar is half of their bracket, and "
-                  "leaves out what "
-                  "the stiffness changes",
+                  "leaves out what the stiffness changes",
                   found.runs, found.runs == 1 ? "" : "s"));
 }
 
