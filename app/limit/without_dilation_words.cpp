@@ -20,6 +20,14 @@ struct NamedEnds {
   bool settled;
 };
 
+// what a factor of safety divides, which is said once, of the first value
+std::string take_divides(LimitAnswer& answer) {
+  std::string divides;
+  for (auto& [name, value] : answer.values)
+    if (!value.divides.empty()) divides = std::exchange(value.divides, {});
+  return divides;
+}
+
 // in front of all other values
 void add_ends(const NamedEnds& ends, LimitAnswer& answer) {
   std::vector<std::pair<std::string, Value>> first;
@@ -27,9 +35,7 @@ void add_ends(const NamedEnds& ends, LimitAnswer& answer) {
     const std::optional<double> bar = ends.settled ? std::optional(error) : std::nullopt;
     first.emplace_back(name, Value{value, ends.unit, bar, rule_of_ends});
   };
-  std::string divides;  // of a factor of safety: said once, of the first value
-  for (auto& [name, value] : answer.values)
-    if (!value.divides.empty()) divides = std::exchange(value.divides, {});
+  const std::string divides = take_divides(answer);
   answer.answered = false;
   if (ends.least && ends.largest) {
     const double apart = ends.largest->factor - ends.least->factor,
@@ -127,11 +133,13 @@ void tell_decision(const LimitRequest& request, const Decision& found, LimitAnsw
   const bool angle = !request.load && !request.factor;
   const std::string name = request.load ? "collapse_factor" : request.factor ? "factor_of_safety" : "critical_friction";
   const double unit = angle ? to_degrees(1) : 1, rests = unit * *found.rests, falls = unit * *found.falls;
+  const std::string divides = take_divides(answer);
   std::erase_if(answer.values, [&](const auto& value) { return value.first == name; });
   answer.values.emplace(answer.values.begin(), name,
                         Value{0.5 * (rests + falls), angle ? "deg" : "1", 0.5 * std::abs(falls - rests),
                               fmt::format("{} runs on elastic joints: the blocks rest at {:.6g} and fall at {:.6g}",
                                           found.runs, rests, falls)});
+  answer.values.front().second.divides = divides;
   answer.answered = answer.decided = true;
   answer.caveats.push_back(
       fmt::format("decided by {} run{} with the scene's joint stiffness: the error bar is half of their bracket, and "
