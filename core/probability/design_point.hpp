@@ -1,0 +1,58 @@
+// First-order reliability: the design point u* is the failed point nearest to the medians u = 0, β = |u*|, and the
+// probability of failure about Φ(-β) (Hasofer & Lind 1974; Rackwitz & Fiessler 1978).
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/probability/limit_state.hpp"
+
+namespace voussoir {
+
+// a linearisation of g = 0: direction·u >= distance fails
+struct FailedHalfSpace {
+  StandardPoint direction;  // unit
+  double distance = 0;
+};
+
+struct DesignPoint {
+  StandardPoint u;
+  double beta = 0;  // |u|; of a reversed search -|u|
+  double g = 0;     // there, of the function searched
+  // those that hold the point where it is; one: g is smooth there; two or more: a kink, where all of them must fail
+  std::vector<FailedHalfSpace> pieces;
+  std::string mode;  // the mechanism's name there
+  int iterations = 0;
+};
+
+struct DesignPointRequest {
+  double step = 0.1;        // of the forward differences, in u; about 0.3 for answers that are brackets
+  double tolerance = 1e-3;  // of u relative to max(1, |u|), of g relative to the first g
+  double bracket = 0;       // g is known to within this: no smaller |g| is asked for
+  int most_iterations = 40;
+  StandardPoint start;                 // empty: the medians
+  std::optional<double> g_at_medians;  // if it is known: saves an evaluation
+  // The medians fail: the caller hands -g over, so that the point searched is the nearest that stands, and beta is told
+  // negative. Nothing else changes: g, pieces and modes are those of the function handed over.
+  bool reversed = false;
+};
+
+struct DesignPointSearch {
+  std::optional<DesignPoint> found;
+  std::string reason;  // a sentence, if nothing was found
+  StandardPoint last;  // where the search ended
+  int evaluations = 0;
+  std::vector<StandardPoint> looked_at;  // by iteration
+};
+
+// FORM with memory: the next point is the nearest to the medians that all of the last linearisations call failed; with
+// one of them this is the method of Hasofer, Lind, Rackwitz & Fiessler, which kinks defeat. Precondition: keys > 0.
+DesignPointSearch find_design_point(const LimitFunction& g, std::size_t keys, const DesignPointRequest& request);
+
+// First-order probability of failure: Φ(-β) of one piece, Φ₂ of two that must both fail; none for more. A reversed
+// point's is that of standing's complement, 1 - these.
+std::optional<double> probability_of_pieces(const DesignPoint& point);
+
+}  // namespace voussoir

@@ -1,0 +1,42 @@
+// Other mechanisms that fail near the first design point. One that is missed makes first order and importance sampling
+// too low without a sign of it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/probability/design_point.hpp"
+
+namespace voussoir {
+
+struct OtherPointsRequest {
+  std::uint64_t seed = 0;
+  int pilots = 200;
+  int most_starts = 4;
+  DesignPointRequest search;  // of every further search; its start is not used
+};
+
+// a pilot row that failed is no part of any estimate
+struct PilotRow {
+  StandardPoint u;
+  LimitAnswer answer;
+};
+
+struct OtherPoints {
+  std::vector<DesignPoint> points;  // the first one included, by rising beta
+  int evaluations = 0;              // pilots and searches
+  int pilots = 0, starts = 0;
+  std::vector<PilotRow> history;           // the pilots
+  std::vector<std::string> modes_without;  // modes that failed among the pilots, or at a search's end, without a point
+};
+
+// Pilot rows spread by max(1, (β + 1)/√keys); a failed one that no known half-space direction·u >= distance explains
+// starts a search, the nearest first; so does a mode that failed and has no design point. A point is kept if it is
+// farther than 0.3 β from the others and Φ(-β) above a thousandth of theirs. Row k depends on (seed, k) alone. For a
+// reversed first point hand -g over, as to its search.
+OtherPoints find_other_design_points(const LimitFunction& g, const DesignPoint& first,
+                                     const OtherPointsRequest& request);
+
+}  // namespace voussoir
