@@ -30,7 +30,7 @@ constexpr std::array top_folders{"text",  "core",       "app",     "reference", 
 const std::vector<std::vector<std::string_view>> floors{
     {"base/", "geometry/"},
     {"exchange/", "joint_laws/", "joint_sets/", "load/", "potential/", "solvers/"},
-    {"contact/", "slicing/", "support/"},
+    {"contact/", "probability/", "slicing/", "support/"},
     {"model/"},
     {"key_blocks/", "stage/"},
     {"limit/", "output/", "scene/", "step/"},

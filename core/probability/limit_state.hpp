@@ -10,13 +10,13 @@ namespace voussoir {
 
 using StandardPoint = std::vector<double>;  // u, by key
 
-struct LimitAnswer {
+struct StateAnswer {
   std::optional<double> g;  // > 0: stands; <= 0: fails; none: there is no answer at this point
   std::string mode;         // the mechanism's name; may be empty
 };
 
 // Answers of a batch of points, in their order: the caller may find them in parallel. The searches ask for as many
 // points at once as they can.
-using LimitFunction = std::function<std::vector<LimitAnswer>(const std::vector<StandardPoint>&)>;
+using LimitFunction = std::function<std::vector<StateAnswer>(const std::vector<StandardPoint>&)>;
 
 }  // namespace voussoir

@@ -21,7 +21,7 @@ struct OtherPointsRequest {
 // a pilot row that failed is no part of any estimate
 struct PilotRow {
   StandardPoint u;
-  LimitAnswer answer;
+  StateAnswer answer;
 };
 
 struct OtherPoints {
