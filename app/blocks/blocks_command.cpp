@@ -12,6 +12,7 @@
 #include "app/blocks/blocks_summary.hpp"
 #include "app/blocks/blocks_view.hpp"
 #include "app/blocks/kinematics_text.hpp"
+#include "app/blocks/seismic_option.hpp"
 #include "app/run_folder/claimed_folder.hpp"
 #include "app/run_folder/origin.hpp"
 #include "app/run_folder/results_hash.hpp"
@@ -58,16 +59,11 @@ fs::path folder_of(const BlocksArguments& arguments) {
 std::optional<SeismicRequest> seismic_of(const BlocksArguments& arguments) {
   if (arguments.seismic.empty() && arguments.seismic_vertical == 0) return std::nullopt;
   SeismicRequest request;
-  request.vertical = arguments.seismic_vertical;
-  if (arguments.seismic.empty()) {
+  if (arguments.seismic.empty())
     request.trend = 0;
-    return request;
-  }
-  constexpr const char* form = "a coefficient, or coefficient/trend in degrees, for example 0.12 or 0.12/180";
-  const std::vector<double> numbers = slashed(arguments.seismic, "--seismic", form);
-  if (numbers.size() > 2) throw BadInput(fmt::format("--seismic {}: write {}", arguments.seismic, form));
-  request.coefficient = numbers[0];
-  if (numbers.size() == 2) request.trend = numbers[1] * degree;
+  else
+    request = seismic_request(arguments.seismic);
+  request.vertical = arguments.seismic_vertical;
   return request;
 }
 

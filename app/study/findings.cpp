@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "app/study/statistics.hpp"
-#include "core/joint_sets/statistics.hpp"
+#include "app/study/drawn_sample.hpp"
+#include "app/study/sample_findings.hpp"
 #include "text/csv_table.hpp"
 
 namespace voussoir {
@@ -22,40 +22,9 @@ std::string unit_of(const std::vector<StudyRow>& rows) {
   return "";
 }
 
-std::string fails_text(const Fails& fails) {
-  return fmt::format("{} {:g}", fails.below ? "below" : "above", fails.limit);
-}
-
 std::optional<RowVerdict> verdict_on(const Sweep& sweep, const StudyRow& row) {
   if (!sweep.fails || !row.result) return std::nullopt;
   return sweep.fails->verdict(*row.result, row.error_bar);
-}
-
-struct Verdicts {
-  int failed = 0, standing = 0, undecided = 0;
-  bool at_limit = false;  // some stable results are equal to the limit
-};
-
-Verdicts verdicts_on(const Sweep& sweep, const std::vector<StudyRow>& rows) {
-  Verdicts verdicts;
-  for (const StudyRow& row : rows)
-    if (const std::optional<RowVerdict> verdict = verdict_on(sweep, row)) {
-      verdicts.failed += *verdict == RowVerdict::fails;
-      verdicts.standing += *verdict == RowVerdict::stands;
-      verdicts.undecided += *verdict == RowVerdict::undecided;
-      verdicts.at_limit = verdicts.at_limit || (*verdict == RowVerdict::stands && *row.result == sweep.fails->limit);
-    }
-  return verdicts;
-}
-
-// "5 of them below 1, 24 above, 1 within its error bar of 1"
-std::string verdicts_text(const Fails& fails, const Verdicts& verdicts) {
-  std::string text = fmt::format("{} of them {}, {} {}{}", verdicts.failed, fails_text(fails), verdicts.standing,
-                                 verdicts.at_limit ? "at or " : "", fails.below ? "above" : "below");
-  if (verdicts.undecided > 0)
-    text += fmt::format(", {} within {} of {:g}", verdicts.undecided,
-                        verdicts.undecided == 1 ? "its error bar" : "their error bars", fails.limit);
-  return text;
 }
 
 const char* fails_cell(const std::optional<RowVerdict>& verdict) {
@@ -109,81 +78,19 @@ std::string grid_line(const Sweep& grid, const std::vector<StudyRow>& rows) {
   const auto results =
       std::count_if(rows.begin(), rows.end(), [](const StudyRow& row) { return row.result.has_value(); });
   std::string line = fmt::format("grid '{}': {} of {} combinations have a result", grid.name, results, rows.size());
-  return grid.fails ? line + ", " + verdicts_text(*grid.fails, verdicts_on(grid, rows)) : line;
+  if (!grid.fails) return line;
+  RowVerdicts verdicts;
+  for (const StudyRow& row : rows)
+    if (row.result) verdicts.add(*grid.fails, *row.result, row.error_bar);
+  return line + ", " + verdicts_text(*grid.fails, verdicts);
 }
-
-// ---- samples
-
-struct SampleFound {
-  std::vector<double> results;
-  Moments moments;
-  Verdicts verdicts;
-  std::optional<Share> failed;
-};
 
 SampleFound found_by(const Sweep& sample, const std::vector<StudyRow>& rows) {
-  SampleFound found;
+  SampleFound found{.rows = rows.size(), .unit = unit_of(rows)};
   for (const StudyRow& row : rows)
-    if (row.result) found.results.push_back(*row.result);
-  if (found.results.empty()) return found;
-  found.moments = moments_of(found.results);
-  found.verdicts = verdicts_on(sample, rows);
-  if (sample.fails)
-    found.failed =
-        share_with_undecided(found.verdicts.failed, found.verdicts.undecided, static_cast<int>(found.results.size()));
+    if (row.result) found.add(sample, *row.result, row.error_bar);
+  found.conclude(sample);
   return found;
-}
-
-double share_of(int count, const Share& all) {
-  return static_cast<double>(count) / all.of;
-}
-
-std::string sample_json(const StudyPlan& plan, const Sweep& sample, const SampleFound& found,
-                        const std::vector<StudyRow>& rows) {
-  nlohmann::ordered_json json = {{"schema", "voussoir.sample"},
-                                 {"schema_version", 1},
-                                 {"name", sample.name},
-                                 {"quantity", plan.quantity},
-                                 {"unit", unit_of(rows)},
-                                 {"rows", rows.size()},
-                                 {"without_result", rows.size() - found.results.size()}};
-  if (!found.results.empty()) {
-    json["mean"] = found.moments.mean.value;
-    json["mean_error"] = found.moments.mean.error;
-    json["deviation"] = found.moments.deviation;
-    json["smallest"] = *std::min_element(found.results.begin(), found.results.end());
-    json["largest"] = *std::max_element(found.results.begin(), found.results.end());
-  }
-  if (found.failed)
-    json["failed"] = {{sample.fails->below ? "below" : "above", sample.fails->limit},
-                      {"count", found.failed->count},
-                      {"standing", found.verdicts.standing},
-                      {"undecided", found.verdicts.undecided},
-                      {"share", share_of(found.failed->count, *found.failed)},
-                      {"share_with_undecided", share_of(found.failed->count + found.verdicts.undecided, *found.failed)},
-                      {"low", found.failed->low},
-                      {"high", found.failed->high},
-                      {"confidence", sample_confidence},
-                      {"interval", "Clopper-Pearson"}};
-  for (const Bin& bin : histogram_of(found.results))
-    json["histogram"].push_back({{"from", bin.from}, {"to", bin.to}, {"count", bin.count}});
-  return json.dump(2) + "\n";
-}
-
-std::string sample_line(const Sweep& sample, const SampleFound& found, const std::vector<StudyRow>& rows) {
-  std::string line =
-      fmt::format("sample '{}': {} of {} rows have a result", sample.name, found.results.size(), rows.size());
-  if (found.results.empty()) return line;
-  const std::string unit = unit_of(rows);
-  line += fmt::format(", mean {:.6g}, deviation {:.4g}{}", found.moments.mean.value, found.moments.deviation,
-                      unit.empty() || unit == "1" ? "" : " " + unit);
-  if (!found.failed) return line;
-  const Share& failed = *found.failed;
-  line +=
-      fmt::format("; {}: {:.4g}", verdicts_text(*sample.fails, found.verdicts), 100 * share_of(failed.count, failed));
-  if (found.verdicts.undecided > 0)
-    line += fmt::format(" to {:.4g}", 100 * share_of(failed.count + found.verdicts.undecided, failed));
-  return line + fmt::format(" %, with 95 % confidence {:.4g} to {:.4g} %", 100 * failed.low, 100 * failed.high);
 }
 
 }  // namespace
@@ -206,7 +113,7 @@ std::vector<std::string> finding_names(const StudyPlan& plan) {
   return names;
 }
 
-Findings findings_of(const StudyPlan& plan, const std::vector<StudyRow>& all) {
+Findings findings_of(const StudyPlan& plan, const std::vector<StudyRow>& all, bool quiet) {
   Findings findings;
   std::vector<std::string> contents;
   std::size_t first = 0;
@@ -215,15 +122,29 @@ Findings findings_of(const StudyPlan& plan, const std::vector<StudyRow>& all) {
     const std::vector<StudyRow> rows(begin, begin + static_cast<std::ptrdiff_t>(sweep.values.size()));
     first += sweep.values.size() + (sweep.power ? sweep.values.size() - 1 : 0);
     if (sweep.varied == Varied::one_key) continue;
-    contents.push_back(table(plan, sweep, rows));
     if (sweep.varied == Varied::grid) {
+      contents.push_back(table(plan, sweep, rows));
       contents.push_back(grid_json(plan, sweep, rows));
       findings.lines.push_back(grid_line(sweep, rows));
       continue;
     }
-    const SampleFound found = found_by(sweep, rows);
-    contents.push_back(sample_json(plan, sweep, found, rows));
-    findings.lines.push_back(sample_line(sweep, found, rows));
+    SampleFound found;
+    if (sweep.is_drawn_in_process()) {
+      std::optional<DrawnSample> drawn = draw_sample(plan, sweep, quiet);
+      if (!drawn) {
+        findings.interrupted = true;
+        return findings;
+      }
+      contents.push_back(std::move(drawn->csv));
+      found = std::move(drawn->found);
+      if (!drawn->divides.empty()) findings.divides.push_back(drawn->divides);
+    } else {
+      contents.push_back(table(plan, sweep, rows));
+      found = found_by(sweep, rows);
+    }
+    contents.push_back(sample_json(plan, sweep, found));
+    for (std::string& line : sample_lines(sweep, found))
+      findings.lines.push_back(std::move(line));
   }
   const std::vector<std::string> names = finding_names(plan);
   for (std::size_t k = 0; k < names.size(); ++k)

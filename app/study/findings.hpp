@@ -15,10 +15,12 @@ std::vector<std::string> finding_names(const StudyPlan& plan);
 
 struct Findings {
   std::vector<std::pair<std::string, std::string>> files;  // name and content, in the order of their names
-  std::vector<std::string> lines;                          // for people, one for each grid and sample
+  std::vector<std::string> lines;                          // for people, of each grid and sample
+  std::vector<std::string> divides;                        // what factors of safety divide, of rows without runs
+  bool interrupted = false;                                // while rows were drawn: nothing else is complete
 };
 
-// `rows` as table_of gives them
-Findings findings_of(const StudyPlan& plan, const std::vector<StudyRow>& rows);
+// `rows` as table_of gives them. Samples on block theory are drawn and judged here.
+Findings findings_of(const StudyPlan& plan, const std::vector<StudyRow>& rows, bool quiet = true);
 
 }  // namespace voussoir

@@ -14,6 +14,7 @@
 #include "app/study/findings.hpp"
 #include "app/study/found.hpp"
 #include "app/study/idle.hpp"
+#include "app/study/work.hpp"
 #include "core/base/bad_input.hpp"
 #include "core/output/atomic_file.hpp"
 #include "text/plain_text.hpp"
@@ -138,10 +139,11 @@ Gathered gather(const StudyFolder& study, const std::vector<fs::path>& folders) 
   return gathered;
 }
 
-ExitCode write_gathered(const StudyFolder& study, const Gathered& gathered, const std::string& remark) {
+ExitCode write_gathered(const StudyFolder& study, const Gathered& gathered, const std::string& remark, bool quiet) {
   const fs::path file = study.folder / "study.csv";
+  const Findings findings = findings_of(study.plan, gathered.rows, quiet);
+  if (findings.interrupted) return tell_interruption(study.folder);
   write_file(file, study_csv(study.plan, gathered.rows));
-  const Findings findings = findings_of(study.plan, gathered.rows);
   for (const auto& [name, content] : findings.files)
     write_file(study.folder / name, content);
   const auto has_failed = [&](const StudyRow& row) {
@@ -157,7 +159,7 @@ ExitCode write_gathered(const StudyFolder& study, const Gathered& gathered, cons
   tell_warnings(warning_lines(gathered.warnings));
   for (const std::string& line : findings.lines)
     fmt::print("{}\n", line);
-  std::set<std::string> divided;
+  std::set<std::string> divided(findings.divides.begin(), findings.divides.end());
   for (const StudyRow& row : gathered.rows)
     if (!row.divides.empty()) divided.insert(row.divides);
   for (const std::string& sentence : divided)
@@ -182,7 +184,7 @@ ExitCode study_gather_command(const std::vector<fs::path>& folders) {
       throw BadInput(fmt::format("'{}' contains another study than '{}': its manifest.jsonl differs", folder.string(),
                                  study.folder.string()));
   const SharedFolderLock lock(study.folder);
-  return write_gathered(study, gather(study, folders), "");
+  return write_gathered(study, gather(study, folders), "", false);
 }
 
 ExitCode study_status_command(const fs::path& folder) {

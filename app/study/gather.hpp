@@ -28,8 +28,9 @@ struct Gathered {
 // (app/run_folder/results_hash.hpp) are a BadInput with the row's name.
 Gathered gather(const StudyFolder& study, const std::vector<std::filesystem::path>& folders);
 
-// Writes study.csv and prints a summary; `remark` is a line after the first, or empty.
-ExitCode write_gathered(const StudyFolder& study, const Gathered& gathered, const std::string& remark);
+// Writes study.csv and prints a summary; `remark` is a line after the first, or empty; `quiet`: no progress of
+// rows that it draws.
+ExitCode write_gathered(const StudyFolder& study, const Gathered& gathered, const std::string& remark, bool quiet);
 
 // study.csv of a planned study, from its folder or copies of it
 ExitCode study_gather_command(const std::vector<std::filesystem::path>& folders);

@@ -63,12 +63,20 @@ constexpr StudyKey study_keys[] = {
     {"grid.keys", "unit", "text", "of the values"},
     {"sample", "name", "text, required", "in the table and the figure"},
     {"sample", "rows", "number, required",
-     "number of runs, 2 to 100,000; the first of them are those of a smaller sample"},
+     "number of runs, 2 to 100,000, with `blocks` to 5,000,000; the first of them are those of a smaller sample, but "
+     "for "
+     "a Latin hypercube"},
+    {"sample", "method", "one of `\"random\"` `\"latin\"`",
+     "latin: a Latin hypercube, in which each key has one value in each of as many classes of equal probability as "
+     "there "
+     "are rows: closer means and deviations, hardly closer shares (default: random)"},
+    {"sample", "correlation", "list of lists",
+     "`[[\"key\", \"key\", number]]`: Pearson's correlation of two keys' values (Nataf's model); other keys are "
+     "independent"},
     {"sample", "seed", "number",
      "another seed gives another sample; a value depends on seed, row and key only, so that samples of one seed can be "
      "compared row by row (default: 0)"},
-    {"sample", "keys", "list of tables, required",
-     "each a key with the distribution of its values, independent of the others"},
+    {"sample", "keys", "list of tables, required", "each a key with the distribution of its values"},
     {"sample", "fails", "table",
      "the results that count as failed; reported: their fraction with its 95 % confidence interval, and the number of "
      "results whose error bar contains the limit, which are neither failed nor stable"},
@@ -77,16 +85,25 @@ constexpr StudyKey study_keys[] = {
     {"sample", "limit", "table", "as of a sweep"},
     {"sample", "blocks", "table", "as of a sweep"},
     {"sample.keys", "key", "text, required", "key of the scene as after --set"},
-    {"sample.keys", "law", "one of `\"normal\"` `\"lognormal\"` `\"uniform\"` `\"triangular\"` `\"seed\"`, required",
-     "seed: a whole number for the `seed` of a joint set"},
+    {"sample.keys", "law",
+     "one of `\"normal\"` `\"lognormal\"` `\"uniform\"` `\"triangular\"` `\"exponential\"` `\"fisher\"` `\"seed\"`, "
+     "required",
+     "fisher: of a joint's pole, `key` the joint, e.g. `\"joints.A\"`; seed: a whole number for the `seed` of a joint "
+     "set"},
     {"sample.keys", "mean", "number",
-     "of a normal or lognormal distribution: of the value itself, not of its logarithm"},
+     "of a normal, lognormal or exponential distribution before it is cut: of the value itself, not of its logarithm"},
     {"sample.keys", "deviation", "number",
      "of a normal or lognormal distribution: standard deviation of the value itself"},
     {"sample.keys", "mode", "number", "of a triangular distribution: the most likely value"},
     {"sample.keys", "least", "number",
      "of a uniform or triangular distribution its lower end; for the others values below it are drawn again"},
     {"sample.keys", "most", "number", "likewise the upper end"},
+    {"sample.keys", "dip", "number", "of a Fisher distribution: dip of the mean plane, deg"},
+    {"sample.keys", "dip_direction", "number", "likewise its dip direction, deg"},
+    {"sample.keys", "concentration", "number",
+     "Fisher's constant K; 0.63 of the poles lie within 81 deg/√K of the mean"},
+    {"sample.keys", "per", "one of `\"property\"` `\"set\"` `\"joint\"`",
+     "which joints share a draw of a friction angle or cohesion, with `blocks` (default: property, all of them)"},
     {"sample.keys", "unit", "text", "of the value"},
     {"fails", "below", "number", "results below it count as failed, e.g. 1 for a factor of safety"},
     {"fails", "above", "number", "results above it count as failed; state this or below"},

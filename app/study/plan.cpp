@@ -188,9 +188,11 @@ StudyPlan read_study_plan(const fs::path& path) {
   const fs::path folder = path.parent_path();
   plan.sweeps.push_back({.name = "default", .values = {""}, .numbers = {std::nullopt}, .scene = folder / scene});
   using Read = Sweep (*)(const Subject&);
+  std::vector<std::pair<std::size_t, Subject>> samples;
   for (const auto& [key, read] :
        {std::pair<const char*, Read>{"sweep", read_sweep}, {"grid", read_grid}, {"sample", read_sample}}) {
     for (const Subject& table : headed_tables(top, key)) {
+      if (read == read_sample) samples.emplace_back(plan.sweeps.size(), table);
       plan.sweeps.push_back(read(table));
       read_common(table, scene, folder, plan.sweeps.back());
     }
@@ -207,6 +209,8 @@ StudyPlan read_study_plan(const fs::path& path) {
           top, "history",
           fmt::format("`voussoir {}` has no history; name a value of its results.json in quantity", sweep.other->name));
   }
+  for (const auto& [place, table] : samples)
+    draw_rows(table, plan.sweeps[place]);
   return plan;
 }
 

@@ -65,7 +65,8 @@ ExitCode study_command(const StudyArguments& arguments) {
   const RunsEnded ended = work_at(planned.study, planned.study.rows, arguments.options, arguments.plan.string());
   if (ended.interrupted) return tell_interruption(arguments.out);
   return write_gathered(planned.study, gather(planned.study, {arguments.out}),
-                        fmt::format("{} different runs, {} of them kept from before\n", ended.runs, ended.kept));
+                        fmt::format("{} different runs, {} of them kept from before\n", ended.runs, ended.kept),
+                        arguments.options.quiet);
 }
 
 void add_work(CLI::App* command, WorkOptions& work) {

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "app/study/drawn_keys.hpp"
+
 namespace voussoir {
 
 // a command of the program that takes no steps: limit, blocks
@@ -57,6 +59,11 @@ struct Sweep {
   std::vector<std::size_t> counts = {};     // of a grid: the number of values of each key
   std::optional<Fails> fails = {};
   std::optional<OtherCommand> other = {};  // instead of `voussoir run`
+  std::optional<DrawnKeys> scatter = {};   // of a sample
+
+  // Rows of block theory take microseconds: they are drawn and judged when a study is gathered, without runs of their
+  // own. `values` is empty, and `with` has the first rows only.
+  bool is_drawn_in_process() const { return varied == Varied::sample && other && other->name == "blocks"; }
 };
 
 enum class Take { largest, smallest, last };

@@ -15,4 +15,7 @@ double exp(double x);
 double sine(double x);
 double cosine(double x);
 
+// rad, -pi to pi, of the direction (x, y), which is not zero; within 1e-15 absolute
+double angle(double x, double y);
+
 }  // namespace voussoir::portable

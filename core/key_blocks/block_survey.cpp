@@ -258,6 +258,10 @@ SurveyRow<Dim> describe(const Survey<Dim>& survey, const std::vector<int>& bodie
   row.bolted = bolted;
   if (row.kind() == BlockKind::enclosed) return row;
   row.faces = block.faces;
+  if (request.factors_only) {
+    add_seismic(request, block, gravity, row);
+    return row;
+  }
   for (const BlockBolt<Dim>& bolt : block.bolts) {
     const Bolt<Dim>& stated = assembly.model.bolts[bolt.bolt];
     row.bolts.push_back(fmt::format("{}-{}", assembly.model.bolt_properties[stated.properties].name, stated.number));
@@ -318,7 +322,7 @@ Survey<Dim> survey_blocks(const Prepared<Dim>& prepared, const SurveyRequest& re
   survey.strength =
       stages.strength < 0 ? "joint_properties" : fmt::format("stage \"{}\"", prepared.stages[stages.strength].name);
   survey.loads = stages.loads < 0 ? "the scene" : fmt::format("stage \"{}\"", prepared.stages[stages.loads].name);
-  survey.notes = notes_on(prepared, model);
+  if (!request.factors_only) survey.notes = notes_on(prepared, model);
   for (const Body<Dim>& body : model.bodies)
     survey.fixed += body.present && body.fixed;
 

@@ -25,6 +25,7 @@ struct SurveyRequest {
   std::string strength_of;                          // stage; empty: that of the first search, else joint_properties
   std::string after;                                // stage whose geometry is judged; empty: as sliced
   bool frictionless = false;                        // rounds of blocks that move without friction, too
+  bool factors_only = false;                        // no forces, critical water and notes: for many samples
 };
 
 inline constexpr double least_required = 1e-9, most_required = 1000;

@@ -21,8 +21,10 @@ template <int Dim>
 std::string blocks_json(const Survey<Dim>& survey, const std::string& title, const std::string& input_hash,
                         const std::vector<Origin>& origins);
 
-// Values of the mass, as studies take them: least_factor (none if nothing moves), volume_below_1 and blocks_below_1 (of
-// successive failure and of clusters), least_critical_coefficient (none without an earthquake of any direction).
+// what the factor of safety of block theory divides
+inline constexpr const char* divided_by_blocks = "divides tan(friction) and cohesion";
+
+// the values of the mass, as studies take them (core/key_blocks/mass_values.hpp)
 template <int Dim>
 std::string blocks_results_json(const Survey<Dim>& survey, const std::string& title, const std::string& input_hash,
                                 const std::vector<Origin>& origins);

@@ -6,6 +6,7 @@
 
 #include "core/base/version.hpp"
 #include "core/key_blocks/direction_cone.hpp"
+#include "core/key_blocks/mass_values.hpp"
 #include "core/output/block_verdicts.hpp"
 #include "text/angle.hpp"
 
@@ -100,39 +101,19 @@ Json program_json(const std::vector<Origin>& origins) {
   return {{"version", version()}, {"commit", commit()}, {"compiler", compiler()}, {"origins", origins_json(origins)}};
 }
 
-template <int Dim>
-std::set<int> blocks_below_one(const Survey<Dim>& survey) {
-  std::set<int> below;
-  for (const std::vector<int>& round : survey.below_one.rounds)
-    below.insert(round.begin(), round.end());
-  for (const SurveyRow<Dim>& cluster : survey.clusters)
-    if (cluster.bolted.factor.value_or(1) < 1) below.insert(cluster.bodies.begin(), cluster.bodies.end());
-  return below;
-}
-
 }  // namespace
 
 template <int Dim>
 std::string blocks_results_json(const Survey<Dim>& survey, const std::string& title, const std::string& input_hash,
                                 const std::vector<Origin>& origins) {
-  std::optional<double> factor, coefficient;
-  const auto lower = [](std::optional<double>& least, const std::optional<double>& value) {
-    if (value && (!least || *value < *least)) least = value;
-  };
-  for (const auto* list : {&survey.rows, &survey.clusters})
-    for (const SurveyRow<Dim>& row : *list) {
-      if (moves(row.kind())) lower(factor, row.bolted.factor);
-      lower(coefficient, row.critical_coefficient);
-    }
-  const std::set<int> below = blocks_below_one(survey);
-  double volume = 0;
-  for (const SurveyRow<Dim>& row : survey.rows)
-    if (below.contains(row.bodies[0])) volume += row.volume;
+  const MassValues<Dim> mass = mass_values(survey);
   Json values = Json::object();
-  if (factor) values["least_factor"] = {{"value", *factor}, {"unit", "1"}, {"divides", "tan(friction) and cohesion"}};
-  values["volume_below_1"] = {{"value", volume}, {"unit", Dim == 3 ? "m3" : "m2"}};
-  values["blocks_below_1"] = {{"value", below.size()}, {"unit", "1"}};
-  if (coefficient) values["least_critical_coefficient"] = {{"value", *coefficient}, {"unit", "1"}};
+  if (mass.least_factor)
+    values["least_factor"] = {{"value", *mass.least_factor}, {"unit", "1"}, {"divides", divided_by_blocks}};
+  values["volume_below_1"] = {{"value", mass.volume_below_1}, {"unit", Dim == 3 ? "m3" : "m2"}};
+  values["blocks_below_1"] = {{"value", mass.below_1.size()}, {"unit", "1"}};
+  if (mass.least_critical_coefficient)
+    values["least_critical_coefficient"] = {{"value", *mass.least_critical_coefficient}, {"unit", "1"}};
   const Json json = {
       {"schema", "voussoir.blocks_values"}, {"schema_version", 1}, {"title", title},  {"input_hash", input_hash},
       {"program", program_json(origins)},   {"status", "done"},    {"values", values}};
