@@ -15,7 +15,7 @@
 namespace voussoir {
 namespace {
 
-constexpr const char* rule_of_key = "must be a key of the scene as after --set, e.g. \"time.fraction\"";
+constexpr const char* rule_of_drawn_key = "must be a key of the scene as after --set, e.g. \"time.fraction\"";
 
 // the range of the seed of a joint set
 constexpr double seeds = 1e15;
@@ -96,7 +96,7 @@ DrawnPer read_per(const Subject& table, const std::string& key) {
 DrawnKey read_key(const Subject& table) {
   refuse_unknown_keys(table, "sample.keys");
   DrawnKey key;
-  key.key = text_of(table, "key", rule_of_key);
+  key.key = text_of(table, "key", rule_of_drawn_key);
   if (table.node->find("unit")) key.unit = text_of(table, "unit", "must be a text, e.g. \"deg\"");
   std::string rule = "must be one of \"fisher\"";
   for (const auto& law : laws)
