@@ -60,6 +60,19 @@ AnyPrepared prepare_blocks(const Scene& scene) {
 
 }  // namespace
 
+std::string status_text(const BlocksAnswer& answer) {
+  switch (answer.end) {
+    case RowEnd::no_block:
+      return "no block forms";
+    case RowEnd::nothing_moves:
+      return "no block can move";
+    case RowEnd::undecided:
+      return "a projection found no end";
+    default:
+      return answer.message;
+  }
+}
+
 BlocksAnswers::BlocksAnswers(const std::filesystem::path& scene, const std::vector<std::string>& overrides,
                              const std::vector<std::string>& options, const std::string& quantity)
     : file_(scene), overrides_(overrides), request_(request_of(options)), quantity_(quantity), stated_(tree_of(scene)) {
@@ -89,11 +102,11 @@ std::optional<BlocksAnswers::Strength> BlocksAnswers::strength_of(const std::str
   return std::nullopt;
 }
 
-void BlocksAnswers::vary(const DrawnKeys& scatter) {
-  scatter_ = &scatter;
-  keys_ = scatter.scene_keys();
+void BlocksAnswers::vary(const DrawnKeys& drawn) {
+  drawn_ = &drawn;
+  keys_ = drawn.scene_keys();
   strengths_.clear();
-  for (const DrawnKey& key : scatter.keys) {
+  for (const DrawnKey& key : drawn.keys) {
     const std::optional<Strength> strength = key.pole ? std::nullopt : strength_of(key.key);
     if (key.per != DrawnPer::property && !strength)
       throw BadInput(
@@ -110,7 +123,7 @@ template <int Dim>
 void BlocksAnswers::give_joints_their_own(Prepared<Dim>& prepared, int row) const {
   Model<Dim>& model = prepared.model;
   std::map<std::pair<int, std::string>, int> own;  // by the properties before, and the joint or set
-  for (const DrawnKey& key : scatter_->keys) {
+  for (const DrawnKey& key : drawn_->keys) {
     if (key.per == DrawnPer::property) continue;
     const Strength strength = *strength_of(key.key);
     for (std::size_t j = 0; j < model.joints.size(); ++j) {
@@ -123,7 +136,7 @@ void BlocksAnswers::give_joints_their_own(Prepared<Dim>& prepared, int row) cons
           own.try_emplace({joint.properties, key.key + name}, static_cast<int>(model.properties.size()));
       if (is_new) {
         JointProperties properties = model.properties[joint.properties];
-        RandomStream stream(scatter_->seed, fmt::format("row {} of {} of {}", row, key.key, name));
+        RandomStream stream(drawn_->seed, fmt::format("row {} of {} of {}", row, key.key, name));
         const double value = draw(key.law, stream).value_or(0);
         (strength.friction ? properties.friction : properties.cohesion) = strength.friction ? value * degree : value;
         model.properties.push_back(properties);
@@ -140,7 +153,7 @@ BlocksAnswer BlocksAnswers::judge(Prepared<Dim> prepared, const std::vector<doub
       if (joint.name == strengths_[k].properties)
         (strengths_[k].friction ? joint.friction : joint.cohesion) =
             strengths_[k].friction ? values[k] * degree : values[k];
-  if (scatter_) give_joints_their_own(prepared, row);
+  if (drawn_) give_joints_their_own(prepared, row);
   BlocksAnswer answer;
   if (!has_free_block(prepared.model)) {
     answer.end = RowEnd::no_block;

@@ -25,6 +25,9 @@ struct BlocksAnswer {
   std::string message;          // why it was refused
 };
 
+// why there is no value
+std::string status_text(const BlocksAnswer& answer);
+
 // `voussoir blocks` for the values of some keys. If all of them are strengths that no law changes the blocks are cut
 // once. May be called by several threads.
 class BlocksAnswers {
@@ -34,7 +37,7 @@ class BlocksAnswers {
                 const std::vector<std::string>& options, const std::string& quantity);
 
   // the keys and the joints that share a value, once before any answer
-  void vary(const DrawnKeys& scatter);
+  void vary(const DrawnKeys& drawn);
 
   // `values` in the order of DrawnKeys::scene_keys; `row`: for keys that are drawn for each joint or set
   BlocksAnswer answer(const std::vector<double>& values, int row = 0) const;
@@ -63,7 +66,7 @@ class BlocksAnswers {
   Node stated_;  // the file's tree
   std::shared_ptr<Scene> scene_;
   AnyPrepared prepared_;  // of the scene as it is
-  const DrawnKeys* scatter_ = nullptr;
+  const DrawnKeys* drawn_ = nullptr;
   std::vector<std::string> keys_;
   std::vector<Strength> strengths_;  // of keys_, if all are strengths; else empty
 };

@@ -117,25 +117,25 @@ DrawnKey read_key(const Subject& table) {
 
 // ---- correlation --------------------------------------------------------------------------------------------------
 
-std::optional<std::size_t> place_of(const DrawnKeys& scatter, const std::string& name) {
-  for (std::size_t k = 0; k < scatter.keys.size(); ++k)
-    if (scatter.keys[k].key == name) return k;
+std::optional<std::size_t> place_of(const DrawnKeys& drawn, const std::string& name) {
+  for (std::size_t k = 0; k < drawn.keys.size(); ++k)
+    if (drawn.keys[k].key == name) return k;
   return std::nullopt;
 }
 
-std::size_t component_of(const DrawnKeys& scatter, std::size_t key) {
+std::size_t component_of(const DrawnKeys& drawn, std::size_t key) {
   std::size_t component = 0;
   for (std::size_t k = 0; k < key; ++k)
-    component += scatter.keys[k].components();
+    component += drawn.keys[k].components();
   return component;
 }
 
-std::size_t key_of_pair(const Subject& table, const DrawnKeys& scatter, const Node& item) {
+std::size_t key_of_pair(const Subject& table, const DrawnKeys& drawn, const Node& item) {
   const std::string rule = "must be a list of [\"key\", \"key\", number], the keys among those drawn";
   if (item.kind != Node::Kind::text) refuse(table, "correlation", rule);
-  const std::optional<std::size_t> place = place_of(scatter, item.text);
+  const std::optional<std::size_t> place = place_of(drawn, item.text);
   if (!place) refuse(table, "correlation", fmt::format("names '{}', which is not drawn", item.text));
-  const DrawnKey& key = scatter.keys[*place];
+  const DrawnKey& key = drawn.keys[*place];
   if (key.pole || key.law.law == Law::seed)
     refuse(table, "correlation", fmt::format("names '{}', whose law has no order to correlate", item.text));
   if (key.per != DrawnPer::property)
@@ -145,7 +145,7 @@ std::size_t key_of_pair(const Subject& table, const DrawnKeys& scatter, const No
   return *place;
 }
 
-void read_correlation(const Subject& table, DrawnKeys& scatter) {
+void read_correlation(const Subject& table, DrawnKeys& drawn) {
   const Node* list = table.node->find("correlation");
   if (!list) return;
   const std::string rule = "must be a list of [\"key\", \"key\", number], the keys among those drawn";
@@ -153,39 +153,38 @@ void read_correlation(const Subject& table, DrawnKeys& scatter) {
   for (const Node& item : list->items) {
     if (item.kind != Node::Kind::list || item.items.size() != 3 || !item.items[2].is_number())
       refuse(table, "correlation", rule);
-    const std::size_t a = key_of_pair(table, scatter, item.items[0]), b = key_of_pair(table, scatter, item.items[1]);
-    const std::string names = fmt::format("'{}' and '{}'", scatter.keys[a].key, scatter.keys[b].key);
+    const std::size_t a = key_of_pair(table, drawn, item.items[0]), b = key_of_pair(table, drawn, item.items[1]);
+    const std::string names = fmt::format("'{}' and '{}'", drawn.keys[a].key, drawn.keys[b].key);
     const double stated = item.items[2].number;
-    if (a == b) refuse(table, "correlation", fmt::format("is of {} with itself, which is 1", scatter.keys[a].key));
+    if (a == b) refuse(table, "correlation", fmt::format("is of {} with itself, which is 1", drawn.keys[a].key));
     if (!(std::abs(stated) <= 1)) refuse(table, "correlation", fmt::format("of {} must be from -1 to 1", names));
-    const std::size_t first = component_of(scatter, std::min(a, b)), second = component_of(scatter, std::max(a, b));
-    for (const CorrelatedPair& other : scatter.correlated)
+    const std::size_t first = component_of(drawn, std::min(a, b)), second = component_of(drawn, std::max(a, b));
+    for (const CorrelatedPair& other : drawn.correlated)
       if (other.a == first && other.b == second)
         refuse(table, "correlation", fmt::format("of {} is stated twice", names));
-    const Distribution &law_a = scatter.keys[a].law, &law_b = scatter.keys[b].law;
+    const Distribution &law_a = drawn.keys[a].law, &law_b = drawn.keys[b].law;
     if (law_a.deviation == 0 && (law_a.law == Law::normal || law_a.law == Law::lognormal))
-      refuse(table, "correlation", fmt::format("names '{}', whose deviation is 0", scatter.keys[a].key));
+      refuse(table, "correlation", fmt::format("names '{}', whose deviation is 0", drawn.keys[a].key));
     if (law_b.deviation == 0 && (law_b.law == Law::normal || law_b.law == Law::lognormal))
-      refuse(table, "correlation", fmt::format("names '{}', whose deviation is 0", scatter.keys[b].key));
+      refuse(table, "correlation", fmt::format("names '{}', whose deviation is 0", drawn.keys[b].key));
     const CorrelationRange range = reachable_correlation(law_a, law_b);
     if (stated < range.least || stated > range.most)
       refuse(table, "correlation",
              fmt::format("of {} cannot be {:g} between these laws: {:.4f} to {:.4f} can be had", names, stated,
                          range.least, range.most));
-    scatter.correlated.push_back({first, second, stated, correlation_of_normals(law_a, law_b, stated)});
+    drawn.correlated.push_back({first, second, stated, correlation_of_normals(law_a, law_b, stated)});
   }
-  const std::optional<std::vector<std::vector<double>>> factor =
-      cholesky_factor(scatter.components(), scatter.correlated);
+  const std::optional<std::vector<std::vector<double>>> factor = cholesky_factor(drawn.components(), drawn.correlated);
   if (!factor) {
     std::vector<std::string> names;
-    for (const std::size_t component : inconsistent_keys(scatter.components(), scatter.correlated))
-      for (std::size_t k = 0; k < scatter.keys.size(); ++k)
-        if (component_of(scatter, k) == component) names.push_back(scatter.keys[k].key);
+    for (const std::size_t component : inconsistent_keys(drawn.components(), drawn.correlated))
+      for (std::size_t k = 0; k < drawn.keys.size(); ++k)
+        if (component_of(drawn, k) == component) names.push_back(drawn.keys[k].key);
     refuse(table, "correlation",
            fmt::format("of {} contradict each other: no numbers can be correlated so; bring them nearer to 0",
                        fmt::join(names, ", ")));
   }
-  scatter.factor = *factor;
+  drawn.factor = *factor;
 }
 
 // ---- drawing ------------------------------------------------------------------------------------------------------
@@ -296,32 +295,32 @@ std::vector<double> DrawnKeys::row(int number) const {
   return values;
 }
 
-void make_latin(DrawnKeys& scatter) {
-  scatter.latin = true;
-  for (const DrawnKey& key : scatter.keys)
+void make_latin(DrawnKeys& drawn) {
+  drawn.latin = true;
+  for (const DrawnKey& key : drawn.keys)
     for (std::size_t k = 0; k < key.components(); ++k)
-      scatter.latin_columns.push_back(
-          latin_column(scatter.rows, scatter.seed, key.pole ? fmt::format("{} {}", key.key, k + 1) : key.key));
+      drawn.latin_columns.push_back(
+          latin_column(drawn.rows, drawn.seed, key.pole ? fmt::format("{} {}", key.key, k + 1) : key.key));
 }
 
 DrawnKeys read_drawn_keys(const Subject& table) {
-  DrawnKeys scatter;
-  scatter.seed = static_cast<std::uint64_t>(whole_number_of(table, "seed", 0, seeds).value_or(0));
+  DrawnKeys drawn;
+  drawn.seed = static_cast<std::uint64_t>(whole_number_of(table, "seed", 0, seeds).value_or(0));
   const std::vector<Subject> keys = tables_of(table, "keys");
   if (keys.empty()) refuse(table, "keys", "must be a list of tables, each with a key of the scene");
   for (const Subject& key : keys) {
-    scatter.keys.push_back(read_key(key));
-    const Distribution& law = scatter.keys.back().law;
+    drawn.keys.push_back(read_key(key));
+    const Distribution& law = drawn.keys.back().law;
     // the end of a law that hardly ever gives a value between least and most is refused here, not in some row
-    RandomStream stream(scatter.seed, "first");
-    if (!scatter.keys.back().pole && !draw(law, stream))
+    RandomStream stream(drawn.seed, "first");
+    if (!drawn.keys.back().pole && !draw(law, stream))
       refuse(key, "law", "hardly ever gives a value from least to most; set them farther apart");
   }
-  for (std::size_t k = 0; k < scatter.keys.size(); ++k)
+  for (std::size_t k = 0; k < drawn.keys.size(); ++k)
     for (std::size_t j = 0; j < k; ++j)
-      if (scatter.keys[j].key == scatter.keys[k].key) refuse(table, "keys", "must be different keys");
-  read_correlation(table, scatter);
-  return scatter;
+      if (drawn.keys[j].key == drawn.keys[k].key) refuse(table, "keys", "must be different keys");
+  read_correlation(table, drawn);
+  return drawn;
 }
 
 std::string law_text(const DrawnKey& key) {
@@ -340,9 +339,9 @@ std::string law_text(const DrawnKey& key) {
   return text;
 }
 
-std::vector<std::string> sharing_lines(const DrawnKeys& scatter) {
+std::vector<std::string> sharing_lines(const DrawnKeys& drawn) {
   std::vector<std::string> lines;
-  for (const DrawnKey& key : scatter.keys) {
+  for (const DrawnKey& key : drawn.keys) {
     if (!key.key.starts_with("joint_properties.")) continue;
     const char* shared = key.per == DrawnPer::property ? "all joints with these properties share a draw"
                          : key.per == DrawnPer::set    ? "the joints of a set share a draw"

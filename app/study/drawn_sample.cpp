@@ -3,13 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <thread>
 
 #include "app/base/interruption.hpp"
 #include "app/base/progress_line.hpp"
 #include "app/study/blocks_answers.hpp"
+#include "app/study/parallel_rows.hpp"
 #include "text/csv_table.hpp"
 
 namespace voussoir {
@@ -25,21 +24,15 @@ struct DrawnRow {
 };
 
 // rows first..first + count, from 1
-std::vector<DrawnRow> rows_from(const BlocksAnswers& answers, const DrawnKeys& scatter, int first, int count) {
+std::vector<DrawnRow> rows_from(const BlocksAnswers& answers, const DrawnKeys& drawn, int first, int count) {
   std::vector<DrawnRow> rows(static_cast<std::size_t>(count));
-  std::atomic<int> next = 0;
-  const auto work = [&] {
-    for (int begin = 0; (begin = next.fetch_add(rows_at_once)) < count;)
-      for (int k = begin; k < std::min(count, begin + rows_at_once); ++k) {
-        rows[k].values = scatter.row(first + k);
+  each_row_in_parallel(
+      count,
+      [&](int k) {
+        rows[k].values = drawn.row(first + k);
         rows[k].answer = answers.answer(rows[k].values, first + k);
-      }
-  };
-  std::vector<std::jthread> threads;
-  for (unsigned t = 1; t < std::max(1u, std::thread::hardware_concurrency()); ++t)
-    threads.emplace_back(work);
-  work();
-  threads.clear();
+      },
+      rows_at_once);
   return rows;
 }
 
@@ -53,24 +46,10 @@ std::string header_of(const StudyPlan& plan, const Sweep& sample) {
   return csv_line(header) + "\n";
 }
 
-std::string status_of(const BlocksAnswer& answer) {
-  if (answer.value) return "ok";
-  switch (answer.end) {
-    case RowEnd::no_block:
-      return "no block forms";
-    case RowEnd::nothing_moves:
-      return "no block can move";
-    case RowEnd::undecided:
-      return "a projection found no end";
-    default:
-      return answer.message;
-  }
-}
-
 // which columns are drawn for each joint or set, so that a row has no one value
-std::vector<bool> shared_columns(const DrawnKeys& scatter) {
+std::vector<bool> shared_columns(const DrawnKeys& drawn) {
   std::vector<bool> shared;
-  for (const DrawnKey& key : scatter.keys)
+  for (const DrawnKey& key : drawn.keys)
     shared.insert(shared.end(), key.components(), key.per == DrawnPer::property);
   return shared;
 }
@@ -80,7 +59,8 @@ std::string line_of(const Sweep& sample, const std::vector<bool>& shared, const 
   std::string line = std::to_string(number);
   for (std::size_t k = 0; k < row.values.size(); ++k)
     line += shared[k] ? fmt::format(",{}", row.values[k]) : ",";
-  line += fmt::format(",{},,{},{}", csv_cell(row.answer.value), csv_cell(unit), csv_cell(status_of(row.answer)));
+  line += fmt::format(",{},,{},{}", csv_cell(row.answer.value), csv_cell(unit),
+                      csv_cell(row.answer.value ? "ok" : status_text(row.answer)));
   if (sample.fails)
     line += !row.answer.value                                                             ? ","
             : sample.fails->verdict(*row.answer.value, std::nullopt) == RowVerdict::fails ? ",yes"
@@ -91,22 +71,22 @@ std::string line_of(const Sweep& sample, const std::vector<bool>& shared, const 
 }  // namespace
 
 std::optional<DrawnSample> draw_sample(const StudyPlan& plan, const Sweep& sample, bool quiet) {
-  const DrawnKeys& scatter = *sample.scatter;
+  const DrawnKeys& keys = *sample.drawn;
   BlocksAnswers answers(sample.scene, sample.overrides, sample.other->options, plan.quantity);
-  answers.vary(scatter);
+  answers.vary(keys);
   DrawnSample drawn{.csv = header_of(plan, sample)};
   drawn.divides = answers.divides();
   SampleFound& found = drawn.found;
-  found.rows = static_cast<std::size_t>(scatter.rows);
+  found.rows = static_cast<std::size_t>(keys.rows);
   found.unit = answers.unit();
   found.without = WithoutResult{};
-  const std::vector<bool> shared = shared_columns(scatter);
+  const std::vector<bool> shared = shared_columns(keys);
   note_interruptions();
   StatusLine progress(!quiet);
   const auto began = std::chrono::steady_clock::now();
-  for (int first = 1; first <= scatter.rows; first += rows_between_looks) {
+  for (int first = 1; first <= keys.rows; first += rows_between_looks) {
     const std::vector<DrawnRow> rows =
-        rows_from(answers, scatter, first, std::min(rows_between_looks, scatter.rows - first + 1));
+        rows_from(answers, keys, first, std::min(rows_between_looks, keys.rows - first + 1));
     if (interruption()) return std::nullopt;
     for (std::size_t k = 0; k < rows.size(); ++k) {
       const int number = first + static_cast<int>(k);
@@ -123,10 +103,10 @@ std::optional<DrawnSample> draw_sample(const StudyPlan& plan, const Sweep& sampl
       found.without->refused += answer.end == RowEnd::refused;
     }
     const double took = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-    const double done = static_cast<double>(std::min(scatter.rows, first + rows_between_looks - 1));
+    const double done = static_cast<double>(std::min(keys.rows, first + rows_between_looks - 1));
     if (progress.is_due())
-      progress.show(fmt::format("sample '{}': {:.0f} of {} rows, about {} left", sample.name, done, scatter.rows,
-                                duration_text(took / done * (scatter.rows - done))));
+      progress.show(fmt::format("sample '{}': {:.0f} of {} rows, about {} left", sample.name, done, keys.rows,
+                                duration_text(took / done * (keys.rows - done))));
   }
   progress.clear();
   found.conclude(sample);

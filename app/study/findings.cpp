@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/study/drawn_sample.hpp"
+#include "app/study/reliability.hpp"
 #include "app/study/sample_findings.hpp"
 #include "text/csv_table.hpp"
 
@@ -97,7 +98,7 @@ SampleFound found_by(const Sweep& sample, const std::vector<StudyRow>& rows) {
 
 std::vector<std::string> finding_names(const StudyPlan& plan) {
   std::vector<std::string> names;
-  int grids = 0, samples = 0;
+  int grids = 0, samples = 0, analyses = 0;
   for (const Sweep& sweep : plan.sweeps) {
     if (sweep.varied == Varied::grid) {
       ++grids;
@@ -109,11 +110,17 @@ std::vector<std::string> finding_names(const StudyPlan& plan) {
       for (const char* kind : {"csv", "json"})
         names.push_back(fmt::format("sample_{}.{}", samples, kind));
     }
+    if (sweep.varied == Varied::reliability) {
+      ++analyses;
+      for (const char* kind : {"csv", "json"})
+        names.push_back(fmt::format("reliability_{}.{}", analyses, kind));
+    }
   }
   return names;
 }
 
-Findings findings_of(const StudyPlan& plan, const std::vector<StudyRow>& all, bool quiet) {
+Findings findings_of(const StudyPlan& plan, const std::vector<StudyRow>& all, const EvaluationsOf& evaluations,
+                     bool quiet) {
   Findings findings;
   std::vector<std::string> contents;
   std::size_t first = 0;
@@ -128,6 +135,21 @@ Findings findings_of(const StudyPlan& plan, const std::vector<StudyRow>& all, bo
       findings.lines.push_back(grid_line(sweep, rows));
       continue;
     }
+    if (sweep.varied == Varied::reliability) {
+      try {
+        const ReliabilityFound found = analyse_reliability(sweep, evaluations(sweep));
+        contents.push_back(reliability_csv(plan, sweep, found));
+        contents.push_back(reliability_json(plan, sweep, found));
+        for (std::string& line : reliability_lines(sweep, found))
+          findings.lines.push_back(std::move(line));
+        findings.divides.push_back(found.rows.front().answer.divides);
+        findings.failed |= !found.failure.empty();
+      } catch (const EvaluationsInterrupted&) {
+        findings.interrupted = true;
+        return findings;
+      }
+      continue;
+    }
     SampleFound found;
     if (sweep.is_drawn_in_process()) {
       std::optional<DrawnSample> drawn = draw_sample(plan, sweep, quiet);
@@ -137,7 +159,7 @@ Findings findings_of(const StudyPlan& plan, const std::vector<StudyRow>& all, bo
       }
       contents.push_back(std::move(drawn->csv));
       found = std::move(drawn->found);
-      if (!drawn->divides.empty()) findings.divides.push_back(drawn->divides);
+      findings.divides.push_back(drawn->divides);
     } else {
       contents.push_back(table(plan, sweep, rows));
       found = found_by(sweep, rows);

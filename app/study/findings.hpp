@@ -1,10 +1,13 @@
-// Results of a study's grids and samples: grid_1.csv and its axes, grid_1.json; sample_1.csv and sample_1.json.
+// Results of a study's grids, samples and reliability analyses: grid_1.csv and its axes, grid_1.json; sample_1.csv and
+// sample_1.json; reliability_1.csv and reliability_1.json.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "app/study/evaluations.hpp"
 #include "app/study/sweep.hpp"
 #include "app/study/table.hpp"
 
@@ -17,10 +20,14 @@ struct Findings {
   std::vector<std::pair<std::string, std::string>> files;  // name and content, in the order of their names
   std::vector<std::string> lines;                          // for people, of each grid and sample
   std::vector<std::string> divides;                        // what factors of safety divide, of rows without runs
+  bool failed = false;                                     // a reliability analysis has no probability
   bool interrupted = false;                                // while rows were drawn: nothing else is complete
 };
 
-// `rows` as table_of gives them. Samples on block theory are drawn and judged here.
-Findings findings_of(const StudyPlan& plan, const std::vector<StudyRow>& rows, bool quiet = true);
+using EvaluationsOf = std::function<Evaluate(const Sweep&)>;
+
+// `rows` as table_of gives them. Samples on block theory are drawn and judged here, and reliability analyses are made.
+Findings findings_of(const StudyPlan& plan, const std::vector<StudyRow>& rows, const EvaluationsOf& evaluations = {},
+                     bool quiet = true);
 
 }  // namespace voussoir

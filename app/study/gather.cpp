@@ -139,9 +139,11 @@ Gathered gather(const StudyFolder& study, const std::vector<fs::path>& folders) 
   return gathered;
 }
 
-ExitCode write_gathered(const StudyFolder& study, const Gathered& gathered, const std::string& remark, bool quiet) {
+ExitCode write_gathered(const StudyFolder& study, const Gathered& gathered, const std::string& remark,
+                        const WorkOptions& how) {
   const fs::path file = study.folder / "study.csv";
-  const Findings findings = findings_of(study.plan, gathered.rows, quiet);
+  const Findings findings = findings_of(
+      study.plan, gathered.rows, [&](const Sweep& sweep) { return evaluations_of(study, sweep, how); }, how.quiet);
   if (findings.interrupted) return tell_interruption(study.folder);
   write_file(file, study_csv(study.plan, gathered.rows));
   for (const auto& [name, content] : findings.files)
@@ -163,7 +165,7 @@ ExitCode write_gathered(const StudyFolder& study, const Gathered& gathered, cons
   for (const StudyRow& row : gathered.rows)
     if (!row.divides.empty()) divided.insert(row.divides);
   for (const std::string& sentence : divided)
-    fmt::print("{} {}\n", study.plan.quantity, one_line(sentence, 1000));
+    if (!sentence.empty()) fmt::print("{} {}\n", study.plan.quantity, one_line(sentence, 1000));
   for (const StudyRow& row : gathered.rows)
     if (has_failed(row)) fmt::print("failed: {}: {}\n", name_of_row(study.plan, row.row), row.status);
   if (!gathered.missing.empty())
@@ -173,8 +175,9 @@ ExitCode write_gathered(const StudyFolder& study, const Gathered& gathered, cons
     fmt::print("{}\n", damaged);
   for (const std::string& difference : gathered.differences)
     fmt::print("{}\n", difference);
-  return failed > 0 || !gathered.missing.empty() || !gathered.differences.empty() ? ExitCode::incomplete
-                                                                                  : ExitCode::done;
+  return failed > 0 || findings.failed || !gathered.missing.empty() || !gathered.differences.empty()
+             ? ExitCode::incomplete
+             : ExitCode::done;
 }
 
 ExitCode study_gather_command(const std::vector<fs::path>& folders) {
@@ -184,7 +187,7 @@ ExitCode study_gather_command(const std::vector<fs::path>& folders) {
       throw BadInput(fmt::format("'{}' contains another study than '{}': its manifest.jsonl differs", folder.string(),
                                  study.folder.string()));
   const SharedFolderLock lock(study.folder);
-  return write_gathered(study, gather(study, folders), "", false);
+  return write_gathered(study, gather(study, folders), "", {});
 }
 
 ExitCode study_status_command(const fs::path& folder) {

@@ -12,6 +12,7 @@
 #include "app/study/origins.hpp"
 #include "app/study/table.hpp"
 #include "app/study/warnings.hpp"
+#include "app/study/work_options.hpp"
 
 namespace voussoir {
 
@@ -28,9 +29,10 @@ struct Gathered {
 // (app/run_folder/results_hash.hpp) are a BadInput with the row's name.
 Gathered gather(const StudyFolder& study, const std::vector<std::filesystem::path>& folders);
 
-// Writes study.csv and prints a summary; `remark` is a line after the first, or empty; `quiet`: no progress of
-// rows that it draws.
-ExitCode write_gathered(const StudyFolder& study, const Gathered& gathered, const std::string& remark, bool quiet);
+// Writes study.csv and prints a summary; `remark` is a line after the first, or empty; `how`: of rows that it draws
+// itself, and of reliability analyses.
+ExitCode write_gathered(const StudyFolder& study, const Gathered& gathered, const std::string& remark,
+                        const WorkOptions& how);
 
 // study.csv of a planned study, from its folder or copies of it
 ExitCode study_gather_command(const std::vector<std::filesystem::path>& folders);

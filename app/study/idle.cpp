@@ -183,7 +183,17 @@ bool is_idle(const StudyPlan& plan, const Sweep& sweep, const TiedKey& key) {
 }
 
 const char* kind_of_sweep(const Sweep& sweep) {
-  return sweep.varied == Varied::grid ? "grid" : sweep.varied == Varied::sample ? "sample" : "sweep";
+  switch (sweep.varied) {
+    case Varied::grid:
+      return "grid";
+    case Varied::sample:
+      return "sample";
+    case Varied::reliability:
+      return "reliability analysis";
+    case Varied::one_key:
+      break;
+  }
+  return "sweep";
 }
 
 // ---- results ------------------------------------------------------------------------------------------------------

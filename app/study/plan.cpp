@@ -189,8 +189,10 @@ StudyPlan read_study_plan(const fs::path& path) {
   plan.sweeps.push_back({.name = "default", .values = {""}, .numbers = {std::nullopt}, .scene = folder / scene});
   using Read = Sweep (*)(const Subject&);
   std::vector<std::pair<std::size_t, Subject>> samples;
-  for (const auto& [key, read] :
-       {std::pair<const char*, Read>{"sweep", read_sweep}, {"grid", read_grid}, {"sample", read_sample}}) {
+  for (const auto& [key, read] : {std::pair<const char*, Read>{"sweep", read_sweep},
+                                  {"grid", read_grid},
+                                  {"sample", read_sample},
+                                  {"reliability", read_reliability}}) {
     for (const Subject& table : headed_tables(top, key)) {
       if (read == read_sample) samples.emplace_back(plan.sweeps.size(), table);
       plan.sweeps.push_back(read(table));
@@ -198,7 +200,8 @@ StudyPlan read_study_plan(const fs::path& path) {
     }
   }
   if (plan.sweeps.size() == 1)
-    refuse(top, "sweep", "must be at least one table; begin it with [[sweep]], [[grid]] or [[sample]]");
+    refuse(top, "sweep",
+           "must be at least one table; begin it with [[sweep]], [[grid]], [[sample]] or [[reliability]]");
   const std::vector<std::string> everywhere = read_overrides(top);
   const std::optional<OtherCommand> other = read_other(top);
   for (Sweep& sweep : plan.sweeps) {

@@ -81,34 +81,73 @@ Sweep read_sample(const Subject& table) {
   Sweep sample;
   sample.varied = Varied::sample;
   sample.key = "row of the sample";
-  sample.scatter = read_drawn_keys(table);
+  sample.drawn = read_drawn_keys(table);
   const std::optional<double> count = whole_number_of(table, "rows", 2, most_drawn);
   if (!count) refuse(table, "rows", "must be the number of runs, e.g. rows = 200");
-  sample.scatter->rows = static_cast<int>(*count);
+  sample.drawn->rows = static_cast<int>(*count);
   const std::string rule = "must be \"random\" or \"latin\"";
   const std::string method = table.node->find("method") ? text_of(table, "method", rule) : "random";
   if (method != "random" && method != "latin") refuse(table, "method", rule);
-  if (method == "latin") make_latin(*sample.scatter);
+  if (method == "latin") make_latin(*sample.drawn);
   sample.fails = read_fails(table);
   return sample;
 }
 
+Sweep read_reliability(const Subject& table) {
+  refuse_unknown_keys(table, "reliability");
+  Sweep analysis;
+  analysis.varied = Varied::reliability;
+  analysis.key = "reliability analysis";
+  analysis.drawn = read_drawn_keys(table);
+  for (const DrawnKey& key : analysis.drawn->keys) {
+    if (!key.pole && key.law.law == Law::seed)
+      refuse(table, "keys",
+             fmt::format("draw the seed of '{}', which has no order; a reliability analysis needs one: use "
+                         "[[sample]]",
+                         key.key));
+    if ((key.law.law == Law::normal || key.law.law == Law::lognormal) && !key.pole && key.law.deviation == 0)
+      refuse(table, "keys", fmt::format("give '{}' a deviation of 0: it does not scatter; write it in set", key.key));
+    if (key.per != DrawnPer::property)
+      refuse(table, "per", "is for samples with blocks = {}; state joint_properties for each joint instead");
+  }
+  analysis.fails = read_fails(table);
+  if (!analysis.fails) refuse(table, "fails", "must be a table { below = … } or { above = … }: what a failure is");
+  ReliabilityPlan plan;
+  const std::string rule = "must be \"importance\" or \"form\"";
+  const std::string method = table.node->find("method") ? text_of(table, "method", rule) : "importance";
+  if (method != "importance" && method != "form") refuse(table, "method", rule);
+  if (method == "form") plan.method = ReliabilityMethod::form;
+  plan.target = number_of(table, "target").value_or(plan.target);
+  if (!(plan.target >= 0.001 && plan.target <= 1)) refuse(table, "target", "must be from 0.001 to 1");
+  plan.most_rows = static_cast<int>(whole_number_of(table, "most_rows", 50, most_drawn).value_or(plan.most_rows));
+  analysis.reliability = plan;
+  const std::vector<std::string> names = analysis.drawn->scene_keys(), units = analysis.drawn->units();
+  for (std::size_t k = 0; k < names.size(); ++k)
+    analysis.with.push_back({names[k], {}, units[k]});
+  for (int row = 1; row <= 3; ++row) {
+    const std::vector<double> values = analysis.drawn->row(row);
+    for (std::size_t k = 0; k < names.size(); ++k)
+      analysis.with[k].values.push_back(fmt::format("{}", values[k]));
+  }
+  return analysis;
+}
+
 void draw_rows(const Subject& table, Sweep& sample) {
-  const DrawnKeys& scatter = *sample.scatter;
+  const DrawnKeys& drawn = *sample.drawn;
   const bool in_process = sample.is_drawn_in_process();
-  if (!in_process && scatter.rows > most_rows)
+  if (!in_process && drawn.rows > most_rows)
     refuse(table, "rows",
            fmt::format("must be a whole number, 2 to {:.0f}; with blocks = {{}} up to {:.0f}", most_rows, most_drawn));
-  for (const DrawnKey& key : scatter.keys)
+  for (const DrawnKey& key : drawn.keys)
     if (key.per != DrawnPer::property && !in_process)
       refuse(table, "per", "is for samples with blocks = {}; state joint_properties for each joint instead");
-  const std::vector<std::string> names = scatter.scene_keys(), units = scatter.units();
+  const std::vector<std::string> names = drawn.scene_keys(), units = drawn.units();
   for (std::size_t k = 0; k < names.size(); ++k)
     sample.with.push_back({names[k], {}, units[k]});
   // of rows without a run of their own the first ones tell whether a key acts
-  for (int row = 1; row <= (in_process ? std::min(scatter.rows, 3) : scatter.rows); ++row) {
+  for (int row = 1; row <= (in_process ? std::min(drawn.rows, 3) : drawn.rows); ++row) {
     if (!in_process) sample.values.push_back(std::to_string(row));
-    const std::vector<double> values = scatter.row(row);
+    const std::vector<double> values = drawn.row(row);
     for (std::size_t k = 0; k < names.size(); ++k)
       sample.with[k].values.push_back(fmt::format("{}", values[k]));
   }

@@ -44,8 +44,11 @@ double expected_cost(const LoadedScene& scene, bool steps_are_taken) {
   return steps * forecast.candidates;
 }
 
-PlannedRow row_at(const StudyPlan& plan, const Sweep& sweep, std::size_t place, const std::string& program) {
-  PlannedRow row{.run = {sweep.scene, overrides_of(sweep, place), sweep.other, {}, ""}};
+}  // namespace
+
+PlannedRow row_of(const StudyPlan& plan, const Sweep& sweep, const std::vector<std::string>& overrides,
+                  const std::string& program) {
+  PlannedRow row{.run = {sweep.scene, overrides, sweep.other, {}, ""}};
   const bool blocks = sweep.other && sweep.other->name == "blocks";
   const LoadedScene scene =
       (blocks ? load_blocks(row.run.scene, row.run.overrides) : load_scene(row.run.scene, row.run.overrides));
@@ -59,13 +62,11 @@ PlannedRow row_at(const StudyPlan& plan, const Sweep& sweep, std::size_t place, 
   return row;
 }
 
-}  // namespace
-
 std::vector<PlannedRow> rows_of_plan(const StudyPlan& plan, const std::string& program_digest) {
   std::vector<PlannedRow> rows;
   for (const Sweep& sweep : plan.sweeps)
     for (std::size_t k = 0; k < sweep.values.size(); ++k) {
-      rows.push_back(row_at(plan, sweep, k, program_digest));
+      rows.push_back(row_of(plan, sweep, overrides_of(sweep, k), program_digest));
       rows.back().row = static_cast<int>(rows.size());
     }
   return rows;

@@ -16,6 +16,10 @@ struct PlannedRow {
   StudyRun run;     // named by a digest of scene and program; `begin` is a name too
 };
 
+// A run of the sweep's scene with these overrides. Throws SceneError, BadInput.
+PlannedRow row_of(const StudyPlan& plan, const Sweep& sweep, const std::vector<std::string>& overrides,
+                  const std::string& program_digest);
+
 // Every row in order. All are read first: a mistake in the last must not appear after an hour. Throws SceneError,
 // BadInput.
 std::vector<PlannedRow> rows_of_plan(const StudyPlan& plan, const std::string& program_digest);

@@ -14,7 +14,7 @@ double share_of(int count, std::size_t of) {
 }
 
 const char* interval_of(const Sweep& sample) {
-  return sample.scatter && sample.scatter->latin
+  return sample.drawn && sample.drawn->latin
              ? "Clopper-Pearson of independent rows; those of a Latin hypercube are at least as good"
              : "Clopper-Pearson";
 }
@@ -85,11 +85,11 @@ std::string sample_json(const StudyPlan& plan, const Sweep& sample, const Sample
                                         {"nothing_moves", found.without->nothing_moves},
                                         {"undecided", found.without->undecided},
                                         {"refused", found.without->refused}};
-  if (sample.scatter) {
-    json["method"] = sample.scatter->latin ? "latin" : "random";
-    for (const DrawnKey& key : sample.scatter->keys)
+  if (sample.drawn) {
+    json["method"] = sample.drawn->latin ? "latin" : "random";
+    for (const DrawnKey& key : sample.drawn->keys)
       json["keys"].push_back({{"key", key.key}, {"law", law_text(key)}, {"unit", key.unit}});
-    for (const std::string& line : sharing_lines(*sample.scatter))
+    for (const std::string& line : sharing_lines(*sample.drawn))
       json["shared_draws"].push_back(line);
   }
   if (!found.results.empty()) {
@@ -130,13 +130,13 @@ std::vector<std::string> sample_lines(const Sweep& sample, const SampleFound& fo
     if (found.verdicts.undecided > 0)
       line += fmt::format(" to {:.4g}", 100 * share_of(failed.count + found.verdicts.undecided, of));
     line += fmt::format(" %, with 95 % confidence {:.4g} to {:.4g} %", 100 * failed.low, 100 * failed.high);
-    if (sample.scatter && sample.scatter->latin)
+    if (sample.drawn && sample.drawn->latin)
       line += " (of independent rows; those of a Latin hypercube are at least as good)";
   }
   std::vector<std::string> lines{line};
   if (found.without && found.without->count() > 0) lines.push_back(without_line(found));
-  if (found.failed && sample.scatter)
-    for (std::string& shared : sharing_lines(*sample.scatter))
+  if (found.failed && sample.drawn)
+    for (std::string& shared : sharing_lines(*sample.drawn))
       lines.push_back(std::move(shared));
   return lines;
 }

@@ -66,7 +66,7 @@ ExitCode study_command(const StudyArguments& arguments) {
   if (ended.interrupted) return tell_interruption(arguments.out);
   return write_gathered(planned.study, gather(planned.study, {arguments.out}),
                         fmt::format("{} different runs, {} of them kept from before\n", ended.runs, ended.kept),
-                        arguments.options.quiet);
+                        arguments.options);
 }
 
 void add_work(CLI::App* command, WorkOptions& work) {

@@ -41,8 +41,17 @@ struct Fails {
 };
 
 // one_key: several values of one key, and of keys tied to it; grid and sample: `with` contains all keys, `values` only
-// name the runs
-enum class Varied { one_key, grid, sample };
+// name the runs; reliability: there are no planned runs, and `with` has some values of the keys
+enum class Varied { one_key, grid, sample, reliability };
+
+// form: the design point and its first-order probability alone
+enum class ReliabilityMethod { importance, form };
+
+struct ReliabilityPlan {
+  ReliabilityMethod method = ReliabilityMethod::importance;
+  double target = 0.1;    // standard error over probability at which sampling ends
+  int most_rows = 20000;  // of importance sampling
+};
 
 // one key, several values
 struct Sweep {
@@ -59,7 +68,8 @@ struct Sweep {
   std::vector<std::size_t> counts = {};     // of a grid: the number of values of each key
   std::optional<Fails> fails = {};
   std::optional<OtherCommand> other = {};  // instead of `voussoir run`
-  std::optional<DrawnKeys> scatter = {};   // of a sample
+  std::optional<DrawnKeys> drawn = {};     // of a sample or a reliability analysis
+  std::optional<ReliabilityPlan> reliability = {};
 
   // Rows of block theory take microseconds: they are drawn and judged when a study is gathered, without runs of their
   // own. `values` is empty, and `with` has the first rows only.

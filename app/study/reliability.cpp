@@ -1,0 +1,221 @@
+#include "app/study/reliability.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/probability/normal.hpp"
+
+namespace voussoir {
+namespace {
+
+// steps of differences in u, by the error bar of the answers relative to their distance from the limit: an answer that
+// a search brackets needs a longer one
+constexpr double step_of_exact = 1e-3, step_of_fine = 1e-2, step_of_bracket = 0.1, step_of_wide_bracket = 0.3;
+constexpr double fine_bar = 1e-5, bracket_bar = 2e-3;
+// of second differences, which lose twice as many digits
+constexpr double step_of_curvature = 0.02;
+constexpr std::size_t most_keys_of_curvature = 12;
+// of the distance between two design points, that their mechanisms are told as near
+constexpr double near_beta = 1;
+
+double step_for(const EvaluatedSetting& medians, double g) {
+  if (!medians.error_bar) return step_of_exact;
+  const double bar = *medians.error_bar / std::max(std::abs(g), 1e-300);
+  return bar <= fine_bar ? step_of_fine : bar <= bracket_bar ? step_of_bracket : step_of_wide_bracket;
+}
+
+// asks for answers at points u, and remembers them
+class Asked {
+ public:
+  Asked(const Sweep& sweep, const Evaluate& evaluate, ReliabilityFound& found)
+      : sweep_(sweep), evaluate_(evaluate), found_(found) {}
+
+  std::string purpose;
+  bool reversed = false;
+  int below_zero = 0;  // answers with a friction angle below 0, taken as 0
+  int undecided = 0;   // whose error bar contains the limit
+
+  std::vector<StateAnswer> operator()(const std::vector<StandardPoint>& points) {
+    KeySettings settings;
+    for (const StandardPoint& u : points)
+      settings.push_back(values_at(u));
+    const std::vector<EvaluatedSetting> answers = evaluate_(settings);
+    std::vector<StateAnswer> limits;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      found_.rows.push_back({purpose, points[k], settings[k], answers[k]});
+      limits.push_back({g_of(answers[k]), answers[k].mode});
+      undecided += limits.back().g && answers[k].error_bar && std::abs(*limits.back().g) <= *answers[k].error_bar;
+    }
+    return limits;
+  }
+
+  // above 0: stands; of a reversed search: fails
+  std::optional<double> g_of(const EvaluatedSetting& answer) const {
+    if (!answer.value || !std::isfinite(*answer.value)) return std::nullopt;
+    const Fails& fails = *sweep_.fails;
+    const double g = fails.below ? *answer.value - fails.limit : fails.limit - *answer.value;
+    return reversed ? -g : g;
+  }
+
+ private:
+  // A law without ends may give a friction angle below 0, which is no friction.
+  std::vector<double> values_at(const StandardPoint& u) {
+    std::vector<double> values = sweep_.drawn->at(u);
+    const std::vector<std::string> keys = sweep_.drawn->scene_keys();
+    bool any = false;
+    for (std::size_t k = 0; k < keys.size(); ++k)
+      if (keys[k].ends_with("friction_deg") && values[k] < 0) {
+        values[k] = 0;
+        any = true;
+      }
+    below_zero += any;
+    return values;
+  }
+
+  const Sweep& sweep_;
+  const Evaluate& evaluate_;
+  ReliabilityFound& found_;
+};
+
+// Squares of the direction of the keys' normals z at the design point: γ = α L⁻¹/|α L⁻¹|; those of u if all are
+// independent.
+std::vector<double> importances_of(const DrawnKeys& drawn, const DesignPoint& point) {
+  std::vector<double> gamma = point.u;
+  if (!drawn.factor.empty())
+    for (std::size_t k = gamma.size(); k-- > 0;) {
+      for (std::size_t j = k + 1; j < gamma.size(); ++j)
+        gamma[k] -= drawn.factor[j][k] * gamma[j];
+      gamma[k] /= drawn.factor[k][k];
+    }
+  double size = 0;
+  for (const double g : gamma)
+    size += g * g;
+  for (double& g : gamma)
+    g = size > 0 ? g * g / size : 0;
+  return gamma;
+}
+
+// a design point that no strength has
+std::string impossible(const DrawnKeys& drawn, const std::vector<double>& values) {
+  const std::vector<std::string> keys = drawn.scene_keys();
+  for (std::size_t k = 0; k < keys.size(); ++k) {
+    if (keys[k].ends_with("friction_deg") && values[k] <= 0)
+      return fmt::format("the design point has a friction of {:.3g} deg ({}): use lognormal, or least = 0", values[k],
+                         keys[k]);
+    if (keys[k].ends_with("cohesion") && values[k] < 0)
+      return fmt::format("the design point has a cohesion of {:.3g} Pa ({}): use lognormal, or least = 0", values[k],
+                         keys[k]);
+  }
+  return "";
+}
+
+SamplingEstimate of_failing(SamplingEstimate estimate, bool medians_fail) {
+  if (!medians_fail) return estimate;
+  std::swap(estimate.low, estimate.high);
+  for (double* p : {&estimate.probability, &estimate.low, &estimate.high})
+    *p = std::clamp(1 - *p, 0.0, 1.0);
+  return estimate;
+}
+
+void warn_of_several(const ReliabilityFound& found, std::vector<std::string>& warnings) {
+  double largest = 0, sum = 0;
+  int near = 0;
+  for (const DesignPoint& point : found.points) {
+    if (std::abs(point.beta) > std::abs(found.points.front().beta) + near_beta) continue;
+    const double p = normal_probability(-point.beta);
+    largest = std::max(largest, p);
+    sum += p;
+    ++near;
+  }
+  if (near > 1 && !found.medians_fail)
+    warnings.push_back(
+        fmt::format("{} mechanisms fail within β + {:g}: to first order their union is between {:.3g} and {:.3g}", near,
+                    near_beta, largest, std::min(1.0, sum)));
+}
+
+void sample(const Sweep& sweep, Asked& asked, const LimitFunction& g, const DesignPointRequest& search,
+            ReliabilityFound& found) {
+  asked.purpose = "pilot";
+  const OtherPointsRequest others{.seed = sweep.drawn->seed, .search = search};
+  const OtherPoints points = find_other_design_points(g, found.points.front(), others);
+  found.points = points.points;
+  found.pilots = points.pilots;
+  for (const std::string& mode : points.modes_without)
+    found.warnings.push_back(
+        fmt::format("'{}' failed too, and no design point of it was found: the probability may be too low", mode));
+  asked.purpose = "importance";
+  asked.undecided = 0;
+  const SamplingRequest request{
+      .seed = sweep.drawn->seed, .target = sweep.reliability->target, .most_rows = sweep.reliability->most_rows};
+  const SamplingEstimate estimate = sample_by_importance(g, found.points, request);
+  found.sampled = of_failing(estimate, found.medians_fail);
+  if (!estimate.reached)
+    found.warnings.push_back(
+        fmt::format("the target of {:.3g} was not reached in {} rows (most_rows)", request.target, estimate.rows));
+  if (estimate.unanswered > 0)
+    found.warnings.push_back(
+        fmt::format("{} of {} rows have no answer and count as standing: the probability is per draw, not per draw in "
+                    "which a block can move",
+                    estimate.unanswered, estimate.rows));
+  if (asked.undecided > 0)
+    found.warnings.push_back(
+        fmt::format("the error bar of {} rows contains the limit; they count by their value", asked.undecided));
+}
+
+}  // namespace
+
+ReliabilityFound analyse_reliability(const Sweep& sweep, const Evaluate& evaluate) {
+  const DrawnKeys& drawn = *sweep.drawn;
+  ReliabilityFound found;
+  Asked asked(sweep, evaluate, found);
+  const LimitFunction g = [&](const std::vector<StandardPoint>& points) { return asked(points); };
+
+  asked.purpose = "medians";
+  const StandardPoint medians(drawn.components(), 0.0);
+  const std::optional<double> first = g({medians}).front().g;
+  if (!first) {
+    found.failure = fmt::format("the medians have no answer: {}", found.rows.front().answer.status);
+    return found;
+  }
+  found.g_at_medians = *first;
+  found.medians_fail = *first <= 0;
+  if (found.medians_fail) {
+    asked.reversed = true;
+    found.warnings.push_back(
+        "the medians fail: beta is negative, the probability above one half; a [[sample]] of 200 rows tells it best");
+  }
+
+  asked.purpose = "design point";
+  DesignPointRequest search;
+  search.step = step_for(found.rows.front().answer, *first);
+  search.bracket = found.rows.front().answer.error_bar.value_or(0);
+  search.g_at_medians = std::abs(*first);
+  search.reversed = found.medians_fail;
+  const DesignPointSearch form = find_design_point(g, drawn.components(), search);
+  if (!form.found) {
+    found.failure = form.reason;
+    return found;
+  }
+  found.points = {*form.found};
+  found.failure = impossible(drawn, drawn.at(form.found->u));
+  if (!found.failure.empty()) return found;
+  found.first_order = probability_of_pieces(*form.found);
+  if (search.step == step_of_exact && drawn.components() <= most_keys_of_curvature && !found.medians_fail) {
+    asked.purpose = "second order";
+    found.second_order = second_order(g, *form.found, step_of_curvature);
+  }
+  search.g_at_medians.reset();
+  if (sweep.reliability->method == ReliabilityMethod::importance) sample(sweep, asked, g, search, found);
+  warn_of_several(found, found.warnings);
+  if (asked.below_zero > 0)
+    found.warnings.push_back(fmt::format("{} answers are of a friction angle below 0, taken as 0", asked.below_zero));
+  for (const DesignPoint& point : found.points) {
+    found.point_values.push_back(drawn.at(point.u));
+    found.importances.push_back(importances_of(drawn, point));
+  }
+  return found;
+}
+
+}  // namespace voussoir
