@@ -9,6 +9,7 @@
 #include "app/base/message.hpp"
 #include "app/base/run_scene.hpp"
 #include "app/base/section_option.hpp"
+#include "app/blocks/back_analysis.hpp"
 #include "app/blocks/blocks_summary.hpp"
 #include "app/blocks/blocks_view.hpp"
 #include "app/blocks/kinematics_text.hpp"
@@ -42,7 +43,8 @@ struct BlocksArguments {
   bool frictionless = false;
   bool kinematics = false;
   std::string face;
-  double friction = 0;  // deg; 0: that of the joints
+  double friction = 0;        // deg; 0: that of the joints
+  std::string back_analysis;  // name of joint_properties; empty: none
   int top = 20;
   bool view = false;                  // view.html
   bool dxf = false;                   // blocks.dxf
@@ -52,8 +54,10 @@ struct BlocksArguments {
 
 fs::path folder_of(const BlocksArguments& arguments) {
   if (!arguments.out.empty()) return arguments.out;
-  return fs::path("results") /
-         (arguments.scene.scene.stem().string() + (arguments.kinematics ? "_kinematics" : "_blocks"));
+  const char* what = arguments.kinematics              ? "_kinematics"
+                     : arguments.back_analysis.empty() ? "_blocks"
+                                                       : "_back_analysis";
+  return fs::path("results") / (arguments.scene.scene.stem().string() + what);
 }
 
 std::optional<SeismicRequest> seismic_of(const BlocksArguments& arguments) {
@@ -137,6 +141,19 @@ ExitCode analyse_directions(const BlocksArguments& arguments, const SurveyReques
   return ExitCode::done;
 }
 
+ExitCode analyse_back(const BlocksArguments& arguments, const SurveyRequest& request, const LoadedScene& scene) {
+  const BackAnalysis analysis = std::visit(
+      [&](const auto& prepared) { return back_analysis(prepared, request, arguments.back_analysis); }, scene.prepared);
+  const fs::path folder = folder_of(arguments);
+  const ClaimedFolder claim(folder, Outputs{"blocks", {"back_analysis.csv", "results.json"}}, scene.files,
+                            arguments.overwrite);
+  tell_remarks(*scene.stated);
+  write_file(folder / "back_analysis.csv", back_analysis_csv(analysis));
+  write_results(folder, back_analysis_json(analysis, scene.title, scene.hash));
+  fmt::print("{}results: {}\n", back_analysis_text(analysis, scene.title), folder.string());
+  return ExitCode::done;
+}
+
 // of blocks whose pressure does not balance the moments of pure sliding
 template <int Dim>
 void balance_moments(Survey<Dim>& survey) {
@@ -204,14 +221,18 @@ ExitCode blocks_command(const BlocksArguments& arguments) {
   request.frictionless = arguments.frictionless;
   refuse_out_of_range(request);
   const LoadedScene scene = load_blocks(arguments.scene.scene, arguments.scene.overrides);
-  if (arguments.kinematics && (arguments.view || arguments.dxf || !arguments.sections.empty()))
-    throw BadInput(
-        fmt::format("--{} shows the verdicts of blocks; --kinematics compares directions: leave out one of the two",
-                    arguments.view  ? "view"
-                    : arguments.dxf ? "dxf"
-                                    : "section"));
+  const char* instead = arguments.kinematics              ? "--kinematics compares directions"
+                        : arguments.back_analysis.empty() ? nullptr
+                                                          : "--back-analysis varies a strength";
+  if (instead && (arguments.view || arguments.dxf || !arguments.sections.empty()))
+    throw BadInput(fmt::format("--{} shows the verdicts of blocks; {}: leave out one of the two",
+                               arguments.view  ? "view"
+                               : arguments.dxf ? "dxf"
+                                               : "section",
+                               instead));
   if (arguments.kinematics) return analyse_directions(arguments, request, scene);
   if (!arguments.face.empty() || arguments.friction > 0) throw BadInput("--face and --friction belong to --kinematics");
+  if (!arguments.back_analysis.empty()) return analyse_back(arguments, request, scene);
   return scene.dimension == 2 ? judge_scene<2>(arguments, request, scene) : judge_scene<3>(arguments, request, scene);
 }
 
@@ -259,6 +280,14 @@ void add_blocks(CLI::App& program, Action& action) {
   command->add_flag("--kinematics", arguments.kinematics,
                     "instead: the zones of plane sliding, wedge sliding and toppling of a rock face, with counts, and "
                     "block theory on every pair of joints (kinematic_pairs.csv in results/<scene>_kinematics)");
+  command
+      ->add_option(
+          "--back-analysis", arguments.back_analysis,
+          "instead: the pairs of cohesion and friction of these joint_properties at which the mass just stands "
+          "(back_analysis.csv in results/<scene>_back_analysis)")
+      ->check(plain_text())
+      ->type_name("NAME")
+      ->excludes("--kinematics");
   command->add_option("--face", arguments.face, "DIP/DIRECTION (deg) of that face")->check(plain_text());
   command
       ->add_option("--friction", arguments.friction,
