@@ -87,6 +87,7 @@ struct PointHunt {
     tried_modes.insert(row.answer.mode);
     DesignPointRequest search = request.search;
     search.start = row.u;
+    search.reversed = found.points.front().beta < 0;
     DesignPointSearch ended = find_design_point(limit, row.u.size(), search);
     found.evaluations += ended.evaluations;
     if (ended.found && is_new(*ended.found)) found.points.push_back(*std::move(ended.found));
