@@ -15,9 +15,9 @@ struct SecondOrder {
   int evaluations = 0;
 };
 
-// Of a point where g > 0 at the medians. The Hessian in the plane across u* by differences over `step`, one batch of
-// 2 (n - 1) + 4 (n - 1)(n - 2)/2 points, the point and one for the slope along u*. None at a kink, without an answer,
-// or where a bracket is not positive.
+// The Hessian in the plane across u* by differences over `step`, in one batch: 3 points for the slope along u*, and
+// 2 (n - 1) + 2 (n - 1)(n - 2) in the plane. None at a kink, without an answer, or where a bracket is not positive. Of
+// a reversed point, with the same -g, the probabilities are those to stand.
 std::optional<SecondOrder> second_order(const LimitFunction& g, const DesignPoint& point, double step);
 
 }  // namespace voussoir

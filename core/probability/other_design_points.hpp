@@ -18,7 +18,7 @@ struct OtherPointsRequest {
   DesignPointRequest search;  // of every further search; its start is not used
 };
 
-// a pilot row that failed is no part of any estimate
+// a row of the search, no part of any estimate
 struct PilotRow {
   StandardPoint u;
   StateAnswer answer;
@@ -29,10 +29,10 @@ struct OtherPoints {
   int evaluations = 0;              // pilots and searches
   int pilots = 0, starts = 0;
   std::vector<PilotRow> history;           // the pilots
-  std::vector<std::string> modes_without;  // modes that failed among the pilots, or at a search's end, without a point
+  std::vector<std::string> modes_without;  // that failed among the pilots and have no point
 };
 
-// Pilot rows spread by max(1, (β + 1)/√keys); a failed one that no known half-space direction·u >= distance explains
+// Pilot rows spread by max(1, (β + 1)/√keys); a failed one that no known half-space α·u >= β explains, α = u*/β,
 // starts a search, the nearest first; so does a mode that failed and has no design point. A point is kept if it is
 // farther than 0.3 β from the others and Φ(-β) above a thousandth of theirs. Row k depends on (seed, k) alone. For a
 // reversed first point hand -g over, as to its search.
