@@ -339,17 +339,23 @@ std::string law_text(const DrawnKey& key) {
   return text;
 }
 
-std::vector<std::string> sharing_lines(const DrawnKeys& drawn) {
-  std::vector<std::string> lines;
-  for (const DrawnKey& key : drawn.keys) {
-    if (!key.key.starts_with("joint_properties.")) continue;
-    const char* shared = key.per == DrawnPer::property ? "all joints with these properties share a draw"
-                         : key.per == DrawnPer::set    ? "the joints of a set share a draw"
-                                                       : "each joint has a draw of its own";
-    lines.push_back(fmt::format("{}: {}{}", key.key, shared,
-                                key.key.ends_with("friction_deg") ? "; the angle is drawn, not its tangent" : ""));
+std::string sharing_text(const DrawnKeys& drawn) {
+  constexpr std::string_view begin = "joint_properties.";
+  std::vector<std::string> parts;
+  bool angles = false;
+  for (const auto& [per, shared] : {std::pair{DrawnPer::property, "joints of the same properties share a draw"},
+                                    {DrawnPer::set, "joints of the same set share a draw"},
+                                    {DrawnPer::joint, "each joint has a draw of its own"}}) {
+    std::vector<std::string> names;
+    for (const DrawnKey& key : drawn.keys)
+      if (key.key.starts_with(begin) && key.per == per) {
+        names.push_back(key.key.substr(begin.size()));
+        angles |= key.key.ends_with("friction_deg");
+      }
+    if (!names.empty()) parts.push_back(fmt::format("{} ({})", shared, fmt::join(names, ", ")));
   }
-  return lines;
+  if (parts.empty()) return "";
+  return fmt::format("{}{}", fmt::join(parts, "; "), angles ? "; angles are drawn, not their tangents" : "");
 }
 
 std::optional<double> whole_number_of(const Subject& table, const char* key, double least, double most) {

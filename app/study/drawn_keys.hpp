@@ -60,8 +60,8 @@ void make_latin(DrawnKeys& drawn);
 // a line for people and files: "normal, mean 38, deviation 3"
 std::string law_text(const DrawnKey& key);
 
-// "which joints share a draw", for each key of joint properties; empty if there is none
-std::vector<std::string> sharing_lines(const DrawnKeys& drawn);
+// which joints share a draw, a line for people; empty if no key is of joint properties
+std::string sharing_text(const DrawnKeys& drawn);
 
 // a whole number under `key`, or nothing
 std::optional<double> whole_number_of(const Subject& table, const char* key, double least, double most);

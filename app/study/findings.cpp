@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/study/drawn_sample.hpp"
+#include "app/study/finding_names.hpp"
 #include "app/study/reliability.hpp"
 #include "app/study/sample_findings.hpp"
 #include "text/csv_table.hpp"
@@ -95,29 +96,6 @@ SampleFound found_by(const Sweep& sample, const std::vector<StudyRow>& rows) {
 }
 
 }  // namespace
-
-std::vector<std::string> finding_names(const StudyPlan& plan) {
-  std::vector<std::string> names;
-  int grids = 0, samples = 0, analyses = 0;
-  for (const Sweep& sweep : plan.sweeps) {
-    if (sweep.varied == Varied::grid) {
-      ++grids;
-      for (const char* kind : {"csv", "json"})
-        names.push_back(fmt::format("grid_{}.{}", grids, kind));
-    }
-    if (sweep.varied == Varied::sample) {
-      ++samples;
-      for (const char* kind : {"csv", "json"})
-        names.push_back(fmt::format("sample_{}.{}", samples, kind));
-    }
-    if (sweep.varied == Varied::reliability) {
-      ++analyses;
-      for (const char* kind : {"csv", "json"})
-        names.push_back(fmt::format("reliability_{}.{}", analyses, kind));
-    }
-  }
-  return names;
-}
 
 Findings findings_of(const StudyPlan& plan, const std::vector<StudyRow>& all, const EvaluationsOf& evaluations,
                      bool quiet) {

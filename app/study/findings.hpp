@@ -13,9 +13,6 @@
 
 namespace voussoir {
 
-// the files' names, of the first grid and the first sample from 1
-std::vector<std::string> finding_names(const StudyPlan& plan);
-
 struct Findings {
   std::vector<std::pair<std::string, std::string>> files;  // name and content, in the order of their names
   std::vector<std::string> lines;                          // for people, of each grid and sample

@@ -9,7 +9,7 @@
 
 #include "app/base/digest.hpp"
 #include "app/run_folder/run_folder.hpp"
-#include "app/study/findings.hpp"
+#include "app/study/finding_names.hpp"
 #include "core/base/bad_input.hpp"
 #include "core/output/atomic_file.hpp"
 #include "core/run/checkpoint.hpp"

@@ -142,9 +142,13 @@ void sample(const Sweep& sweep, Asked& asked, const LimitFunction& g, const Desi
   const OtherPoints points = find_other_design_points(g, found.points.front(), others);
   found.points = points.points;
   found.pilots = points.pilots;
+  // at a kink mechanisms meet, and the point belongs to all of them
+  const bool kink =
+      std::ranges::any_of(points.points, [](const DesignPoint& point) { return point.pieces.size() > 1; });
   for (const std::string& mode : points.modes_without)
-    found.warnings.push_back(
-        fmt::format("'{}' failed too, and no design point of it was found: the probability may be too low", mode));
+    if (!kink)
+      found.warnings.push_back(
+          fmt::format("'{}' failed too, and no design point of it was found: the probability may be too low", mode));
   asked.purpose = "importance";
   asked.undecided = 0;
   const SamplingRequest request{

@@ -76,7 +76,7 @@ std::string reliability_json(const StudyPlan& plan, const Sweep& sweep, const Re
   for (const CorrelatedPair& pair : drawn.correlated)
     json["correlation"].push_back(
         {{"components", {pair.a, pair.b}}, {"of_values", pair.of_values}, {"of_normals", pair.of_normals}});
-  json["shared_draws"] = sharing_lines(drawn);
+  json["shared_draws"] = sharing_text(drawn);
   json["g_at_medians"] = found.g_at_medians;
   json["medians_fail"] = found.medians_fail;
   json["failure"] = found.failure;
@@ -176,8 +176,7 @@ std::vector<std::string> reliability_lines(const Sweep& sweep, const Reliability
     if (found.second_order) orders += fmt::format(", to second order {:.3g}", found.second_order->hohenbichler);
     lines.push_back(orders);
   }
-  for (const std::string& shared : sharing_lines(drawn))
-    lines.push_back("  " + shared);
+  if (const std::string shared = sharing_text(drawn); !shared.empty()) lines.push_back("  " + shared);
   for (const std::string& warning : found.warnings)
     lines.push_back("  " + warning);
   return lines;

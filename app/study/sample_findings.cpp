@@ -89,8 +89,7 @@ std::string sample_json(const StudyPlan& plan, const Sweep& sample, const Sample
     json["method"] = sample.drawn->latin ? "latin" : "random";
     for (const DrawnKey& key : sample.drawn->keys)
       json["keys"].push_back({{"key", key.key}, {"law", law_text(key)}, {"unit", key.unit}});
-    for (const std::string& line : sharing_lines(*sample.drawn))
-      json["shared_draws"].push_back(line);
+    json["shared_draws"] = sharing_text(*sample.drawn);
   }
   if (!found.results.empty()) {
     json["mean"] = found.moments.mean.value;
@@ -135,9 +134,8 @@ std::vector<std::string> sample_lines(const Sweep& sample, const SampleFound& fo
   }
   std::vector<std::string> lines{line};
   if (found.without && found.without->count() > 0) lines.push_back(without_line(found));
-  if (found.failed && sample.drawn)
-    for (std::string& shared : sharing_lines(*sample.drawn))
-      lines.push_back(std::move(shared));
+  if (const std::string shared = sample.drawn ? sharing_text(*sample.drawn) : ""; found.failed && !shared.empty())
+    lines.push_back("  " + shared);
   return lines;
 }
 

@@ -308,7 +308,8 @@ TEST_F(StudySample, BothAreReadStrictly) {
     expect_one_line(run("study study.toml --out bad"), 2, part);
     EXPECT_FALSE(fs::exists(folder_ / "bad")) << to;
   };
-  refuse(sample, "rows = 24", "rows = 1", "whole number, 2 to 100000");
+  refuse(sample, "rows = 24", "rows = 1", "whole number, 2 to 5000000");
+  refuse(sample, "rows = 24", "rows = 100001", "with blocks = {} up to 5000000");
   refuse(sample, "rows = 24", "", "rows");
   refuse(sample, "seed = 5", "seed = 1.5", "whole number");
   refuse(sample, "\"lognormal\"", "\"weibull\"", "must be one of");
