@@ -26,7 +26,7 @@ struct DesignPointRequest {
   // search closes in, to 1e-3.
   double step = 0.1;
   double tolerance = 1e-3;  // of u relative to max(1, |u|), of g relative to g at the medians or its change by one u
-  // Half the width to which g is known; 0: to all digits. No smaller |g| is asked for, and the tolerance is at least
+  // The width to which g is known; 0: to all digits. No smaller |g| is asked for, and the tolerance is at least
   // twice this, relative to the same.
   double bracket = 0;
   int most_iterations = 40;            // of the first try
