@@ -19,13 +19,14 @@ constexpr double allowed_growth = 0.1;  // of the first g: as large may |g| beco
 constexpr double longest_step = 6;      // in u
 constexpr double farthest_point = 37;   // Φ(-37) is about the least double
 
-// Cosines: of linearisations that are one if answers are exact, if they are brackets (3°); and of a design point's
-// direction with the slope of g there, at which it is smooth (3°).
-constexpr double parallel_of_exact = 0.999999, parallel_of_brackets = 0.9986;
-constexpr double smooth_of_exact = 0.9986, smooth_of_brackets = 0.985;
+// Linearisations are one if their directions differ by no more: the least angle, or the tolerance if it is larger; a
+// cosine (3°) of brackets.
+constexpr double least_angle = 1e-4;
+constexpr double parallel_of_brackets = 0.9986;
 
-// In u: a linearisation that was taken farther away than this does not hold a design point at a kink.
-constexpr double near_enough = 0.15;
+// Cosines of a point's direction with the slope of g there, at which it counts as smooth (3°, 10°); and in tolerances
+// the sine at which the search of exact answers may end there, for its error of β is half the square of it.
+constexpr double smooth_of_exact = 0.9986, smooth_of_brackets = 0.985, aligned_within = 10;
 
 // Differences shrink to this part of the way to the next point, but not below the least one, nor to where g changes by
 // less than so many brackets.
@@ -99,9 +100,19 @@ struct DesignPointWalk {
 
   bool is_small(double g) const { return std::abs(g) <= std::max(tolerance() * scale, request.bracket); }
 
-  // the slope of g at a design point is along u
+  double parallel() const {
+    const double sine = std::max(request.tolerance, least_angle);
+    return request.bracket > 0 ? parallel_of_brackets : 1 - sine * sine / 2;
+  }
+
+  // the slope of g at a smooth design point is along u
   bool is_smooth(const Linearisations& memory, const StandardPoint& u) const {
     return memory.alignment(u) >= (request.bracket > 0 ? smooth_of_brackets : smooth_of_exact);
+  }
+
+  bool is_aligned(const Linearisations& memory, const StandardPoint& u) const {
+    const double sine = aligned_within * tolerance();
+    return request.bracket > 0 ? is_smooth(memory, u) : memory.alignment(u) >= 1 - sine * sine / 2;
   }
 
   // A step towards the next point, shortened while |g| grows or there is no answer or slope; none: there never is.
@@ -149,18 +160,17 @@ struct DesignPointWalk {
       search.looked_at.push_back(local.u);
       search.last = local.u;
       const double away = length(local.u), within = tolerance() * std::max(1.0, away);
-      memory.add(local, request.bracket > 0 ? parallel_of_brackets : parallel_of_exact,
-                 std::max(request.bracket, allowed_rounding * scale));
+      memory.add(local, parallel(), std::max(request.bracket, allowed_rounding * scale));
       if (manner.damped) memory.keep_newest();
       StandardPoint next = memory.next();
-      if (distance(next, local.u) <= within && is_small(local.g) && !is_smooth(memory, local.u) &&
-          memory.is_pulled_from_beyond(local.u, near_enough)) {
+      if (distance(next, local.u) <= within && is_small(local.g) && !is_aligned(memory, local.u) &&
+          memory.is_pulled_from_afar(within)) {
         if (doubted && distance(doubted->u, local.u) <= within) {
           search.found = std::move(doubted);
           return true;
         }
         doubted = told(local, memory, iteration);
-        memory.forget_beyond(local.u, near_enough);
+        memory.forget_afar(within);
         next = memory.next();
       }
       const double way = distance(next, local.u);

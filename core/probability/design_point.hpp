@@ -11,12 +11,6 @@
 
 namespace voussoir {
 
-// a linearisation of g = 0: direction·u >= distance fails
-struct FailedHalfSpace {
-  StandardPoint direction;  // unit
-  double distance = 0;
-};
-
 struct DesignPoint {
   StandardPoint u;
   double beta = 0;  // |u|; of a reversed search -|u|
@@ -28,10 +22,14 @@ struct DesignPoint {
 };
 
 struct DesignPointRequest {
-  double step = 0.1;        // of the forward differences, in u; about 0.3 for answers that are brackets
-  double tolerance = 1e-3;  // of u relative to max(1, |u|), of g relative to the first g
-  double bracket = 0;       // g is known to within this: no smaller |g| is asked for
-  int most_iterations = 40;
+  // Of the forward differences, in u; about 0.3 for answers that are brackets. Of exact answers they shrink as the
+  // search closes in, to 1e-3.
+  double step = 0.1;
+  double tolerance = 1e-3;  // of u relative to max(1, |u|), of g relative to g at the medians or its change by one u
+  // The width to which g is known; 0: to all digits. No smaller |g| is asked for, and the tolerance is at least
+  // twice this, relative to the same.
+  double bracket = 0;
+  int most_iterations = 40;            // of the first try
   StandardPoint start;                 // empty: the medians
   std::optional<double> g_at_medians;  // if it is known: saves an evaluation
   // The medians fail: the caller hands -g over, so that the point searched is the nearest that stands, and beta is told
@@ -47,12 +45,16 @@ struct DesignPointSearch {
   std::vector<StandardPoint> looked_at;  // by iteration
 };
 
-// FORM with memory: the next point is the nearest to the medians that all of the last linearisations call failed; with
-// one of them this is the method of Hasofer, Lind, Rackwitz & Fiessler, which kinks defeat. Precondition: keys > 0.
+// FORM with memory: the next point is the nearest to the medians that all of the last linearisations call failed. With
+// one of them this is the method of Hasofer, Lind, Rackwitz & Fiessler, which does not converge at kinks and cycles
+// where g = 0 curves much. A batch is a point and its differences, keys + 1 points; a step on which |g| grows or that
+// ends without an answer is halved, at the cost of a point each. If this finds none, a search from where it ended takes
+// half steps without memory, then one with differences three times as wide; each at most half as long. Precondition:
+// keys > 0.
 DesignPointSearch find_design_point(const LimitFunction& g, std::size_t keys, const DesignPointRequest& request);
 
-// First-order probability of failure: Φ(-β) of one piece, Φ₂ of two that must both fail; none for more. A reversed
-// point's is that of standing's complement, 1 - these.
+// First-order probability of failure: Φ(-β) of one piece, Φ₂ of two that must both fail; none for more. Of a reversed
+// point 1 minus these, for they are probabilities to stand.
 std::optional<double> probability_of_pieces(const DesignPoint& point);
 
 }  // namespace voussoir

@@ -132,6 +132,26 @@ TEST(DesignPoint, CurvedLimitStates) {
   }
 }
 
+// limit states on which plain iteration is known to cycle or to be slow; β by a scan of all directions
+TEST(DesignPoint, TextbookProblems) {
+  const auto expect = [](const std::function<double(double, double)>& g, double beta, int evaluations) {
+    const DesignPointSearch search =
+        find_design_point(of([&](const StandardPoint& u) { return g(u[0], u[1]); }), 2, {});
+    ASSERT_TRUE(search.found) << search.reason;
+    EXPECT_NEAR(search.found->beta, beta, 1e-3 * beta);
+    EXPECT_LE(search.evaluations, evaluations);
+  };
+  const auto cube = [](double x) { return x * x * x; };
+  expect([&](double u, double v) { return cube(10 + 5 * u) + cube(9.9 + 5 * v) - 18; }, 2.22599, 42);
+  expect([&](double u, double v) { return (10 + 5 * u) * cube(10 + 5 * u) + 2 * (10 + 5 * v) * cube(10 + 5 * v) - 20; },
+         2.36545, 60);
+  expect([](double u, double v) { return std::exp(0.4 * (u + 2) + 6.2) - std::exp(0.3 * v + 5) - 200; }, 2.70990, 18);
+  expect([](double u, double v) { return std::exp(0.2 * u + 1.4) - v; }, 3.34969, 18);
+  expect([](double u, double v) { return 3 - u + 0.3 * std::sin(3 * v) + 0.2 * std::cos(2 * u); }, 2.91450, 60);
+  // flat around the medians
+  expect([](double u, double v) { return std::min(1.0, 3 - u - v) + 1e-3 * (5 - u - v); }, 2.12273, 15);
+}
+
 // the factor known to brackets only, in twenty places of the bracket
 TEST(DesignPoint, Brackets) {
   const auto worst = [](const Problem& problem, double bracket, double beta) {

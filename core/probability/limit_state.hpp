@@ -19,4 +19,10 @@ struct StateAnswer {
 // points at once as they can.
 using LimitFunction = std::function<std::vector<StateAnswer>(const std::vector<StandardPoint>&)>;
 
+// a linearisation of g = 0: direction·u >= distance fails
+struct FailedHalfSpace {
+  StandardPoint direction;  // unit
+  double distance = 0;
+};
+
 }  // namespace voussoir

@@ -10,6 +10,14 @@ namespace {
 // all sets of them are tried in the search of the nearest point
 constexpr std::size_t most_kept = 8;
 
+// radius of curvature, at a change of direction of one radian, from which on a limit state is taken for smooth
+constexpr double kink_radius = 1.0 / 3;
+
+bool is_afar(const Linearisation& one, const Linearisation& newest, double within) {
+  const double turn = distance(one.half_space.direction, newest.half_space.direction);
+  return distance(one.at, newest.at) > std::max(kink_radius * turn, within);
+}
+
 std::vector<FailedHalfSpace> half_spaces_of(const std::vector<Linearisation>& kept) {
   std::vector<FailedHalfSpace> half_spaces;
   for (const Linearisation& one : kept)
@@ -45,8 +53,14 @@ void Linearisations::keep_newest() {
   kept.erase(kept.begin(), kept.end() - 1);
 }
 
-void Linearisations::forget_beyond(const StandardPoint& u, double away) {
-  std::erase_if(kept, [&](const Linearisation& one) { return distance(one.at, u) > away; });
+bool Linearisations::is_pulled_from_afar(double within) const {
+  return std::ranges::any_of(
+      kept, [&](const Linearisation& one) { return one.pull > 0 && is_afar(one, kept.back(), within); });
+}
+
+void Linearisations::forget_afar(double within) {
+  const Linearisation newest = kept.back();
+  std::erase_if(kept, [&](const Linearisation& one) { return is_afar(one, newest, within); });
 }
 
 StandardPoint Linearisations::next() {
@@ -69,11 +83,6 @@ StandardPoint Linearisations::next() {
 double Linearisations::alignment(const StandardPoint& u) const {
   const double away = length(u);
   return away > 0 ? dot(kept.back().half_space.direction, u) / away : 1;
-}
-
-bool Linearisations::is_pulled_from_beyond(const StandardPoint& u, double away) const {
-  return std::ranges::any_of(kept,
-                             [&](const Linearisation& one) { return one.pull > 0 && distance(one.at, u) > away; });
 }
 
 std::vector<FailedHalfSpace> Linearisations::pieces(const StandardPoint& u, double tolerance) const {

@@ -33,7 +33,11 @@ struct Linearisations {
   void add(const LocalAnswer& local, double parallel, double allowance);
 
   void keep_newest();
-  void forget_beyond(const StandardPoint& u, double away);
+
+  // One was taken afar if it is farther from the newest than a third of the change of direction (or `within`): then a
+  // curved limit state gives such a change too, and no kink.
+  bool is_pulled_from_afar(double within) const;
+  void forget_afar(double within);
 
   // The nearest point to the medians that all of them call failed, its pulls noted; older ones are given up where there
   // is none. Of a single one it is the foot of the plane, wherever the medians are.
@@ -41,8 +45,6 @@ struct Linearisations {
 
   // the cosine between the newest's direction and u
   double alignment(const StandardPoint& u) const;
-
-  bool is_pulled_from_beyond(const StandardPoint& u, double away) const;
 
   // As few of them as hold the nearest point within `tolerance` of u; rather older ones, for at a kink the newest may
   // be of differences across it.

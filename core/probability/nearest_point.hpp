@@ -1,9 +1,10 @@
 // The point nearest to the medians that several half-spaces call failed.
 #pragma once
 
+#include <optional>
 #include <vector>
 
-#include "core/probability/design_point.hpp"
+#include "core/probability/limit_state.hpp"
 
 namespace voussoir {
 
