@@ -15,7 +15,7 @@ struct OtherPointsRequest {
   std::uint64_t seed = 0;
   int pilots = 200;
   int most_starts = 4;
-  DesignPointRequest search;  // of every further search; its start is not used
+  DesignPointRequest search{};  // of every further search; its start is not used
 };
 
 // a row of the search, no part of any estimate
