@@ -17,6 +17,7 @@ constexpr double fine_bar = 1e-5, bracket_bar = 2e-3;
 // of second differences, which lose twice as many digits
 constexpr double step_of_curvature = 0.02;
 constexpr std::size_t most_keys_of_curvature = 12;
+constexpr double most_of_one_row = 0.1;  // of the estimate
 // of the distance between two design points, that their mechanisms are told as near
 constexpr double near_beta = 1;
 
@@ -149,6 +150,11 @@ void sample(const Sweep& sweep, Asked& asked, const LimitFunction& g, const Desi
     if (!kink)
       found.warnings.push_back(
           fmt::format("'{}' failed too, and no design point of it was found: the probability may be too low", mode));
+  if (points.lost > 0)
+    found.warnings.push_back(fmt::format(
+        "{} of {} searches from pilot rows that failed found no design point: the answer jumps there, and the "
+        "probability may be too low; a [[sample]] tells it without design points",
+        points.lost, points.starts));
   asked.purpose = "importance";
   asked.undecided = 0;
   const SamplingRequest request{
@@ -158,6 +164,17 @@ void sample(const Sweep& sweep, Asked& asked, const LimitFunction& g, const Desi
   if (!estimate.reached)
     found.warnings.push_back(
         fmt::format("the target of {:.3g} was not reached in {} rows (most_rows)", request.target, estimate.rows));
+  double largest = 0, sum = 0;
+  for (const SamplingRow& row : estimate.history)
+    if (row.failed) {
+      largest = std::max(largest, row.weight);
+      sum += row.weight;
+    }
+  if (largest > most_of_one_row * sum)
+    found.warnings.push_back(fmt::format(
+        "one row carries {:.0f} % of the probability: it failed far from the design points, and others like it "
+        "may be missed",
+        100 * largest / sum));
   if (estimate.unanswered > 0)
     found.warnings.push_back(
         fmt::format("{} of {} rows have no answer and count as standing: the probability is per draw, not per draw in "

@@ -25,7 +25,7 @@ struct PointHunt {
   OtherPoints& found;
   std::vector<PilotRow> failed;  // the nearest first
   std::vector<StandardPoint> tried;
-  std::set<std::string> tried_modes;
+  std::set<std::string> tried_modes, ends_at_known;  // from whose failed rows the search ended at a known point
 
   void ask_pilots() {
     const DesignPoint& first = found.points.front();
@@ -90,7 +90,12 @@ struct PointHunt {
     search.reversed = found.points.front().beta < 0;
     DesignPointSearch ended = find_design_point(limit, row.u.size(), search);
     found.evaluations += ended.evaluations;
-    if (ended.found && is_new(*ended.found)) found.points.push_back(*std::move(ended.found));
+    if (!ended.found)
+      ++found.lost;
+    else if (is_new(*ended.found))
+      found.points.push_back(*std::move(ended.found));
+    else
+      ends_at_known.insert(row.answer.mode);
   }
 };
 
@@ -100,7 +105,7 @@ OtherPoints find_other_design_points(const LimitFunction& limit, const DesignPoi
                                      const OtherPointsRequest& request) {
   OtherPoints found;
   found.points.push_back(first);
-  PointHunt hunt{limit, request, found, {}, {}, {}};
+  PointHunt hunt{limit, request, found, {}, {}, {}, {}};
   hunt.ask_pilots();
   for (const PilotRow* start = hunt.next_start(); start && found.starts < request.most_starts;
        start = hunt.next_start())
@@ -108,7 +113,8 @@ OtherPoints find_other_design_points(const LimitFunction& limit, const DesignPoi
   std::ranges::stable_sort(found.points, {}, [](const DesignPoint& point) { return length(point.u); });
   std::set<std::string> modes;
   for (const PilotRow& row : hunt.failed)
-    if (!row.answer.mode.empty() && !hunt.has_point(row.answer.mode)) modes.insert(row.answer.mode);
+    if (!row.answer.mode.empty() && !hunt.has_point(row.answer.mode) && !hunt.ends_at_known.contains(row.answer.mode))
+      modes.insert(row.answer.mode);
   found.modes_without.assign(modes.begin(), modes.end());
   return found;
 }

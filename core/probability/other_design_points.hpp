@@ -28,8 +28,10 @@ struct OtherPoints {
   std::vector<DesignPoint> points;  // the first one included, by rising beta
   int evaluations = 0;              // pilots and searches
   int pilots = 0, starts = 0;
-  std::vector<PilotRow> history;           // the pilots
-  std::vector<std::string> modes_without;  // that failed among the pilots and have no point
+  std::vector<PilotRow> history;  // the pilots
+  int lost = 0;                   // starts that led to no point: the answer jumps there, or has gaps
+  // modes that failed among the pilots, have no point, and from which no search ended at a known one
+  std::vector<std::string> modes_without;
 };
 
 // Pilot rows spread by max(1, (β + 1)/√keys); a failed one that no known half-space α·u >= β explains, α = u*/β,
