@@ -19,9 +19,6 @@
 namespace voussoir {
 namespace {
 
-const std::vector<std::string> quantities{"least_factor", "volume_below_1", "blocks_below_1",
-                                          "least_critical_coefficient"};
-
 template <int Dim>
 bool has_free_block(const Model<Dim>& model) {
   return std::ranges::any_of(model.bodies,
@@ -76,11 +73,10 @@ std::string status_text(const BlocksAnswer& answer) {
 BlocksAnswers::BlocksAnswers(const std::filesystem::path& scene, const std::vector<std::string>& overrides,
                              const std::vector<std::string>& options, const std::string& quantity)
     : file_(scene), overrides_(overrides), request_(request_of(options)), quantity_(quantity), stated_(tree_of(scene)) {
-  if (std::ranges::find(quantities, quantity) == quantities.end() ||
-      (quantity == "least_critical_coefficient" && !request_.seismic))
-    throw BadInput(fmt::format(
-        "quantity = \"{}\": block theory has {}; {}", quantity, fmt::join(quantities, ", "),
-        request_.seismic ? suggestion(quantity, quantities) : "the last one with blocks = { seismic = \"0.1\" } only"));
+  const std::vector<std::string> names = names_of_mass_values(request_.seismic.has_value());
+  if (std::ranges::find(names, quantity) == names.end())
+    throw BadInput(
+        fmt::format("quantity = \"{}\": block theory has no such value; {}", quantity, suggestion(quantity, names)));
   scene_ = std::make_shared<Scene>(read_tree(stated_, file_.string(), overrides_));
   prepared_ = prepare_blocks(*scene_);
   if (quantity == "volume_below_1") unit_ = scene_->dimension == 3 ? "m3" : "m2";

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "core/key_blocks/mass_values.hpp"
 #include "core/scene/node.hpp"
 #include "text/csv_table.hpp"
 #include "text/plain_text.hpp"
@@ -88,7 +89,8 @@ RunFound found_in_json(const nlohmann::json& results, const fs::path& folder, co
       plan.history ? taken(folder / "history.csv", *plan.history) : value_of(results.at("values"), plan.quantity);
   if (!found.result)
     found.status = plan.history ? fmt::format("no column {} with numbers in history.csv", plan.history->column)
-                                : "no value of this name";
+                   : results.at("schema") == "voussoir.blocks_values" ? "no block can move"
+                                                                      : "no value of this name";
   return found;
 }
 
@@ -106,6 +108,8 @@ std::optional<std::string> missing_quantity(const fs::path& folder, const StudyP
       for (const CsvCell& cell : reader.header())
         names.push_back(cell.text);
     } else {
+      // a mass in which nothing moves has no factor
+      if (results.at("schema") == "voussoir.blocks_values") names = names_of_mass_values();
       for (const auto& [name, value] : results.at("values").items())
         names.push_back(name);
     }

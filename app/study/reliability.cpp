@@ -12,6 +12,7 @@ namespace {
 
 // steps of differences in u, by the error bar of the answers relative to their distance from the limit: an answer that
 // a search brackets needs a longer one
+constexpr double tolerance_of_exact = 1e-5;  // of design points whose answers cost microseconds
 constexpr double step_of_exact = 1e-3, step_of_fine = 1e-2, step_of_bracket = 0.1, step_of_wide_bracket = 0.3;
 constexpr double fine_bar = 1e-5, bracket_bar = 2e-3;
 // of second differences, which lose twice as many digits
@@ -155,12 +156,21 @@ void sample(const Sweep& sweep, Asked& asked, const LimitFunction& g, const Desi
         "{} of {} searches from pilot rows that failed found no design point: the answer jumps there, and the "
         "probability may be too low; a [[sample]] tells it without design points",
         points.lost, points.starts));
+  for (const std::string& mode : points.modes_behind)
+    found.warnings.push_back(fmt::format("'{}' fails too, nowhere nearer than the design points", mode));
   asked.purpose = "importance";
   asked.undecided = 0;
   const SamplingRequest request{
       .seed = sweep.drawn->seed, .target = sweep.reliability->target, .most_rows = sweep.reliability->most_rows};
   const SamplingEstimate estimate = sample_by_importance(g, found.points, request);
   found.sampled = of_failing(estimate, found.medians_fail);
+  if (estimate.failed == 0) {
+    found.failure = fmt::format(
+        "none of {} rows around the design point failed: the answer jumps there, or never passes the "
+        "limit",
+        estimate.rows);
+    return;
+  }
   if (!estimate.reached)
     found.warnings.push_back(
         fmt::format("the target of {:.3g} was not reached in {} rows (most_rows)", request.target, estimate.rows));
@@ -214,7 +224,13 @@ ReliabilityFound analyse_reliability(const Sweep& sweep, const Evaluate& evaluat
   search.bracket = found.rows.front().answer.error_bar.value_or(0);
   search.g_at_medians = std::abs(*first);
   search.reversed = found.medians_fail;
-  const DesignPointSearch form = find_design_point(g, drawn.components(), search);
+  const double tolerance = search.tolerance;
+  if (search.step == step_of_exact) search.tolerance = tolerance_of_exact;
+  DesignPointSearch form = find_design_point(g, drawn.components(), search);
+  if (!form.found && search.tolerance < tolerance) {
+    search.tolerance = tolerance;
+    form = find_design_point(g, drawn.components(), search);
+  }
   if (!form.found) {
     found.failure = form.reason;
     return found;

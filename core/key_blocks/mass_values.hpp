@@ -3,6 +3,8 @@
 
 #include <optional>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "core/key_blocks/block_survey.hpp"
 
@@ -17,6 +19,13 @@ struct MassValues {
   std::optional<double> least_critical_coefficient;  // none without an earthquake of any direction
   bool undecided = false;  // a projection reached its limit of steps: its block has no verdict
 };
+
+// as results.json has them; the last one only with an earthquake of any direction
+inline std::vector<std::string> names_of_mass_values(bool with_earthquake = false) {
+  std::vector<std::string> names{"least_factor", "volume_below_1", "blocks_below_1"};
+  if (with_earthquake) names.emplace_back("least_critical_coefficient");
+  return names;
+}
 
 template <int Dim>
 MassValues<Dim> mass_values(const Survey<Dim>& survey);

@@ -113,9 +113,9 @@ OtherPoints find_other_design_points(const LimitFunction& limit, const DesignPoi
   std::ranges::stable_sort(found.points, {}, [](const DesignPoint& point) { return length(point.u); });
   std::set<std::string> modes;
   for (const PilotRow& row : hunt.failed)
-    if (!row.answer.mode.empty() && !hunt.has_point(row.answer.mode) && !hunt.ends_at_known.contains(row.answer.mode))
-      modes.insert(row.answer.mode);
-  found.modes_without.assign(modes.begin(), modes.end());
+    if (!row.answer.mode.empty() && !hunt.has_point(row.answer.mode)) modes.insert(row.answer.mode);
+  for (const std::string& mode : modes)
+    (hunt.ends_at_known.contains(mode) ? found.modes_behind : found.modes_without).push_back(mode);
   return found;
 }
 

@@ -30,8 +30,9 @@ struct OtherPoints {
   int pilots = 0, starts = 0;
   std::vector<PilotRow> history;  // the pilots
   int lost = 0;                   // starts that led to no point: the answer jumps there, or has gaps
-  // modes that failed among the pilots, have no point, and from which no search ended at a known one
-  std::vector<std::string> modes_without;
+  // modes that failed among the pilots and have no point: from `behind` ones a search ended at a point above, so that
+  // they fail nowhere nearer
+  std::vector<std::string> modes_behind, modes_without;
 };
 
 // Pilot rows spread by max(1, (β + 1)/√keys); a failed one that no known half-space α·u >= β explains, α = u*/β,
