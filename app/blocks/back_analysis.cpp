@@ -28,9 +28,16 @@ class Strengths {
   Strengths(const Prepared<Dim>& prepared, const SurveyRequest& request, const std::string& name)
       : prepared_(prepared), request_(request) {
     request_.factors_only = true;
+    // no stage states another friction from here on
+    prepared_.model.properties = properties_of_request(prepared, request);
+    for (StagePlan& stage : prepared_.stages) {
+      stage.change.friction.reset();
+      stage.change.friction_as_stated = false;
+      stage.change.friction_of.clear();
+    }
     std::vector<std::string> names;
-    for (std::size_t p = 0; p < prepared.model.properties.size(); ++p) {
-      const JointProperties& joint = prepared.model.properties[p];
+    for (std::size_t p = 0; p < prepared_.model.properties.size(); ++p) {
+      const JointProperties& joint = prepared_.model.properties[p];
       names.push_back(joint.name);
       if (joint.name != name) continue;
       if (joint.mobilises() || joint.follows_barton_bandis())

@@ -223,6 +223,31 @@ TEST_F(Program, BlocksFollowTheEnvelopeOfBartonAndBandis) {
     EXPECT_NE(ended.out.find(part), std::string::npos) << part << "\n" << ended.out;
 }
 
+// c A + W cos ψ tan φ = W sin ψ of one slab, whatever friction a stage states
+TEST_F(Program, BackAnalysisOfASlabIsItsStraightLine) {
+  std::string scene = read(fs::path(VOUSSOIR_SOURCE_DIR) / "cases/reliability/slab.toml");
+  scene +=
+      "\n[[stage]]\nname = \"safety\"\nkind = \"reduce\"\nsearch = \"factor\"\nfriction_deg = 30\nfrom_factor = 2\n"
+      "to_factor = 0.5\ntolerance_factor = 0.01\n";
+  write("slab.toml", scene);
+  const Ended ended = run("blocks slab.toml --back-analysis joint --out out");
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  const double dip = 32 * degree, weight = 2650 * 9.81 * 4.5 * 10;
+  const std::vector<std::string> frictions = column(folder_ / "out/back_analysis.csv", "friction_deg"),
+                                 cohesions = column(folder_ / "out/back_analysis.csv", "cohesion_Pa");
+  ASSERT_EQ(frictions.size(), 11u);
+  for (std::size_t k = 0; k < frictions.size(); ++k)
+    EXPECT_NEAR(std::stod(cohesions[k]),
+                weight / 10 * (std::sin(dip) - std::cos(dip) * std::tan(std::stod(frictions[k]) * degree)), 1e-3)
+        << frictions[k];
+  const nlohmann::json values = results("out")["values"];
+  EXPECT_NEAR(values["critical_friction"]["value"].get<double>(), 32, 1e-8);
+  EXPECT_NEAR(values["cohesion_without_friction"]["value"].get<double>(), weight / 10 * std::sin(dip), 1e-3);
+
+  expect_one_line(run("blocks slab.toml --back-analysis jont --out bad"), 2, "did you mean 'joint'");
+  expect_one_line(run("blocks slab.toml --back-analysis joint --view --out bad"), 2, "leave out one of the two");
+}
+
 TEST_F(Program, BlocksRefusesWhatItCannotJudge) {
   expect_one_line(run("blocks " + quoted("examples/tutorial/slope.toml") + "--out out --strength-of wait"), 2,
                   "there are: weight, safety");
