@@ -339,8 +339,15 @@ std::string law_text(const DrawnKey& key) {
   return text;
 }
 
+std::string short_name(const std::string& key) {
+  constexpr std::string_view of_stage = ".friction.";
+  if (const std::size_t at = key.find(of_stage); key.starts_with("stage.") && at != std::string::npos)
+    return key.substr(at + of_stage.size());
+  const std::size_t dot = key.find('.');
+  return dot == std::string::npos ? key : key.substr(dot + 1);
+}
+
 std::string sharing_text(const DrawnKeys& drawn) {
-  constexpr std::string_view begin = "joint_properties.";
   std::vector<std::string> parts;
   bool angles = false;
   for (const auto& [per, shared] : {std::pair{DrawnPer::property, "joints of the same properties share a draw"},
@@ -348,8 +355,8 @@ std::string sharing_text(const DrawnKeys& drawn) {
                                     {DrawnPer::joint, "each joint has a draw of its own"}}) {
     std::vector<std::string> names;
     for (const DrawnKey& key : drawn.keys)
-      if (key.key.starts_with(begin) && key.per == per) {
-        names.push_back(key.key.substr(begin.size()));
+      if ((key.key.starts_with("joint_properties.") || key.key.ends_with("friction_deg")) && key.per == per) {
+        names.push_back(short_name(key.key));
         angles |= key.key.ends_with("friction_deg");
       }
     if (!names.empty()) parts.push_back(fmt::format("{} ({})", shared, fmt::join(names, ", ")));

@@ -60,6 +60,10 @@ void make_latin(DrawnKeys& drawn);
 // a line for people and files: "normal, mean 38, deviation 3"
 std::string law_text(const DrawnKey& key);
 
+// without its table, for people: "joint_properties.rock.cohesion" and "stage.safety.friction.rock.friction_deg" are
+// "rock.cohesion" and "rock.friction_deg"
+std::string short_name(const std::string& key);
+
 // which joints share a draw, a line for people; empty if no key is of joint properties
 std::string sharing_text(const DrawnKeys& drawn);
 

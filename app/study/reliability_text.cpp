@@ -19,12 +19,6 @@ std::string named(const std::string& name, const std::string& unit) {
   return unit.empty() || unit == "1" ? name : fmt::format("{} ({})", name, unit);
 }
 
-// "joint_properties.rock.friction_deg" -> "rock.friction_deg"
-std::string short_key(const std::string& key) {
-  const std::size_t dot = key.find('.');
-  return dot == std::string::npos ? key : key.substr(dot + 1);
-}
-
 // by drawn key, whose components are summed
 std::vector<double> by_key(const DrawnKeys& drawn, const std::vector<double>& components) {
   std::vector<double> sums;
@@ -149,7 +143,7 @@ std::vector<std::string> reliability_lines(const Sweep& sweep, const Reliability
   const std::vector<std::string> keys = drawn.scene_keys(), units = drawn.units();
   line += " at ";
   for (std::size_t k = 0; k < keys.size(); ++k)
-    line += fmt::format("{}{} {:.4g}{}", k ? ", " : "", short_key(keys[k]), found.point_values.front()[k],
+    line += fmt::format("{}{} {:.4g}{}", k ? ", " : "", short_name(keys[k]), found.point_values.front()[k],
                         units[k].empty() || units[k] == "1" ? "" : " " + units[k]);
   std::vector<std::string> lines{line};
 
@@ -160,7 +154,7 @@ std::vector<std::string> reliability_lines(const Sweep& sweep, const Reliability
   std::ranges::sort(order, [&](std::size_t a, std::size_t b) { return shares[a] > shares[b]; });
   std::vector<std::string> counts;
   for (const std::size_t k : order)
-    counts.push_back(fmt::format("{} counts {:.0f} %", short_key(drawn.keys[k].key), 100 * shares[k]));
+    counts.push_back(fmt::format("{} counts {:.0f} %", short_name(drawn.keys[k].key), 100 * shares[k]));
   lines.push_back(
       fmt::format("  {}{}", fmt::join(counts, ", "), nearest.mode.empty() ? "" : "; mechanism: " + nearest.mode));
   const std::size_t answers = found.rows.size();
