@@ -9,10 +9,12 @@
 #include "app/base/message.hpp"
 #include "app/base/run_scene.hpp"
 #include "app/base/section_option.hpp"
+#include "app/blocks/blocks_derivatives.hpp"
 #include "app/blocks/blocks_summary.hpp"
 #include "app/blocks/blocks_view.hpp"
 #include "app/blocks/kinematics_text.hpp"
 #include "app/blocks/seismic_option.hpp"
+#include "app/derivatives/derivative_files.hpp"
 #include "app/run_folder/claimed_folder.hpp"
 #include "app/run_folder/origin.hpp"
 #include "app/run_folder/results_hash.hpp"
@@ -47,6 +49,7 @@ struct BlocksArguments {
   bool view = false;                  // view.html
   bool dxf = false;                   // blocks.dxf
   std::vector<std::string> sections;  // planes, for section.dxf
+  bool derivatives = false;           // derivatives.csv, derivatives.svg
   bool overwrite = false;
 };
 
@@ -164,6 +167,9 @@ ExitCode judge_scene(const BlocksArguments& arguments, const SurveyRequest& requ
       outputs.files.emplace_back(name);
   if (arguments.dxf) outputs.files.emplace_back(dxf_file);
   if (!polygons.empty()) outputs.files.emplace_back(section_file);
+  if (arguments.derivatives)
+    for (const char* name : {derivatives_csv_file, derivatives_svg_file})
+      outputs.files.emplace_back(name);
   const ClaimedFolder claim(folder, outputs, scene.files, arguments.overwrite);
   tell_remarks(*scene.stated);
   const std::vector<Origin> origins{this_origin()};
@@ -176,9 +182,16 @@ ExitCode judge_scene(const BlocksArguments& arguments, const SurveyRequest& requ
   write_file(folder / "blocks_verdicts.json", blocks_json(survey, scene.title, scene.hash, origins));
   if constexpr (Dim == 3) write_file(folder / "key_blocks.geojson", key_blocks_geojson(survey, faces));
   if (arguments.view) write_blocks_view(folder, prepared, survey);
+  std::string results = blocks_results_json(survey, scene.title, scene.hash, origins), moves_it;
+  if (arguments.derivatives) {
+    const DerivativeTable table = blocks_derivatives(*scene.stated, request);
+    write_derivatives(table, folder);
+    results = with_derivatives(results, table);
+    moves_it = derivatives_text(table);
+  }
   // results.json comes last: if it exists, everything is complete
-  write_results(folder, blocks_results_json(survey, scene.title, scene.hash, origins));
-  fmt::print("{}results: {}\n", blocks_summary(survey, scene.title, arguments.top), folder.string());
+  write_results(folder, results);
+  fmt::print("{}{}results: {}\n", blocks_summary(survey, scene.title, arguments.top), moves_it, folder.string());
   if (arguments.view) fmt::print("page: {}\n", (folder / page_file).string());
   ExitCode code = ExitCode::done;
   for (const auto* list : {&survey.rows, &survey.clusters})
@@ -210,6 +223,8 @@ ExitCode blocks_command(const BlocksArguments& arguments) {
                     arguments.view  ? "view"
                     : arguments.dxf ? "dxf"
                                     : "section"));
+  if (arguments.kinematics && arguments.derivatives)
+    throw BadInput("--derivatives are those of the least factor; --kinematics has none: leave out one of the two");
   if (arguments.kinematics) return analyse_directions(arguments, request, scene);
   if (!arguments.face.empty() || arguments.friction > 0) throw BadInput("--face and --friction belong to --kinematics");
   return scene.dimension == 2 ? judge_scene<2>(arguments, request, scene) : judge_scene<3>(arguments, request, scene);
@@ -272,6 +287,9 @@ void add_blocks(CLI::App& program, Action& action) {
       "--dxf", arguments.dxf,
       "write a drawing for CAD, blocks.dxf: key blocks (factor below --required), other blocks and bolts by "
       "layers");
+  command->add_flag("--derivatives", arguments.derivatives,
+                    "what moves the least factor: its derivative by each number of the scene that moves it, with an "
+                    "error bar (derivatives.csv, derivatives.svg)");
   add_section(command, arguments.sections, "key blocks and other blocks");
   add_overwrite(command, arguments.overwrite);
 }
