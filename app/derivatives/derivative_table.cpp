@@ -15,6 +15,7 @@ namespace {
 constexpr double bend_angle = 30;     // deg
 constexpr double least_share = 1e-2;  // of it, by exact answers, whose extrapolation takes care of the rest
 constexpr double most_share = 0.1;
+constexpr double at_once = 1e-5;      // of the first step: the piece of the base has no length that bisection sees
 constexpr double no_change = 1e-11;  // of the answer, by the usual change
 
 double step_of(const MovingKey& key, const DifferentiatedAnswer& answer, double value) {
@@ -30,21 +31,23 @@ double step_of(const MovingKey& key, const DifferentiatedAnswer& answer, double 
   return share * std::abs(key.value);
 }
 
-std::string side_text(const char* side, const SideDerivative& derivative, const MovingKey& key) {
+std::string side_text(const char* side, const SideDerivative& derivative, const MovingKey& key, double step) {
   if (!derivative.words.empty()) return fmt::format("{} {}", side, derivative.words);
+  if (derivative.end && derivative.end->distance <= at_once * step)
+    return fmt::format("{}: {} at once", side, derivative.end->words);
   if (derivative.end)
     return fmt::format("{}: {} {:.2g} {} away", side, derivative.end->words, derivative.end->distance, key.unit);
   return "";
 }
 
-std::string remark_of(const Derivative& derivative, const MovingKey& key) {
-  std::string text = derivative.kink       ? "kink"
+std::string remark_of(const Derivative& derivative, const MovingKey& key, double step) {
+  std::string text = derivative.kink       ? "kink, below | above"
                      : derivative.one_side ? fmt::format("from {}", derivative.below.value ? "below" : "above")
                      : derivative.value    ? ""
                                            : "no derivative";
   if (text.empty()) return text;
   for (const auto& [side, found] : {std::pair("below", derivative.below), std::pair("above", derivative.above)})
-    if (const std::string more = side_text(side, found, key); !more.empty()) text += "; " + more;
+    if (const std::string more = side_text(side, found, key, step); !more.empty()) text += "; " + more;
   return text;
 }
 
@@ -74,8 +77,9 @@ DerivativeTable derivative_table(const std::vector<MovingKey>& keys, const Piece
       }
     };
     DerivativeRow row{.key = key};
+    const double step = step_of(key, answer, *base.value);
     row.derivative = differentiate(at, {.base = base,
-                                        .step = step_of(key, answer, *base.value),
+                                        .step = step,
                                         .below = key.below,
                                         .above = key.above,
                                         .bar = answer.bar,
@@ -83,7 +87,7 @@ DerivativeTable derivative_table(const std::vector<MovingKey>& keys, const Piece
     table.answers += row.derivative.answers;
     row.change = change_of(row.derivative, key);
     row.refused = !row.derivative.value && !row.derivative.kink;
-    row.remark = remark_of(row.derivative, key);
+    row.remark = remark_of(row.derivative, key, step);
     const bool still = row.derivative.still || std::abs(row.change) <= no_change * std::abs(*base.value) ||
                        (row.derivative.value && std::abs(*row.derivative.value) <= row.derivative.bar);
     if (still && !row.refused)

@@ -96,16 +96,19 @@ class Differences {
       down.add((base() - value(-step)) / step, 2 * request_.bar / step);
       if (both.best().bar <= good_enough * std::abs(both.best().value)) break;
     }
-    found_.value = both.best().value;
-    found_.bar = both.best().bar;
     found_.below = {down.best().value, down.best().bar, "", {}};
     found_.above = {up.best().value, up.best().bar, "", {}};
     if (differ()) {
       found_.kink = true;
-      found_.value.reset();
-    } else {
-      found_.below = found_.above = {};
+      return true;
     }
+    // where a higher derivative jumps at the base, as of water at the top of a crack, the sides know better
+    const double apart = std::abs(up.best().value - down.best().value) / 2;
+    const double bar_of_sides = std::max(up.best().bar, down.best().bar) + apart;
+    const bool sides = bar_of_sides < both.best().bar;
+    found_.value = sides ? (up.best().value + down.best().value) / 2 : both.best().value;
+    found_.bar = sides ? bar_of_sides : both.best().bar;
+    found_.below = found_.above = {};
     return true;
   }
 
