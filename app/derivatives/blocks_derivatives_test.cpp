@@ -71,12 +71,11 @@ constexpr DryWedge dry_wedges[] = {
 
 TEST(BlocksDerivatives, DryWedgesAreThoseOfTheClosedForm) {
   for (const DryWedge& wedge : dry_wedges) {
-    const DerivativeTable table =
-        derivatives_of("cases/wedge/scene.toml", {fmt::format("joints.A.dip={}", wedge.dip_a),
-                                                  fmt::format("joints.A.dip_direction={}", wedge.direction_a),
-                                                  fmt::format("joints.B.dip={}", wedge.dip_b),
-                                                  fmt::format("joints.B.dip_direction={}", wedge.direction_b),
-                                                  "joint_properties.rock.friction_deg=50"});
+    const DerivativeTable table = derivatives_of(
+        "cases/wedge/scene.toml",
+        {fmt::format("joints.A.dip={}", wedge.dip_a), fmt::format("joints.A.dip_direction={}", wedge.direction_a),
+         fmt::format("joints.B.dip={}", wedge.dip_b), fmt::format("joints.B.dip_direction={}", wedge.direction_b),
+         "joint_properties.rock.friction_deg=50"});
     const double tangent = std::tan(50 * degree);
     EXPECT_NEAR(std::atan(tangent / *table.base.value) / degree, wedge.critical, 1e-11);
     expect_critical(table, 50,
@@ -168,7 +167,8 @@ TEST(BlocksDerivatives, PlaneFailureWithCohesionIsThatOfTheClosedForm) {
                          {1, 0.826615675426373, 0.0095527620112599, 0.019141503838247, -0.039739346124458,
                           0.0032986723640053, 0.020815694726141, -0.091446352752046, 0.011896064607646}};
   const double back = 20 / std::tan(60 * degree) + 4;
-  // keys hold the water's level and the crack's place: the height falls as its foot rises, the distance as the crest moves
+  // keys hold the water's level and the crack's place: the height falls as its foot rises, the distance as the crest
+  // moves
   const double height_by_joint = -back / std::pow(std::cos(35 * degree), 2) * degree,
                distance_by_face = 20 / std::pow(std::sin(60 * degree), 2) * degree;
   for (const Filled& row : rows) {
@@ -225,7 +225,7 @@ TEST(BlocksDerivatives, BoltedBlockIsThatOfTheClosedForm) {
   const DerivativeTable with = derivatives_of("cases/support/slope.toml", cohesive);
   const HeldBlock block{1e5, 40 * degree, 35 * degree, 10e3 / length, 20e3, 10 * degree};
   EXPECT_NEAR(*with.base.value, static_cast<double>(block.factor()), 1e-12);
-  const auto by = [&](long double HeldBlock::* member, long double step) {
+  const auto by = [&](long double HeldBlock::*member, long double step) {
     HeldBlock more = block, less = block;
     more.*member += step;
     less.*member -= step;
@@ -255,7 +255,8 @@ fix = [{{ below = ["plane"] }}]
   EXPECT_NEAR(*table.base.value, 0.999204022864053, 1e-12);
   const double by_force = 1.5557238268604e-5;
   for (const auto& [key, value] :
-       {std::pair("density", -3.1114476537208e-6 * 2 * 9.81), {"joint_properties.rock.cohesion", by_force * length},
+       {std::pair("density", -3.1114476537208e-6 * 2 * 9.81),
+        {"joint_properties.rock.cohesion", by_force * length},
         // the joint becomes longer as it dips more
         {"joints.plane.dip", -0.030860130854293 + by_force * 20e3 * std::tan(40 * degree) * degree},
         {"joint_properties.rock.friction_deg", 0.027733365417653}})
@@ -264,9 +265,8 @@ fix = [{{ below = ["plane"] }}]
 
 // at this direction of A the block leaves plane B: both sides, and no number between them
 TEST(BlocksDerivatives, KinkHasBothSides) {
-  const DerivativeTable table =
-      derivatives_of("cases/wedge/scene.toml",
-                     {"joints.A.dip_direction=158.9767322311491", "joint_properties.rock.friction_deg=50"});
+  const DerivativeTable table = derivatives_of(
+      "cases/wedge/scene.toml", {"joints.A.dip_direction=158.9767322311491", "joint_properties.rock.friction_deg=50"});
   const double tangent = std::tan(50 * degree), factor = table.base.value.value();
   EXPECT_NEAR(std::atan(tangent / factor) / degree, 40, 1e-10);
   struct Sides {
@@ -288,28 +288,26 @@ TEST(BlocksDerivatives, KinkHasBothSides) {
 
 // near the kink the derivative is that of the side of the scene
 TEST(BlocksDerivatives, BesideAKinkItIsThatOfTheScene) {
-  const DerivativeTable table =
-      derivatives_of("cases/wedge/scene.toml",
-                     {"joints.A.dip_direction=158.9767", "joint_properties.rock.friction_deg=50"});
+  const DerivativeTable table = derivatives_of(
+      "cases/wedge/scene.toml", {"joints.A.dip_direction=158.9767", "joint_properties.rock.friction_deg=50"});
   const DerivativeRow& row = row_of(table, "joints.A.dip_direction");
   ASSERT_TRUE(row.derivative.value);
   EXPECT_TRUE(row.derivative.one_side);
   EXPECT_NEAR(of_critical(*row.derivative.value, *table.base.value, std::tan(50 * degree)), 0.1450913697, 2e-6);
-  EXPECT_NE(row.remark.find("from below; above: block 1 slides on A 3."), std::string::npos)
-      << row.remark;
+  EXPECT_NE(row.remark.find("from below; above: block 1 slides on A 3."), std::string::npos) << row.remark;
 }
 
 // a wedge whose joint A dips to 0 or 360 degrees, and whose joint B is vertical
 TEST(BlocksDerivatives, NeverLeavesTheRangesOfKeys) {
   for (const double turn : {230.0, -130.0}) {
     const DerivativeTable table =
-        derivatives_of("cases/wedge/scene.toml", {fmt::format("joints.A.dip_direction={}", 130 + turn),
-                                                  "joints.B.dip_direction=90", "domain.planes.slope face.dip_direction=52",
-                                                  "joint_properties.rock.friction_deg=50"});
+        derivatives_of("cases/wedge/scene.toml",
+                       {fmt::format("joints.A.dip_direction={}", 130 + turn), "joints.B.dip_direction=90",
+                        "domain.planes.slope face.dip_direction=52", "joint_properties.rock.friction_deg=50"});
     expect_critical(table, 50, {{"joints.A.dip_direction", dry_wedges[0].by_direction_a}}, 1e-9);
   }
-  const DerivativeTable upright = derivatives_of(
-      "cases/wedge/scene.toml", {"joints.B.dip=90", "joint_properties.rock.friction_deg=50"});
+  const DerivativeTable upright =
+      derivatives_of("cases/wedge/scene.toml", {"joints.B.dip=90", "joint_properties.rock.friction_deg=50"});
   const DerivativeRow& row = row_of(upright, "joints.B.dip");
   EXPECT_TRUE(row.derivative.one_side) << row.remark;
   EXPECT_FALSE(row.refused) << row.remark;

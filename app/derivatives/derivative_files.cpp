@@ -16,6 +16,7 @@ namespace {
 using OrderedJson = nlohmann::ordered_json;
 
 constexpr std::size_t most_rows = 20;
+constexpr double exact = 1e-12;        // bar of answers without one
 constexpr std::size_t most_still = 6;  // keys that do not move the answer, listed by name
 constexpr const char* held_sentence =
     "each with all other keys of the scene held: a water keeps its level, a plane its point";
@@ -86,9 +87,11 @@ std::string derivatives_text(const DerivativeTable& table) {
     const std::vector<std::string> named(table.still.begin(),
                                          table.still.begin() + std::min(table.still.size(), most_still));
     text += fmt::format(
-        "  do not move it: {}{}\n", fmt::join(named, "; "),
+        "  do not move it{}: {}{}\n",
+        table.answer.bar > exact * std::abs(*table.base.value) ? " beyond its error bar" : "", fmt::join(named, "; "),
         named.size() < table.still.size() ? fmt::format(" and {} more", table.still.size() - named.size()) : "");
   }
+  if (table.unfinished) text += "  interrupted: the keys that follow are missing\n";
   return text;
 }
 
@@ -129,6 +132,7 @@ std::string with_derivatives(const std::string& json, const DerivativeTable& tab
     object["mechanism"] = table.base.words;
     object["held"] = held_sentence;
     object["answers"] = table.answers;
+    object["complete"] = !table.unfinished;
     object["keys"] = rows;
     object["do_not_move_it"] = table.still;
   } else {

@@ -7,6 +7,7 @@
 
 #include "core/base/bad_input.hpp"
 #include "core/scene/scene_error.hpp"
+#include "text/plain_text.hpp"
 
 namespace voussoir {
 namespace {
@@ -14,12 +15,15 @@ namespace {
 // first steps: what answers bend over
 constexpr double bend_angle = 30;     // deg
 constexpr double least_share = 1e-2;  // of it, by exact answers, whose extrapolation takes care of the rest
-constexpr double most_share = 0.1;
-constexpr double at_once = 1e-5;      // of the first step: the piece of the base has no length that bisection sees
-constexpr double no_change = 1e-11;  // of the answer, by the usual change
+constexpr double most_share = 0.05;
+constexpr double order_of_share = 0.2;  // of the answer's bar: between 1/3 of differences and 1/7 of two extrapolations
+constexpr double at_once = 1e-5;        // of the first step: the piece of the base has no length that bisection sees
+constexpr std::size_t longest_reason = 100;  // letters
+constexpr double no_change = 1e-11;          // of the answer, by the usual change
 
 double step_of(const MovingKey& key, const DifferentiatedAnswer& answer, double value) {
-  const double share = std::clamp(std::cbrt(answer.bar / std::max(std::abs(value), 1e-300)), least_share, most_share);
+  const double share =
+      std::clamp(std::pow(answer.bar / std::max(std::abs(value), 1e-300), order_of_share), least_share, most_share);
   switch (key.scale) {
     case KeyScale::angle:
       return share * bend_angle;
@@ -33,10 +37,9 @@ double step_of(const MovingKey& key, const DifferentiatedAnswer& answer, double 
 
 std::string side_text(const char* side, const SideDerivative& derivative, const MovingKey& key, double step) {
   if (!derivative.words.empty()) return fmt::format("{} {}", side, derivative.words);
-  if (derivative.end && derivative.end->distance <= at_once * step)
-    return fmt::format("{}: {} at once", side, derivative.end->words);
-  if (derivative.end)
-    return fmt::format("{}: {} {:.2g} {} away", side, derivative.end->words, derivative.end->distance, key.unit);
+  const std::string words = derivative.end ? one_line(derivative.end->words, longest_reason) : "";
+  if (derivative.end && derivative.end->distance <= at_once * step) return fmt::format("{}: {} at once", side, words);
+  if (derivative.end) return fmt::format("{}: {} {:.2g} {} away", side, words, derivative.end->distance, key.unit);
   return "";
 }
 
@@ -62,11 +65,10 @@ double change_of(const Derivative& derivative, const MovingKey& key) {
 
 DerivativeTable derivative_table(const std::vector<MovingKey>& keys, const PieceAnswer& base,
                                  const DifferentiatedAnswer& answer, const AnswerWith& answer_with,
-                                 const std::function<void(const MovingKey&)>& hook) {
+                                 const KeyHook& hook) {
   DerivativeTable table{.answer = answer, .base = base};
   if (!base.value) return table;
   for (const MovingKey& key : keys) {
-    if (hook) hook(key);
     const auto at = [&](double distance) -> PieceAnswer {
       try {
         return answer_with(key.overrides(distance));
@@ -83,7 +85,12 @@ DerivativeTable derivative_table(const std::vector<MovingKey>& keys, const Piece
                                         .below = key.below,
                                         .above = key.above,
                                         .bar = answer.bar,
-                                        .levels = answer.levels});
+                                        .levels = answer.levels,
+                                        .bisections = answer.bisections});
+    if (hook && !hook(static_cast<std::size_t>(&key - keys.data()) + 1, keys.size())) {
+      table.unfinished = true;
+      break;
+    }
     table.answers += row.derivative.answers;
     row.change = change_of(row.derivative, key);
     row.refused = !row.derivative.value && !row.derivative.kink;

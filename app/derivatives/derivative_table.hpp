@@ -18,6 +18,7 @@ struct DifferentiatedAnswer {
   double bar = 0;          // of one answer
   double length = 1;       // m, of the blocks that give it
   int levels = 6;          // of the extrapolation
+  int bisections = 12;     // of the distance to another mechanism
 };
 
 // a key that moves the answer, or by which there is no derivative
@@ -35,11 +36,15 @@ struct DerivativeTable {
   std::vector<DerivativeRow> rows;  // by the change, largest first; then those without a derivative
   std::vector<std::string> still;   // keys that do not move it
   int answers = 0;                  // that were asked for
+  bool unfinished = false;          // the hook ended it
 };
 
-// `hook` is called before each key and may throw. Without a value of `base` the table is empty.
+// called with the number of keys that are done and of all; false ends the table, without the key before it
+using KeyHook = std::function<bool(std::size_t done, std::size_t all)>;
+
+// Without a value of `base` the table is empty.
 DerivativeTable derivative_table(const std::vector<MovingKey>& keys, const PieceAnswer& base,
                                  const DifferentiatedAnswer& answer, const AnswerWith& answer_with,
-                                 const std::function<void(const MovingKey&)>& hook = {});
+                                 const KeyHook& hook = {});
 
 }  // namespace voussoir

@@ -13,7 +13,6 @@ constexpr int most_halvings = 3;
 constexpr double good_enough = 1e-12;  // of the derivative: no further level
 constexpr double same_slope = 1e-6;    // of the larger one: two sides differ by more at a kink
 constexpr double meets = 1e-9;         // of the answer: another piece has the base's value
-constexpr int bisections = 12;         // of the distance at which a piece ends
 
 struct Estimate {
   double value = 0, bar = std::numeric_limits<double>::infinity();
@@ -167,7 +166,7 @@ class Differences {
       (on_base(step) ? inside : outside) = step;
     }
     if (outside == 0) outside = sign * request_.step;
-    for (int k = 0; k < bisections; ++k) {
+    for (int k = 0; k < request_.bisections; ++k) {
       const double middle = (inside + outside) / 2;
       (on_base(middle) ? inside : outside) = middle;
     }

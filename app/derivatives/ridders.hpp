@@ -25,6 +25,7 @@ struct DifferenceRequest {
   double above = 1e300;  // and up
   double bar = 0;        // of one answer
   int levels = 6;        // of the extrapolation, at least 2
+  int bisections = 12;   // of the distance at which a piece ends
 };
 
 // what ends the piece of the base on a side
