@@ -48,7 +48,10 @@ double bar_of(const Derivative& derivative) {
 }
 
 std::string value_shown(const DerivativeRow& row) {
-  const auto slope = [&](double derivative) { return fmt::format("{:+.5g}", derivative * row.key.shown); };
+  const double bar = bar_of(row.derivative);
+  const auto slope = [&](double derivative) {
+    return std::abs(derivative) <= bar ? "0" : fmt::format("{:+.5g}", derivative * row.key.shown);
+  };
   if (row.refused) return "none";
   if (!row.derivative.value)
     return fmt::format("{} | {}", slope(*row.derivative.below.value), slope(*row.derivative.above.value));

@@ -28,9 +28,10 @@ std::string escaped(const std::string& text) {
   return safe;
 }
 
-// the change of the answer when the key goes up, or down, by its usual change
+// the change of the answer when the key goes up, or down, by its usual change; none on a side without a derivative
 double bar_to(const DerivativeRow& row, bool up) {
   const Derivative& found = row.derivative;
+  if (found.one_side && !(up ? found.above : found.below).value) return 0;
   const double slope = found.value ? *found.value : up ? *found.above.value : *found.below.value;
   return (up ? 1 : -1) * slope * row.key.usual;
 }
@@ -51,6 +52,12 @@ std::string label_of(const DerivativeRow& row) {
                      unit == "1" ? "" : " " + unit);
 }
 
+// "least factor" of "least_factor"
+std::string name_in_words(std::string name) {
+  std::ranges::replace(name, '_', ' ');
+  return name;
+}
+
 // characters, not bytes
 std::size_t letters_of(const std::string& text) {
   return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
@@ -68,10 +75,10 @@ std::string derivatives_svg(const DerivativeTable& table) {
     longest = std::max(longest, letters_of(label_of(*row)));
     largest = std::max({largest, std::abs(bar_to(*row, true)), std::abs(bar_to(*row, false))});
   }
-  const std::string title = table.base.value
-                                ? fmt::format("What moves {} = {:.5g}{}", table.answer.name, *table.base.value,
-                                              table.answer.unit == "1" ? "" : " " + table.answer.unit)
-                                : "What moves the answer: no answer, so no derivative";
+  const std::string title =
+      table.base.value ? fmt::format("What moves the {}, {:.5g}{}", name_in_words(table.answer.name), *table.base.value,
+                                     table.answer.unit == "1" ? "" : " " + table.answer.unit)
+                       : "What moves the answer: no answer, so no derivative";
   const double left = side_margin + letter * static_cast<double>(longest) + 10;
   const double plot_height = row_height * static_cast<double>(rows.size());
   const double width =
@@ -111,9 +118,9 @@ std::string derivatives_svg(const DerivativeTable& table) {
     }
   }
   return svg + fmt::format(
-                   "<text x=\"{:.2f}\" y=\"{:.2f}\" text-anchor=\"middle\">change of {}{}, by the "
+                   "<text x=\"{:.2f}\" y=\"{:.2f}\" text-anchor=\"middle\">change of the {}{}, by the "
                    "derivative</text>\n</svg>\n",
-                   at(0), top + plot_height + 40, escaped(table.answer.name),
+                   at(0), top + plot_height + 40, escaped(name_in_words(table.answer.name)),
                    table.answer.unit == "1" ? "" : ", " + escaped(table.answer.unit));
 }
 

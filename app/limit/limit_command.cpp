@@ -201,6 +201,9 @@ ExitCode limit_command(const LimitArguments& arguments) {
   const auto analyse_and_answer = [&]<int Dim>() {
     const LimitAnalysis<Dim> analysis = analyse_limit<Dim>(scene, request);
     std::optional<DerivativeTable> table;
+    request.after_round = [](int, double) {
+      if (interruption() != 0) throw StopRounds();
+    };
     if (arguments.derivatives && interruption() == 0)
       table = limit_derivatives(scene, request, analysis, [&](std::size_t done, std::size_t all) {
         if (status.is_due()) status.show(fmt::format("derivatives: {} of {} keys", done, all));

@@ -34,10 +34,10 @@ PieceAnswer piece_answer(const LimitAnalysis<Dim>& analysis) {
   }
   std::sort(blocks.begin(), blocks.end());
   const std::size_t count = blocks.size();
-  return {
-      value.value, fmt::format("{}: {}", name, fmt::join(blocks, " ")),
-      fmt::format("{} block{} move{}, {} of them turn", count, count == 1 ? "" : "s", count == 1 ? "s" : "", turning),
-      ""};
+  std::string words = fmt::format("{} block{}", count, count == 1 ? " moves" : "s move");
+  if (turning > 0) words += fmt::format(", {} turn{}", turning, turning == 1 ? "s" : "");
+  if (name.ends_with("_least")) words += ", between ends that differ";
+  return {value.value, fmt::format("{}: {}", name, fmt::join(blocks, " ")), words, ""};
 }
 
 // half of the extent of the moving blocks, or of all free ones
