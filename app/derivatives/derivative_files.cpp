@@ -15,7 +15,7 @@ namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 
-constexpr std::size_t most_rows = 20;
+constexpr std::size_t most_lines_of_keys = 20;
 constexpr double exact = 1e-12;        // bar of answers without one
 constexpr std::size_t most_still = 6;  // keys that do not move the answer, listed by name
 constexpr const char* held_sentence =
@@ -71,7 +71,7 @@ std::string derivatives_text(const DerivativeTable& table) {
       fmt::format("what moves {} {:.6g}{} ({}): derivatives, {}\n", table.answer.name, *table.base.value,
                   table.answer.unit == "1" ? "" : " " + table.answer.unit, table.base.words, held_sentence);
   std::size_t widest = 10;
-  const std::size_t lines = std::min(table.rows.size(), most_rows);
+  const std::size_t lines = std::min(table.rows.size(), most_lines_of_keys);
   for (std::size_t k = 0; k < lines; ++k)
     widest = std::max(widest, table.rows[k].key.key.size());
   if (lines > 0)

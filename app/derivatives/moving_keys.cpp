@@ -12,7 +12,7 @@
 namespace voussoir {
 namespace {
 
-constexpr double endless = std::numeric_limits<double>::infinity();
+constexpr double no_end = std::numeric_limits<double>::infinity();
 
 enum class KeyForm {
   number,
@@ -35,7 +35,7 @@ struct MovingRow {
   double usual = 1;
   bool usual_is_share = false;  // of the value
   KeyScale scale = KeyScale::share;
-  double low = -endless, high = endless;
+  double low = -no_end, high = no_end;
 };
 
 constexpr double kilo = 1e3, mega = 1e6;
@@ -205,7 +205,7 @@ class KeyFinder {
     if (!dip || table.find("normal") || (!stated && dimension_ == 3)) return;
     const double value = dip->number, direction = stated ? stated->number : 90;
     MovingKey moving = start(row, full, value);
-    moving.below = endless;  // through 0 to the other side, with the same upward normal
+    moving.below = no_end;  // through 0 to the other side, with the same upward normal
     moving.overrides = [=](double distance) {
       const double turned = value + distance;
       std::vector<std::string> all{fmt::format("{}={}", full, std::abs(turned))};

@@ -14,7 +14,7 @@ constexpr double good_enough = 1e-12;  // of the derivative: no further level
 constexpr double same_slope = 1e-6;    // of the larger one: two sides differ by more at a kink
 constexpr double meets = 1e-9;         // of the answer: another piece has the base's value
 
-struct Estimate {
+struct Extrapolated {
   double value = 0, bar = std::numeric_limits<double>::infinity();
 };
 
@@ -26,10 +26,10 @@ class HalvingTable {
 
   // `noise`: the bar of the quotient by those of its answers
   void add(double quotient, double noise) {
-    std::vector<Estimate> row{{quotient, noise}};
+    std::vector<Extrapolated> row{{quotient, noise}};
     double power = factor_;
     for (std::size_t j = 1; j <= last_.size(); ++j, power *= factor_) {
-      const Estimate &fine = row[j - 1], &coarse = last_[j - 1];
+      const Extrapolated &fine = row[j - 1], &coarse = last_[j - 1];
       row.push_back({(power * fine.value - coarse.value) / (power - 1), (power * fine.bar + coarse.bar) / (power - 1)});
       const double bar =
           row[j].bar + std::max(std::abs(row[j].value - fine.value), std::abs(row[j].value - coarse.value));
@@ -38,12 +38,12 @@ class HalvingTable {
     last_ = std::move(row);
   }
 
-  const Estimate& best() const { return best_; }
+  const Extrapolated& best() const { return best_; }
 
  private:
   double factor_;
-  std::vector<Estimate> last_;  // its bars: noise alone
-  Estimate best_;
+  std::vector<Extrapolated> last_;  // its bars: noise alone
+  Extrapolated best_;
 };
 
 class Differences {

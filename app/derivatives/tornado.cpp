@@ -40,7 +40,7 @@ double bar_to(const DerivativeRow& row, bool up) {
 double tick_of(double half_range) {
   const double power = std::pow(10, std::floor(std::log10(half_range / 3)));
   for (const double times : {1.0, 2.0, 5.0})
-    if (times * power * 3.5 >= half_range) return times * power;
+    if (times * power * 4.2 >= half_range) return times * power;
   return 10 * power;
 }
 
