@@ -7,6 +7,7 @@
 
 #include "app/base/arguments.hpp"
 #include "app/base/message.hpp"
+#include "app/base/progress_line.hpp"
 #include "app/base/run_scene.hpp"
 #include "app/base/section_option.hpp"
 #include "app/blocks/blocks_derivatives.hpp"
@@ -184,7 +185,12 @@ ExitCode judge_scene(const BlocksArguments& arguments, const SurveyRequest& requ
   if (arguments.view) write_blocks_view(folder, prepared, survey);
   std::string results = blocks_results_json(survey, scene.title, scene.hash, origins), moves_it;
   if (arguments.derivatives) {
-    const DerivativeTable table = blocks_derivatives(*scene.stated, request);
+    StatusLine status(true);
+    const DerivativeTable table = blocks_derivatives(*scene.stated, request, [&](std::size_t done, std::size_t all) {
+      if (status.is_due()) status.show(fmt::format("derivatives: {} of {} keys", done, all));
+      return true;
+    });
+    status.clear();
     write_derivatives(table, folder);
     results = with_derivatives(results, table);
     moves_it = derivatives_text(table);

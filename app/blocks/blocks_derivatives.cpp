@@ -100,7 +100,7 @@ bool is_elsewhere(const MovingKey& key, const std::set<std::string>& joints) {
 
 }  // namespace
 
-DerivativeTable blocks_derivatives(const Scene& scene, const SurveyRequest& stated) {
+DerivativeTable blocks_derivatives(const Scene& scene, const SurveyRequest& stated, const KeyHook& hook) {
   SurveyRequest request = stated;
   request.factors_only = true;
   const LeastRow base = least_row(scene, request, "");
@@ -112,7 +112,8 @@ DerivativeTable blocks_derivatives(const Scene& scene, const SurveyRequest& stat
   };
   return derivative_table(
       keys, base.answer,
-      {.name = "least_factor", .unit = "1", .bar = rounding * std::abs(factor), .length = base.length}, answer_with);
+      {.name = "least_factor", .unit = "1", .bar = rounding * std::abs(factor), .length = base.length}, answer_with,
+      hook);
 }
 
 }  // namespace voussoir

@@ -9,6 +9,6 @@ namespace voussoir {
 
 // Derivatives of the least factor of blocks and clusters. Of the joints of the scene only those are varied that bound
 // the blocks that give it. Throws BadInput for scenes that block theory cannot judge.
-DerivativeTable blocks_derivatives(const Scene& scene, const SurveyRequest& request);
+DerivativeTable blocks_derivatives(const Scene& scene, const SurveyRequest& request, const KeyHook& hook = {});
 
 }  // namespace voussoir
