@@ -19,7 +19,7 @@ struct PieceAnswer {
 using AnswerAt = std::function<PieceAnswer(double distance)>;
 
 struct DifferenceRequest {
-  PieceAnswer base;      // with a value
+  PieceAnswer base{};    // with a value
   double step = 1;       // the first
   double below = 1e300;  // how far the key may go down
   double above = 1e300;  // and up
