@@ -294,7 +294,7 @@ TEST(BlocksDerivatives, BesideAKinkItIsThatOfTheScene) {
   ASSERT_TRUE(row.derivative.value);
   EXPECT_TRUE(row.derivative.one_side);
   EXPECT_NEAR(of_critical(*row.derivative.value, *table.base.value, std::tan(50 * degree)), 0.1450913697, 2e-6);
-  EXPECT_NE(row.remark.find("from below; above: block 1 slides on A 3."), std::string::npos) << row.remark;
+  EXPECT_NE(row.remark.find("from below; above: block 1 slides on A within 3."), std::string::npos) << row.remark;
 }
 
 // a wedge whose joint A dips to 0 or 360 degrees, and whose joint B is vertical

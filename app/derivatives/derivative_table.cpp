@@ -39,7 +39,7 @@ std::string side_text(const char* side, const SideDerivative& derivative, const 
   if (!derivative.words.empty()) return fmt::format("{} {}", side, derivative.words);
   const std::string words = derivative.end ? one_line(derivative.end->words, longest_reason) : "";
   if (derivative.end && derivative.end->distance <= at_once * step) return fmt::format("{}: {} at once", side, words);
-  if (derivative.end) return fmt::format("{}: {} {:.2g} {} away", side, words, derivative.end->distance, key.unit);
+  if (derivative.end) return fmt::format("{}: {} within {:.2g} {}", side, words, derivative.end->distance, key.unit);
   return "";
 }
 
