@@ -61,6 +61,10 @@ LoadedScene load_blocks(const std::filesystem::path& path, const std::vector<std
   return load(read_scene(path, overrides), 1);
 }
 
+LoadedScene load_changed(const Scene& scene, const std::vector<std::string>& overrides) {
+  return load(read_tree(*scene.tree, scene.file, overrides), 1);
+}
+
 void tell_remarks(const Scene& scene) {
   tell_warnings(scene.remarks);
 }

@@ -37,6 +37,9 @@ LoadedScene load_scene(const std::filesystem::path& path, const std::vector<std:
 // the same if only the blocks of a scene are needed: it need not have a stage
 LoadedScene load_blocks(const std::filesystem::path& path, const std::vector<std::string>& overrides = {});
 
+// the same of a scene that has been read, with further overrides
+LoadedScene load_changed(const Scene& scene, const std::vector<std::string>& overrides);
+
 // warnings about the files that the scene names, on stderr
 void tell_remarks(const Scene& scene);
 

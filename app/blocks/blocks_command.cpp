@@ -7,13 +7,16 @@
 
 #include "app/base/arguments.hpp"
 #include "app/base/message.hpp"
+#include "app/base/progress_line.hpp"
 #include "app/base/run_scene.hpp"
 #include "app/base/section_option.hpp"
 #include "app/blocks/back_analysis.hpp"
+#include "app/blocks/blocks_derivatives.hpp"
 #include "app/blocks/blocks_summary.hpp"
 #include "app/blocks/blocks_view.hpp"
 #include "app/blocks/kinematics_text.hpp"
 #include "app/blocks/seismic_option.hpp"
+#include "app/derivatives/derivative_files.hpp"
 #include "app/run_folder/claimed_folder.hpp"
 #include "app/run_folder/origin.hpp"
 #include "app/run_folder/results_hash.hpp"
@@ -49,6 +52,7 @@ struct BlocksArguments {
   bool view = false;                  // view.html
   bool dxf = false;                   // blocks.dxf
   std::vector<std::string> sections;  // planes, for section.dxf
+  bool derivatives = false;           // derivatives.csv, derivatives.svg
   bool overwrite = false;
 };
 
@@ -181,6 +185,9 @@ ExitCode judge_scene(const BlocksArguments& arguments, const SurveyRequest& requ
       outputs.files.emplace_back(name);
   if (arguments.dxf) outputs.files.emplace_back(dxf_file);
   if (!polygons.empty()) outputs.files.emplace_back(section_file);
+  if (arguments.derivatives)
+    for (const char* name : {derivatives_csv_file, derivatives_svg_file})
+      outputs.files.emplace_back(name);
   const ClaimedFolder claim(folder, outputs, scene.files, arguments.overwrite);
   tell_remarks(*scene.stated);
   const std::vector<Origin> origins{this_origin()};
@@ -193,9 +200,21 @@ ExitCode judge_scene(const BlocksArguments& arguments, const SurveyRequest& requ
   write_file(folder / "blocks_verdicts.json", blocks_json(survey, scene.title, scene.hash, origins));
   if constexpr (Dim == 3) write_file(folder / "key_blocks.geojson", key_blocks_geojson(survey, faces));
   if (arguments.view) write_blocks_view(folder, prepared, survey);
+  std::string results = blocks_results_json(survey, scene.title, scene.hash, origins), moves_it;
+  if (arguments.derivatives) {
+    StatusLine status(true);
+    const DerivativeTable table = blocks_derivatives(*scene.stated, request, [&](std::size_t done, std::size_t all) {
+      if (status.is_due()) status.show(fmt::format("derivatives: {} of {} keys", done, all));
+      return true;
+    });
+    status.clear();
+    write_derivatives(table, folder);
+    results = with_derivatives(results, table);
+    moves_it = derivatives_text(table);
+  }
   // results.json comes last: if it exists, everything is complete
-  write_results(folder, blocks_results_json(survey, scene.title, scene.hash, origins));
-  fmt::print("{}results: {}\n", blocks_summary(survey, scene.title, arguments.top), folder.string());
+  write_results(folder, results);
+  fmt::print("{}{}results: {}\n", blocks_summary(survey, scene.title, arguments.top), moves_it, folder.string());
   if (arguments.view) fmt::print("page: {}\n", (folder / page_file).string());
   ExitCode code = ExitCode::done;
   for (const auto* list : {&survey.rows, &survey.clusters})
@@ -230,6 +249,8 @@ ExitCode blocks_command(const BlocksArguments& arguments) {
                                : arguments.dxf ? "dxf"
                                                : "section",
                                instead));
+  if (instead && arguments.derivatives)
+    throw BadInput(fmt::format("--derivatives are those of the least factor; {}: leave out one of the two", instead));
   if (arguments.kinematics) return analyse_directions(arguments, request, scene);
   if (!arguments.face.empty() || arguments.friction > 0) throw BadInput("--face and --friction belong to --kinematics");
   if (!arguments.back_analysis.empty()) return analyse_back(arguments, request, scene);
@@ -301,6 +322,9 @@ void add_blocks(CLI::App& program, Action& action) {
       "--dxf", arguments.dxf,
       "write a drawing for CAD, blocks.dxf: key blocks (factor below --required), other blocks and bolts by "
       "layers");
+  command->add_flag("--derivatives", arguments.derivatives,
+                    "what moves the least factor: its derivative by each number of the scene that moves it, with an "
+                    "error bar (derivatives.csv, derivatives.svg)");
   add_section(command, arguments.sections, "key blocks and other blocks");
   add_overwrite(command, arguments.overwrite);
 }

@@ -9,6 +9,8 @@
 #include "app/base/interruption.hpp"
 #include "app/base/message.hpp"
 #include "app/base/progress_line.hpp"
+#include "app/derivatives/derivative_files.hpp"
+#include "app/limit/limit_derivatives.hpp"
 #include "app/limit/limit_files.hpp"
 #include "app/limit/limit_loads.hpp"
 #include "app/run_folder/claimed_folder.hpp"
@@ -27,6 +29,7 @@ struct LimitArguments {
   bool with_dilation = false;           // the bound of joints that dilate, alone
   bool decide = false;                  // by runs on elastic joints
   bool proof = false;                   // the load's factor is proved without rounding
+  bool derivatives = false;             // of the first value, by the numbers of the scene
   bool overwrite = false;
   bool quiet = false;
 };
@@ -118,7 +121,8 @@ void print_proof(const ProvedBounds& proof) {
 }
 
 template <int Dim>
-void print_analysis(const LimitAnalysis<Dim>& analysis, const fs::path& folder) {
+void print_analysis(const LimitAnalysis<Dim>& analysis, const std::optional<DerivativeTable>& table,
+                    const fs::path& folder) {
   const Evidence& evidence = analysis.evidence;
   fmt::print("{}limit analysis\n", analysis.title.empty() ? "" : analysis.title + " - ");
   line("sought", analysis.sought);
@@ -147,6 +151,7 @@ void print_analysis(const LimitAnalysis<Dim>& analysis, const fs::path& folder) 
                                         : fmt::format("the mechanism's {} blocks", analysis.mechanism.moving.size())));
   for (const std::string& caveat : analysis.caveats)
     line(&caveat == &analysis.caveats.front() ? "caveat" : "", caveat);
+  if (table) fmt::print("{}", derivatives_text(*table));
   fmt::print("results: {}\n", folder.string());
 }
 
@@ -158,13 +163,13 @@ ExitCode exit_code(const LimitAnswer& analysis) {
 
 template <int Dim>
 ExitCode answer(const LimitArguments& arguments, const LoadedScene& scene, const LimitAnalysis<Dim>& analysis,
-                const std::vector<std::string>& files) {
+                const std::optional<DerivativeTable>& table, const std::vector<std::string>& files) {
   const fs::path folder = results_folder(arguments);
   const ClaimedFolder claim(folder, {"limit", files}, scene.files, arguments.overwrite);
   tell_remarks(*scene.stated);
   if (!arguments.quiet) tell_warnings(analysis.warnings);
-  write_limit_files(analysis, folder);
-  if (!arguments.quiet) print_analysis(analysis, folder);
+  write_limit_files(analysis, table ? &*table : nullptr, folder);
+  if (!arguments.quiet) print_analysis(analysis, table, folder);
   return exit_code(analysis);
 }
 
@@ -190,15 +195,24 @@ ExitCode limit_command(const LimitArguments& arguments) {
     if (interruption() != 0) throw StopRounds();
     if (status.is_due()) status.show("decide: " + what);
   };
-  const auto analyse = [&]<int Dim>() {
-    LimitAnalysis<Dim> analysis = analyse_limit<Dim>(scene, request);
-    status.clear();
-    return analysis;
-  };
   std::vector<std::string> files{"results.json", "blocks.vtp", "mechanism.vtp", "forces.vtp", "proof.json.gz"};
-  if (scene.dimension == 3) return answer(arguments, scene, analyse.operator()<3>(), files);
-  files.push_back("limit.svg");
-  return answer(arguments, scene, analyse.operator()<2>(), files);
+  if (scene.dimension == 2) files.push_back("limit.svg");
+  if (arguments.derivatives) files.insert(files.end(), {derivatives_csv_file, derivatives_svg_file});
+  const auto analyse_and_answer = [&]<int Dim>() {
+    const LimitAnalysis<Dim> analysis = analyse_limit<Dim>(scene, request);
+    std::optional<DerivativeTable> table;
+    request.after_round = [](int, double) {
+      if (interruption() != 0) throw StopRounds();
+    };
+    if (arguments.derivatives && interruption() == 0)
+      table = limit_derivatives(scene, request, analysis, [&](std::size_t done, std::size_t all) {
+        if (status.is_due()) status.show(fmt::format("derivatives: {} of {} keys", done, all));
+        return interruption() == 0;
+      });
+    status.clear();
+    return answer(arguments, scene, analysis, table, files);
+  };
+  return scene.dimension == 3 ? analyse_and_answer.operator()<3>() : analyse_and_answer.operator()<2>();
 }
 
 }  // namespace
@@ -256,6 +270,11 @@ void add_limit(CLI::App& program, Action& action) {
                  "prove the bounds of the load's factor without rounding, as proof.json.gz; for joints that do not "
                  "dilate only the upper one is a bound")
       ->needs(load);
+  command
+      ->add_flag("--derivatives", arguments.derivatives,
+                 "what moves the first value: its derivative by each number of the scene that moves it, with an error "
+                 "bar (derivatives.csv, derivatives.svg)")
+      ->excludes("--decide");
   add_overwrite(command, arguments.overwrite);
   command->add_flag("--quiet", arguments.quiet, "no warnings and no summary");
 }

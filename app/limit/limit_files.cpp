@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "app/base/gzip.hpp"
+#include "app/derivatives/derivative_files.hpp"
 #include "app/run_folder/results_hash.hpp"
 #include "core/output/atomic_file.hpp"
 #include "core/output/paraview.hpp"
@@ -220,7 +221,8 @@ std::string limit_svg(const LimitAnalysis<2>& analysis) {
 }
 
 template <int Dim>
-void write_limit_files(const LimitAnalysis<Dim>& analysis, const std::filesystem::path& folder) {
+void write_limit_files(const LimitAnalysis<Dim>& analysis, const DerivativeTable* table,
+                       const std::filesystem::path& folder) {
   write_figure(analysis, folder);
   const auto blocks = [&](double distance) {
     return vtp(block_faces<Dim>(analysis.model, moved_along(analysis, distance), 0));
@@ -230,10 +232,13 @@ void write_limit_files(const LimitAnalysis<Dim>& analysis, const std::filesystem
   write_file(folder / "forces.vtp", vtp(force_points(analysis)));
   if (analysis.proof && !analysis.proof->file.empty())
     write_file(folder / "proof.json.gz", gzipped(analysis.proof->file));
-  write_results(folder, limit_json(analysis));  // last: if it exists, all else is complete
+  if (table) write_derivatives(*table, folder);
+  const std::string results = limit_json(analysis);
+  // last: if it exists, all else is complete
+  write_results(folder, table ? with_derivatives(results, *table) : results);
 }
 
-template void write_limit_files(const LimitAnalysis<2>&, const std::filesystem::path&);
-template void write_limit_files(const LimitAnalysis<3>&, const std::filesystem::path&);
+template void write_limit_files(const LimitAnalysis<2>&, const DerivativeTable*, const std::filesystem::path&);
+template void write_limit_files(const LimitAnalysis<3>&, const DerivativeTable*, const std::filesystem::path&);
 
 }  // namespace voussoir

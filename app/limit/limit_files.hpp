@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "app/derivatives/derivative_table.hpp"
 #include "app/limit/limit_analysis.hpp"
 
 namespace voussoir {
@@ -17,8 +18,10 @@ std::string limit_json(const LimitAnalysis<Dim>& analysis);
 std::string limit_svg(const LimitAnalysis<2>& analysis);
 
 // results.json, blocks.vtp (velocity of the mechanism), mechanism.vtp (the blocks moved along it), forces.vtp,
-// proof.json.gz if a bound is proved; in the plane limit.svg too. Throws OutputError.
+// proof.json.gz if a bound is proved; in the plane limit.svg too; derivatives.csv and derivatives.svg of a table.
+// Throws OutputError.
 template <int Dim>
-void write_limit_files(const LimitAnalysis<Dim>& analysis, const std::filesystem::path& folder);
+void write_limit_files(const LimitAnalysis<Dim>& analysis, const DerivativeTable* table,
+                       const std::filesystem::path& folder);
 
 }  // namespace voussoir

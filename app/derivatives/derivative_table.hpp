@@ -1,0 +1,50 @@
+// What moves an answer: its derivative by every number of the scene that moves it.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "app/derivatives/moving_keys.hpp"
+#include "app/derivatives/ridders.hpp"
+
+namespace voussoir {
+
+// the answer of the scene with further overrides; may throw SceneError and BadInput, which count as no value
+using AnswerWith = std::function<PieceAnswer(const std::vector<std::string>& overrides)>;
+
+struct DifferentiatedAnswer {
+  std::string name{}, unit{};  // "least_factor", "1"
+  double bar = 0;              // of one answer
+  double length = 1;           // m, of the blocks that give it
+  int levels = 6;              // of the extrapolation
+  int bisections = 12;         // of the distance to another mechanism
+};
+
+// a key that moves the answer, or by which there is no derivative
+struct DerivativeRow {
+  MovingKey key{};
+  Derivative derivative{};  // by the key's unit
+  double change = 0;        // of the answer by the usual change, the larger one at a kink; with its sign
+  bool refused = false;     // neither side has a derivative
+  std::string remark{};     // what happens at a kink or beside it; why there is none
+};
+
+struct DerivativeTable {
+  DifferentiatedAnswer answer{};
+  PieceAnswer base{};
+  std::vector<DerivativeRow> rows{};  // by the change, largest first; then those without a derivative
+  std::vector<std::string> still{};   // keys that do not move it
+  int answers = 0;                    // that were asked for
+  bool unfinished = false;            // the hook ended it
+};
+
+// called with the number of keys that are done and of all; false ends the table, without the key before it
+using KeyHook = std::function<bool(std::size_t done, std::size_t all)>;
+
+// Without a value of `base` the table is empty.
+DerivativeTable derivative_table(const std::vector<MovingKey>& keys, const PieceAnswer& base,
+                                 const DifferentiatedAnswer& answer, const AnswerWith& answer_with,
+                                 const KeyHook& hook = {});
+
+}  // namespace voussoir
