@@ -106,8 +106,8 @@ void add_study(const fs::path& folder, nlohmann::json& data) {
   files["manifest"] = text_of(folder / "manifest.jsonl");
   files["input"] = nlohmann::json::array();
   std::error_code error;
-  for (const char* kind : {"sample", "grid"}) {
-    auto& found = files[fmt::format("{}s", kind)] = nlohmann::json::array();
+  for (const auto& [kind, list] : {std::pair{"sample", "samples"}, {"grid", "grids"}, {"reliability", "reliability"}}) {
+    auto& found = files[list] = nlohmann::json::array();
     for (int k = 1; fs::exists(folder / fmt::format("{}_{}.json", kind, k), error); ++k)
       found.push_back({{"json", text_of(folder / fmt::format("{}_{}.json", kind, k))},
                        {"csv", text_of(folder / fmt::format("{}_{}.csv", kind, k))}});

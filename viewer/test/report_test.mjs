@@ -185,6 +185,20 @@ const state = (fields) => js(`for (const [name, value] of Object.entries(argumen
   field.dispatchEvent(new Event('input', { bubbles: true }));
 }`, fields);
 
+// ---- a reliability analysis: its probability, both design points
+
+const likely = join(folder, 'likely');
+{
+  const { status, stderr } = call('study', join(source, 'cases/reliability/two_slabs_study.toml'), '--quiet', '--out', likely);
+  assert.equal(status, 0, stderr);
+  await open(report(likely));
+  await picture('reliability');
+  const { sampled } = JSON.parse(readFileSync(join(likely, 'reliability_1.json'), 'utf8')), seen = await js("return document.querySelector('main').textContent");
+  for (const words of [`Probability of failure (below 1) ${Number(sampled.probability.toPrecision(3))}`, `by ${sampled.rows} rows of importance sampling around 2 design points`, 'a: friction', 'slides on B'])
+    assert.ok(seen.includes(words), `${words}: ${seen.slice(0, 2000)}`);
+  assert.equal((await rows('Reliability: two slabs')).length, 2);
+}
+
 // ---- a kinematic analysis: two nets whose friction circles are not each other's
 
 const directions = join(folder, 'directions');

@@ -127,6 +127,20 @@ export function tornado(effects, quantity, name) {
   name, 'On what the result depends: Spearman\'s rank correlation, +1 if it rises with the quantity, −1 if it falls.');
 }
 
+// `estimates`: probability and interval after so many rows
+export function probabilityConvergence(estimates, name) {
+  return framed(Plot.plot({ ...LOOK, x: { label: 'rows of importance sampling' }, y: { label: 'probability of failure', grid: true, nice: true, tickFormat: '~g' }, marginLeft: 76,
+    marks: [Plot.areaY(estimates, { x: 'rows', y1: 'low', y2: 'high', fill: STABLE, fillOpacity: 0.2 }), Plot.line(estimates, { x: 'rows', y: 'p', stroke: STABLE })] }),
+  name, 'The probability as rows are added, with its interval of 95 %.');
+}
+
+// `counts`: name and share in percent, the largest first
+export function importances(counts, name) {
+  return framed(Plot.plot({ ...LOOK, height: 60 + 26 * counts.length, marginLeft: 170, x: { label: 'share of the design point (%)', domain: [0, 100], grid: true },
+    y: { label: null, domain: counts.map((count) => count.name) }, marks: [Plot.barX(counts, { y: 'name', x: 'share', fill: STABLE }), Plot.ruleX([0])] }),
+  name, 'How much each key counts: squares of the direction of the nearest design point.');
+}
+
 export function sweepFigure(points, numeric, label, quantity, name) {
   const far = numeric && points.every((point) => point.x > 0) && Math.max(...points.map((p) => p.x)) > 30 * Math.min(...points.map((p) => p.x));
   return framed(Plot.plot({ ...LOOK, x: numeric ? { label, type: far ? 'log' : 'linear', tickFormat: far ? '~g' : undefined, nice: true } : { label, type: 'point', domain: points.map((p) => p.x) },

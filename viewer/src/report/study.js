@@ -1,9 +1,11 @@
 // The report on a study: of each sample how likely it fails, how the results scatter and what they depend on; of each
-// grid a map; of each sweep the result against what it varies; the worst rows with their runs.
+// reliability analysis its probability; of each grid a map; of each sweep the result against what it varies; the worst
+// rows with their runs.
 import { digits } from '../colours.js';
 import { cumulative, histogram, sweepFigure, tornado } from './figures.js';
 import { gridSection } from './grid.js';
 import { bullets, header, paragraph, section } from './parts.js';
+import { reliabilitySection } from './reliability.js';
 import { element, list, readCsv, table } from './table.js';
 import { capital, keyName, plural, quantityName, shownUnit, valueWithBar, withUnits } from './words.js';
 
@@ -60,6 +62,8 @@ function sampleSection(study, { summary, csv }, number) {
     .filter((key) => key.effect !== 0).sort((a, b) => Math.abs(b.effect) - Math.abs(a.effect));
   const worst = [...valid].sort((a, b) => (Number(a[column]) - Number(b[column])) * (summary.failed?.above !== undefined ? -1 : 1)).slice(0, MOST_WORST);
   const places = new Map(rowsOf(study, summary.name).map((row) => [row.value, row.place]));
+  if (!valid.length) return section(`Sample: ${summary.name}`, paragraph(`None of ${plural(summary.rows, 'row')} has a result.`));
+  const linked = worst.some((row) => places.has(row[0]));
   const made = [
     summary.failed ? element('p', { class: 'answer' }, element('span', {}, 'Probability of failure '), element('strong', {}, `${digits(100 * summary.failed.share)} %`)) : null,
     summary.failed ? paragraph(failureText(summary.failed, unit) + (summary.without_result ? ' Rows without a result are not counted: if they collapsed, more fail than that.' : '')) : null,
@@ -70,7 +74,7 @@ function sampleSection(study, { summary, csv }, number) {
   ];
   const rowsShown = worst.map((row) => [row[0], ...keys.map((key, k) => digits(Number(row[k + 1]) / keyName(key).size)), digits(Number(row[column]))]);
   const drawn = table(['row', ...keys.map((key) => { const { name, unit: u } = keyName(key); return u ? `${name} (${u})` : name; }), quantity], rowsShown,
-    { numbers: keys.map((_, k) => k + 1).concat(keys.length + 1), caption: 'The worst rows; a row\'s number opens its run, beside the study' });
+    { numbers: keys.map((_, k) => k + 1).concat(keys.length + 1), caption: `The worst rows${linked ? '; a row\'s number opens its run, beside the study' : ''}` });
   drawn.querySelectorAll('tbody tr').forEach((tr, k) => tr.cells[0].replaceChildren(link(folderOf(study, places.get(worst[k][0])), worst[k][0])));
   return section(`Sample: ${summary.name}`, ...made, drawn);
 }
@@ -99,15 +103,17 @@ export function studySections({ study: stated, files, block }) {
     rows: rows.map((row) => Object.fromEntries(head.map((name, k) => [name, row[k] ?? '']))) };
   const title = files.input.map(({ text }) => text.match(/^title = "(.*)"$/m)?.[1]).find(Boolean) ?? 'Study';
   const samples = files.samples.map(({ json, csv }) => ({ summary: JSON.parse(json), csv }));
+  const analyses = files.reliability.map(({ json, csv }) => ({ summary: JSON.parse(json), csv }));
   const grids = files.grids.map(({ json, csv }) => ({ axes: JSON.parse(json), csv }));
   const named = new Set([...samples.map(({ summary }) => summary.name), ...grids.map(({ axes }) => axes.name)]);
   const sweeps = [...new Set(study.rows.map((row) => row.sweep))].filter((name) => name !== 'default' && !named.has(name));
   const failed = study.rows.filter((row) => row.status !== 'ok'), [first] = study.rows.filter((row) => row.sweep === 'default');
   return [
     header(title, block, failed.length ? { class: 'incomplete', text: `${failed.length} of ${study.rows.length} rows ${failed.length === 1 ? 'has' : 'have'} no result.` } : { class: '', text: `${plural(study.rows.length, 'row')}, all with a result.` }),
-    section('What was asked', paragraph(`${capital(quantityName(study.rows[0].quantity))} of one input with settings changed: ${[...samples.map(({ summary }) => `a sample of ${plural(summary.rows, 'row')} (${summary.name})`), ...grids.map(({ axes }) => `a grid of ${axes.keys.map((key) => key.values.length).join(' × ')} (${axes.name})`), ...sweeps.map((name) => `a sweep (${name})`)].join(', ')}.`),
+    section('What was asked', paragraph(`${capital(quantityName(study.rows[0].quantity))} of one input with settings changed: ${[...samples.map(({ summary }) => `a sample of ${plural(summary.rows, 'row')} (${summary.name})`), ...analyses.map(({ summary }) => `a reliability analysis (${summary.name})`), ...grids.map(({ axes }) => `a grid of ${axes.keys.map((key) => key.values.length).join(' × ')} (${axes.name})`), ...sweeps.map((name) => `a sweep (${name})`)].join(', ')}.`),
       first ? paragraph(`As the input states it: ${valueWithBar({ value: Number(first.result), unit: first.result_unit, error_bar: Number(first.error_bar) })}.`) : null),
     ...samples.map((sample, k) => sampleSection(study, sample, k + 1)),
+    ...analyses.map((analysis, k) => reliabilitySection(analysis, k + 1)),
     ...grids.map((grid, k) => gridSection(grid, k + 1)),
     ...sweeps.map((name, k) => sweepSection(study, name, k + 1)),
     failed.length ? section('Rows without a result', bullets(failed.slice(0, 20).map((row) => `${row.sweep} ${row.value}: ${row.status}`))) : null,
