@@ -227,8 +227,8 @@ TEST_F(Program, BlocksFollowTheEnvelopeOfBartonAndBandis) {
 TEST_F(Program, BackAnalysisOfASlabIsItsStraightLine) {
   std::string scene = read(fs::path(VOUSSOIR_SOURCE_DIR) / "cases/reliability/slab.toml");
   scene +=
-      "\n[[stage]]\nname = \"safety\"\nkind = \"reduce\"\nsearch = \"factor\"\nfriction_deg = 30\nfrom_factor = 2\n"
-      "to_factor = 0.5\ntolerance_factor = 0.01\n";
+      "\n[[stage]]\nname = \"safety\"\nkind = \"reduce\"\nsearch = \"factor\"\nfriction_deg = 30\nfrom_factor = 0.5\n"
+      "to_factor = 2\ntolerance_factor = 0.01\n";
   write("slab.toml", scene);
   const Ended ended = run("blocks slab.toml --back-analysis joint --out out");
   ASSERT_EQ(ended.code, 0) << ended.err;
