@@ -4,7 +4,7 @@ import { digits } from '../colours.js';
 import { importances, probabilityConvergence } from './figures.js';
 import { bullets, paragraph, section } from './parts.js';
 import { element, readCsv, table } from './table.js';
-import { keyName, plural, withUnits } from './words.js';
+import { keyName, plural } from './words.js';
 
 const MOST_POINTS = 400;
 
@@ -32,7 +32,7 @@ function estimates({ head, rows }, summary) {
 export function reliabilitySection({ summary, csv }, number) {
   const { sampled, first_order: first, second_order: second, design_points: points = [] } = summary, read = readCsv(csv);
   if (summary.failure) return section(`Reliability: ${summary.name}`, paragraph(`No probability: ${summary.failure}.`));
-  const limit = summary.fails_below !== undefined ? `below ${withUnits(summary.fails_below, '')}` : `above ${withUnits(summary.fails_above, '')}`;
+  const limit = summary.fails_below !== undefined ? `below ${digits(summary.fails_below)}` : `above ${digits(summary.fails_above)}`;
   const p = sampled?.probability ?? first?.probability, units = Object.fromEntries(read.head.map((name) => [name.replace(/ \([^)]*\)$/, ''), name]));
   const counts = Object.entries(points[0].importances).map(([key, share]) => ({ name: keyName(units[key] ?? key).name, share: 100 * share }))
     .sort((a, b) => b.share - a.share);
