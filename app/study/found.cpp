@@ -111,7 +111,7 @@ std::optional<std::string> missing_quantity(const fs::path& folder, const StudyP
       // a mass in which nothing moves has no factor
       if (results.at("schema") == "voussoir.blocks_values") names = names_of_mass_values();
       for (const auto& [name, value] : results.at("values").items())
-        names.push_back(name);
+        if (std::ranges::find(names, name) == names.end()) names.push_back(name);
     }
   } catch (const std::exception&) {
     return std::nullopt;  // damaged: its row reports it

@@ -212,6 +212,12 @@ StudyPlan read_study_plan(const fs::path& path) {
           top, "history",
           fmt::format("`voussoir {}` has no history; name a value of its results.json in quantity", sweep.other->name));
   }
+  const bool jumps = plan.quantity == "volume_below_1" || plan.quantity == "blocks_below_1";
+  for (const Sweep& sweep : plan.sweeps)
+    if (sweep.reliability && jumps)
+      refuse(top, "quantity",
+             "jumps from value to value; a reliability analysis follows how it changes with its keys: take "
+             "\"least_factor\", or a [[sample]]");
   for (const auto& [place, table] : samples)
     draw_rows(table, plan.sweeps[place]);
   return plan;

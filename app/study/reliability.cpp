@@ -233,6 +233,11 @@ ReliabilityFound analyse_reliability(const Sweep& sweep, const Evaluate& evaluat
   }
   if (!form.found) {
     found.failure = form.reason;
+    for (const ReliabilityRow& row : found.rows)
+      if (!row.answer.value) {
+        found.failure += fmt::format("; answers are missing, the first because of: {}", row.answer.status);
+        break;
+      }
     return found;
   }
   found.points = {*form.found};

@@ -253,6 +253,9 @@ TEST_F(StudyReliability, WhatHasNoAnswerIsRefused) {
   refuse(one, with("[[\"density\", \"" + key + "\", 0.5], [\"" + key + "\", \"density\", 0.4]]"), "stated twice");
   refuse(one, with("0.5"), "must be a list of");
 
+  write("study.toml", "scene = \"cube.toml\"\nblocks = {}\nquantity = \"volume_below_1\"\n" + analysis);
+  expect_one_line(run("study study.toml --out bad"), 2, "jumps from value to value");
+
   // an answer that no key moves, and a law that has strengths below zero
   Ended ended = study(
       "[[reliability]]\nname = \"r\"\nfails = { below = 1 }\nkeys = [{ key = \"density\", law = \"normal\", "
