@@ -10,11 +10,12 @@
 namespace voussoir {
 namespace {
 
-// steps of differences in u, by the error bar of the answers relative to their distance from the limit: an answer that
-// a search brackets needs a longer one
+// steps of differences in u: an answer that a search brackets needs a long one
 constexpr double tolerance_of_exact = 1e-5;  // of design points whose answers cost microseconds
-constexpr double step_of_exact = 1e-3, step_of_fine = 1e-2, step_of_bracket = 0.1, step_of_wide_bracket = 0.3;
-constexpr double fine_bar = 1e-5, bracket_bar = 2e-3;
+constexpr double step_of_exact = 1e-3, step_of_fine = 1e-2, step_of_bracket = 0.3;
+constexpr double fine_bar = 1e-5;  // of an answer, relative to its distance from the limit
+// With bars b, slope g₀/β and n keys the gradient's direction is known to some b √n β/(g₀ step) only.
+constexpr double turns_of_bar = 16, most_tolerance = 0.01;
 // of second differences, which lose twice as many digits
 constexpr double step_of_curvature = 0.02;
 constexpr std::size_t most_keys_of_curvature = 12;
@@ -22,10 +23,17 @@ constexpr double most_of_one_row = 0.1;  // of the estimate
 // of the distance between two design points, that their mechanisms are told as near
 constexpr double near_beta = 1;
 
-double step_for(const EvaluatedSetting& medians, double g) {
-  if (!medians.error_bar) return step_of_exact;
-  const double bar = *medians.error_bar / std::max(std::abs(g), 1e-300);
-  return bar <= fine_bar ? step_of_fine : bar <= bracket_bar ? step_of_bracket : step_of_wide_bracket;
+void choose_step(const EvaluatedSetting& medians, DesignPointRequest& search) {
+  const double bar = medians.error_bar.value_or(0) / std::max(*search.g_at_medians, 1e-300);
+  if (!medians.error_bar) {
+    search.step = step_of_exact;
+    search.tolerance = tolerance_of_exact;
+  } else if (bar <= fine_bar) {
+    search.step = step_of_fine;
+  } else {
+    search.step = step_of_bracket;
+    search.tolerance = std::clamp(turns_of_bar * bar / search.step, search.tolerance, most_tolerance);
+  }
 }
 
 // asks for answers at points u, and remembers them
@@ -220,12 +228,11 @@ ReliabilityFound analyse_reliability(const Sweep& sweep, const Evaluate& evaluat
 
   asked.purpose = "design point";
   DesignPointRequest search;
-  search.step = step_for(found.rows.front().answer, *first);
+  const double tolerance = search.tolerance;
   search.bracket = found.rows.front().answer.error_bar.value_or(0);
   search.g_at_medians = std::abs(*first);
   search.reversed = found.medians_fail;
-  const double tolerance = search.tolerance;
-  if (search.step == step_of_exact) search.tolerance = tolerance_of_exact;
+  choose_step(found.rows.front().answer, search);
   DesignPointSearch form = find_design_point(g, drawn.components(), search);
   if (!form.found && search.tolerance < tolerance) {
     search.tolerance = tolerance;
