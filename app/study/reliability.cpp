@@ -19,6 +19,9 @@ constexpr double turns_of_bar = 16, most_tolerance = 0.01;
 // of second differences, which lose twice as many digits
 constexpr double step_of_curvature = 0.02;
 constexpr std::size_t most_keys_of_curvature = 12;
+// of an unsettled search: g near the limit, beside that at the medians; number of such points; their spread
+constexpr double near_limit = 0.02, most_spread = 0.2;
+constexpr std::size_t least_near = 6;
 constexpr double most_of_one_row = 0.1;  // of the estimate
 // of the distance between two design points, that their mechanisms are told as near
 constexpr double near_beta = 1;
@@ -119,6 +122,45 @@ std::string impossible(const DrawnKeys& drawn, const std::vector<double>& values
                          keys[k]);
   }
   return "";
+}
+
+// The search of a rough answer, as of runs whose way differs from row to row, ends nowhere but goes round the design
+// point. Then the mean of the points that it found near the limit is good enough to sample around.
+std::optional<DesignPoint> unsettled_point(const Asked& asked, ReliabilityFound& found, double g_at_medians) {
+  std::vector<const StandardPoint*> near;
+  for (const ReliabilityRow& row : found.rows)
+    if (const std::optional<double> g = asked.g_of(row.answer);
+        g && row.answer.error_bar && std::abs(*g) <= near_limit * g_at_medians)
+      near.push_back(&row.u);
+  if (near.size() < least_near) return std::nullopt;
+  near.erase(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(near.size() / 2));
+  const auto length = [](const StandardPoint& u) {
+    double square = 0;
+    for (const double part : u)
+      square += part * part;
+    return std::sqrt(square);
+  };
+  DesignPoint point;
+  point.u.assign(near.front()->size(), 0.0);
+  double least = length(*near.front()), most = least;
+  for (const StandardPoint* u : near) {
+    for (std::size_t k = 0; k < u->size(); ++k)
+      point.u[k] += (*u)[k] / static_cast<double>(near.size());
+    least = std::min(least, length(*u));
+    most = std::max(most, length(*u));
+  }
+  const double beta = length(point.u);
+  if (!(beta > 0) || most - least > most_spread * beta) return std::nullopt;
+  StandardPoint direction = point.u;
+  for (double& part : direction)
+    part /= beta;
+  point.beta = found.medians_fail ? -beta : beta;
+  point.pieces = {{direction, beta}};
+  found.warnings.push_back(
+      fmt::format("the search of the design point did not settle, since the answers are rougher than their error bars: "
+                  "beta is between {:.3g} and {:.3g}",
+                  least, most));
+  return point;
 }
 
 SamplingEstimate of_failing(SamplingEstimate estimate, bool medians_fail) {
@@ -238,6 +280,7 @@ ReliabilityFound analyse_reliability(const Sweep& sweep, const Evaluate& evaluat
     search.tolerance = tolerance;
     form = find_design_point(g, drawn.components(), search);
   }
+  if (!form.found) form.found = unsettled_point(asked, found, *search.g_at_medians);
   if (!form.found) {
     found.failure = form.reason;
     for (const ReliabilityRow& row : found.rows)
