@@ -182,26 +182,82 @@ class RunTwins {
       found_.reason = "the tangent of an increment is singular";
       return;
     }
-    for (Twin<Dim>& twin : twins_)
-      twin.take_base(corrected_motion(twin, twin.schedule_beside(zero_, end.schedule), factors, q, r));
+    const Weakening weakening = weakening_at(end.schedule, factors, q);
+    for (Twin<Dim>& twin : twins_) {
+      const Schedule schedule = twin.schedule_beside(zero_, end.schedule);
+      twin.take_base(weakening.acts ? moved_alike(twin, schedule, factors, q, r, weakening).motion
+                                    : corrected_motion(twin, schedule, factors, q, r));
+    }
     zero_.take_base(q);
   }
 
   // the twin's motion at which it has the unbalanced forces r
   Eigen::VectorXd corrected_motion(Twin<Dim>& twin, const Schedule& schedule, const TangentFactors<Dim>& factors,
                                    const Eigen::VectorXd& q, const Eigen::VectorXd& r) {
-    const auto size = [&](const Eigen::VectorXd& x) { return std::sqrt(x.dot(x.cwiseQuotient(zero_.unknowns.scale))); };
     Eigen::VectorXd own = q, rest = residual(twin, schedule, own) - r;
-    const double first = size(rest);
+    const double first = size_of(rest);
     double before = first;
     for (int k = 0; k < most_corrections && before > corrected * first; ++k) {
       own += factors.solve(rest);
       ++found_.counters.back_substitutions;
       rest = residual(twin, schedule, own) - r;
-      if (const double now = size(rest); std::exchange(before, now) * hardly_corrected < now) break;
+      if (const double now = size_of(rest); std::exchange(before, now) * hardly_corrected < now) break;
     }
     return own;
   }
+
+  // ---- in a search --------------------------------------------------------------------------------------------------
+
+  // How the run would move if the searched level changed: w = K^-1 dr/dF, and D w, along which motion is measured.
+  struct Weakening {
+    bool acts = false;
+    double level = 0;
+    Eigen::VectorXd by_level, along;
+  };
+  Weakening weakening_at(const Schedule& schedule, const TangentFactors<Dim>& factors, const Eigen::VectorXd& q) {
+    const auto* plan = std::get_if<ReducePlan>(&zero_.stage().plan().plan);
+    if (!plan) return {};
+    Weakening w;
+    w.level = level_in_force(plan->searched, chosen_properties(zero_.model, *plan), schedule);
+    const double step = step_of_level * w.level;
+    const auto at = [&](double level) { return residual(zero_, at_level(schedule, level), q); };
+    w.by_level = factors.solve((at(w.level + step) - at(w.level - step)) / (2 * step));
+    ++found_.counters.back_substitutions;
+    w.along = zero_.unknowns.scale.cwiseProduct(w.by_level);
+    w.acts = w.along.dot(w.by_level) > 0;
+    residual(zero_, schedule, q);
+    return w;
+  }
+
+  Schedule at_level(Schedule schedule, double level) const {
+    const ReducePlan& plan = std::get<ReducePlan>(zero_.stage().plan().plan);
+    set_strength(zero_.model, plan.searched, chosen_properties(zero_.model, plan), level, schedule);
+    return schedule;
+  }
+
+  // The twin's motion, and the change of its level, at which it has the unbalanced forces r and has come as far as the
+  // run along w: near a collapse a level may have no rest, or one far away, but every motion has a level.
+  struct MovedAlike {
+    Eigen::VectorXd motion;
+    double change = 0;
+  };
+  MovedAlike moved_alike(Twin<Dim>& twin, const Schedule& schedule, const TangentFactors<Dim>& factors,
+                         const Eigen::VectorXd& q, const Eigen::VectorXd& r, const Weakening& w) {
+    MovedAlike own{q};
+    const double began = w.along.dot(zero_.motion_to(twin.base.motions)), per_level = w.along.dot(w.by_level);
+    for (int k = 0; k < 4; ++k) {
+      const Eigen::VectorXd way =
+          factors.solve(residual(twin, at_level(schedule, w.level + own.change), own.motion) - r);
+      ++found_.counters.back_substitutions;
+      const double more = -(began + w.along.dot(own.motion - q + way)) / per_level;
+      own.motion += way + more * w.by_level;
+      own.change += more;
+    }
+    residual(twin, at_level(schedule, w.level + own.change), own.motion);
+    return own;
+  }
+
+  double size_of(const Eigen::VectorXd& x) const { return std::sqrt(x.dot(x.cwiseQuotient(zero_.unknowns.scale))); }
 
   // ---- derivatives --------------------------------------------------------------------------------------------------
 
@@ -250,19 +306,16 @@ class RunTwins {
       softest = std::min(softest, p.shear_stiffness / p.normal_stiffness);
     c.near_collapse = zero_.unknowns.free.size() > 1 && c.smallest < mechanism_share * softest * c.second;
 
-    const auto work_at = [&](double level) {
-      Schedule schedule = last.schedule;
-      set_strength(zero_.model, plan.searched, properties, level, schedule);
-      return vectors.weight.dot(residual(zero_, schedule, q));
+    const Weakening weakening = weakening_at(last.schedule, factors, q);
+    if (!weakening.acts) {
+      found_.reason = "no joint that is searched slips in the last stable state";
+      return;
+    }
+    const auto change_of = [&](Twin<Dim>& twin) {
+      return moved_alike(twin, twin.schedule_beside(zero_, last.schedule), factors, q, r, weakening).change;
     };
-    const double step = step_of_level * c.level;
-    const double by_level = (work_at(c.level + step) - work_at(c.level - step)) / (2 * step);
-    const auto level_of = [&](const Eigen::VectorXd& r_now) { return -vectors.weight.dot(r_now - r) / by_level; };
     for (std::size_t n = 0; n < numbers_.size(); ++n) {
-      const auto of = [&](Twin<Dim>& twin) {
-        return level_of(residual(twin, twin.schedule_beside(zero_, last.schedule), q));
-      };
-      const double below = of(twins_[2 * n]), above = of(twins_[2 * n + 1]);
+      const double below = change_of(twins_[2 * n]), above = change_of(twins_[2 * n + 1]);
       c.by.push_back(derivative_between(below, 0, above, numbers_[n].step));
     }
   }
