@@ -30,6 +30,12 @@ constexpr double step_of_level = 1e-7;
 // stiffness; else a joint of it still sticks.
 constexpr double mechanism_share = 0.01;
 
+// From this share on a search's twins move as far as the run, before it at the same level.
+constexpr double soft_share = 0.1;
+
+// of the unknowns' scale, on the diagonal of a singular tangent
+constexpr double singular_share = 1e-9;
+
 using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point began) {
@@ -64,6 +70,10 @@ RunDerivative derivative_between(double below, double base, double above, double
   return d;
 }
 
+bool is_smooth(const RunDerivative& d) {
+  return std::abs(d.above - d.below) <= smooth * std::abs(d.value);
+}
+
 template <int Dim>
 class RunTwins {
  public:
@@ -84,17 +94,17 @@ class RunTwins {
   // after the last
   void end(const Progress<Dim>& now, const AnswersAtRest<Dim>& answers) {
     const Clock::time_point began = Clock::now();
-    const auto* search = std::get_if<ReducePlan>(&zero_.stage().plan().plan);
-    if (search)
+    if (searches())
       end_trial(now);
-    else
-      stable_ends_ = std::move(ends_);
-    if (failed() || fallen_back(now.state)) return;
-    search ? find_critical(*search, now) : find_at_rest(answers);
+    else if (!fallen_back(now.state))
+      follow_all();
+    if (!failed()) searches() ? find_critical(now) : find_at_rest(answers);
     found_.seconds += seconds_since(began);
   }
 
  private:
+  bool searches() const { return std::holds_alternative<ReducePlan>(zero_.stage().plan().plan); }
+  const ReducePlan& search_plan() const { return std::get<ReducePlan>(zero_.stage().plan().plan); }
   bool failed() const { return !found_.reason.empty(); }
 
   bool fallen_back(const State<Dim>& state) {
@@ -110,13 +120,13 @@ class RunTwins {
     const State<Dim>& state = now.state;
     if (now.stage != stage_) {
       if (stage_ >= 0 && fallen_back(state)) return;
-      if (stage_ >= 0) end_stage();
+      if (stage_ >= 0) follow_all();
       begin_stage_of_twins(now.stage);
       trial_ = -1;
       newton_ = false;
       fallbacks_ = state.counters.static_fallbacks;
     }
-    if (std::holds_alternative<ReducePlan>(zero_.stage().plan().plan)) {
+    if (searches()) {
       if (now.reduction.trial != trial_ && now.reduction.leg == FollowLeg::none) {
         if (trial_ >= 0) end_trial(now);
         trial_ = now.reduction.trial;
@@ -139,16 +149,11 @@ class RunTwins {
 
   // of a search; a failed trial leaves nothing
   void end_trial(const Progress<Dim>& now) {
-    const bool stable = now.reduction.stable == target_;
-    if (stable && !fallen_back(now.state)) {
-      follow_all(stable_ends_);
-      stable_ends_ = std::move(ends_);
-    }
-    ends_.clear();
-  }
-  void end_stage() {
-    follow_all(stable_ends_);
-    follow_all(ends_);
+    if (now.reduction.stable != target_) return ends_.clear();
+    if (fallen_back(now.state)) return;
+    near_.reset();
+    follow_all();
+    if (near_) nearer_.push_back(std::move(*near_));
   }
 
   void begin_stage_of_twins(int stage) {
@@ -160,10 +165,10 @@ class RunTwins {
 
   // ---- how the twins follow -----------------------------------------------------------------------------------------
 
-  void follow_all(std::vector<IncrementEnd<Dim>>& ends) {
-    for (const IncrementEnd<Dim>& end : ends)
+  void follow_all() {
+    for (const IncrementEnd<Dim>& end : ends_)
       follow(end);
-    ends.clear();
+    ends_.clear();
   }
 
   Eigen::VectorXd residual(Twin<Dim>& twin, const Schedule& schedule, const Eigen::VectorXd& q) {
@@ -183,10 +188,16 @@ class RunTwins {
       return;
     }
     const Weakening weakening = weakening_at(end.schedule, factors, q);
+    if (weakening.acts) near_ = nearness(weakening);
     for (Twin<Dim>& twin : twins_) {
       const Schedule schedule = twin.schedule_beside(zero_, end.schedule);
-      twin.take_base(weakening.acts ? moved_alike(twin, schedule, factors, q, r, weakening).motion
-                                    : corrected_motion(twin, schedule, factors, q, r));
+      if (weakening.acts) {
+        const MovedAlike own = moved_alike(twin, schedule, factors, q, r, weakening);
+        near_->changes.push_back(own.change);
+        twin.take_base(own.motion);
+      } else {
+        twin.take_base(corrected_motion(twin, schedule, factors, q, r));
+      }
     }
     zero_.take_base(q);
   }
@@ -210,27 +221,54 @@ class RunTwins {
 
   // How the run would move if the searched level changed: w = K^-1 dr/dF, and D w, along which motion is measured.
   struct Weakening {
-    bool acts = false;
+    bool acts = false;  // the joints of a mechanism slip
     double level = 0;
     Eigen::VectorXd by_level, along;
+    NullVectors vectors;
   };
+  // near a collapse: by twin the change of its level at which it moves as the run does
+  struct Nearness {
+    CriticalDerivatives at;
+    std::vector<double> changes;
+  };
+  Nearness nearness(const Weakening& w) const {
+    const NullVectors& v = w.vectors;
+    Nearness near;
+    near.at.level = w.level;
+    near.at.smallest = v.smallest;
+    near.at.second = v.second;
+    near.at.motion = v.motion;
+    near.at.weight = v.weight;
+    near.at.near_collapse = v.smallest < mechanism_share * softest_joint() * v.second;
+    return near;
+  }
   Weakening weakening_at(const Schedule& schedule, const TangentFactors<Dim>& factors, const Eigen::VectorXd& q) {
-    const auto* plan = std::get_if<ReducePlan>(&zero_.stage().plan().plan);
-    if (!plan) return {};
+    if (!searches()) return {};
+    const ReducePlan& plan = search_plan();
     Weakening w;
-    w.level = level_in_force(plan->searched, chosen_properties(zero_.model, *plan), schedule);
+    w.level = level_in_force(plan.searched, chosen_properties(zero_.model, plan), schedule);
     const double step = step_of_level * w.level;
     const auto at = [&](double level) { return residual(zero_, at_level(schedule, level), q); };
     w.by_level = factors.solve((at(w.level + step) - at(w.level - step)) / (2 * step));
     ++found_.counters.back_substitutions;
     w.along = zero_.unknowns.scale.cwiseProduct(w.by_level);
-    w.acts = w.along.dot(w.by_level) > 0;
+    if (w.along.dot(w.by_level) > 0) {
+      w.vectors = null_vectors<Dim>(factors, zero_.unknowns.scale);
+      w.acts = w.vectors.smallest < soft_share * softest_joint() * w.vectors.second;
+    }
     residual(zero_, schedule, q);
     return w;
   }
 
+  double softest_joint() const {
+    double softest = 1;
+    for (const JointProperties& p : zero_.model.properties)
+      softest = std::min(softest, p.shear_stiffness / p.normal_stiffness);
+    return softest;
+  }
+
   Schedule at_level(Schedule schedule, double level) const {
-    const ReducePlan& plan = std::get<ReducePlan>(zero_.stage().plan().plan);
+    const ReducePlan& plan = search_plan();
     set_strength(zero_.model, plan.searched, chosen_properties(zero_.model, plan), level, schedule);
     return schedule;
   }
@@ -262,8 +300,6 @@ class RunTwins {
   // ---- derivatives --------------------------------------------------------------------------------------------------
 
   void find_at_rest(const AnswersAtRest<Dim>& answers) {
-    follow_all(stable_ends_);
-    if (failed()) return;
     const auto of = [&](const Twin<Dim>& twin) { return answers(*twin.scene, twin.model, twin.state()); };
     found_.answers = of(zero_);
     for (std::size_t n = 0; n < numbers_.size(); ++n) {
@@ -274,50 +310,55 @@ class RunTwins {
     }
   }
 
-  // The last increment of the last stable trial: its base is that of all twins, its end is near the collapse.
-  void find_critical(const ReducePlan& plan, const Progress<Dim>& now) {
-    if (stable_ends_.empty()) {
-      found_.reason = "no trial of the search took an increment of Newton's method";
-      return;
-    }
-    const IncrementEnd<Dim> last = std::move(stable_ends_.back());
-    stable_ends_.pop_back();
-    follow_all(stable_ends_);
+  void find_critical(const Progress<Dim>& now) {
+    if (nearer_.empty()) look_beyond(now.reduction.failed);
     if (failed()) return;
-    const Eigen::VectorXd q = zero_.motion_to(last.motions);
-    const Eigen::VectorXd r = residual(zero_, last.schedule, q);
-    const TangentFactors<Dim> factors(zero_.tangent(zero_.base));
-    ++found_.counters.factorisations;
-    if (!factors.regular()) {
-      found_.reason = "the tangent of the last stable state is singular";
-      return;
-    }
-    const NullVectors vectors = null_vectors<Dim>(factors, zero_.unknowns.scale);
-    CriticalDerivatives& c = found_.critical.emplace();
-    const std::vector<int> properties = chosen_properties(zero_.model, plan);
-    c.level = level_in_force(plan.searched, properties, last.schedule);
+    CriticalDerivatives& c = found_.critical.emplace(nearer_.back().at);
     c.critical = 0.5 * (now.reduction.stable + now.reduction.failed);
-    c.smallest = vectors.smallest;
-    c.second = vectors.second;
-    c.motion = vectors.motion;
-    c.weight = vectors.weight;
-    double softest = 1;
-    for (const JointProperties& p : zero_.model.properties)
-      softest = std::min(softest, p.shear_stiffness / p.normal_stiffness);
-    c.near_collapse = zero_.unknowns.free.size() > 1 && c.smallest < mechanism_share * softest * c.second;
+    for (std::size_t n = 0; n < numbers_.size(); ++n)
+      c.by.push_back(derivative_of_level(n));
+  }
 
-    const Weakening weakening = weakening_at(last.schedule, factors, q);
-    if (!weakening.acts) {
-      found_.reason = "no joint that is searched slips in the last stable state";
-      return;
-    }
-    const auto change_of = [&](Twin<Dim>& twin) {
-      return moved_alike(twin, twin.schedule_beside(zero_, last.schedule), factors, q, r, weakening).change;
+  // The derivative of the last stable trial whose twins have the run's contacts; the bar is what the last trials have
+  // changed.
+  RunDerivative derivative_of_level(std::size_t n) const {
+    const auto of = [&](const Nearness& near) {
+      return derivative_between(near.changes[2 * n], 0, near.changes[2 * n + 1], numbers_[n].step);
     };
-    for (std::size_t n = 0; n < numbers_.size(); ++n) {
-      const double below = change_of(twins_[2 * n]), above = change_of(twins_[2 * n + 1]);
-      c.by.push_back(derivative_between(below, 0, above, numbers_[n].step));
+    for (std::size_t k = nearer_.size(); k-- > 0;) {
+      RunDerivative d = of(nearer_[k]);
+      if (!is_smooth(d) && k > 0) continue;
+      if (k > 0) d.bar = std::max(d.bar, std::abs(d.value - of(nearer_[k - 1]).value));
+      if (!is_smooth(d)) d.reason = "contacts change their branch";
+      return d;
     }
+    return {.reason = "no state near the collapse"};
+  }
+
+  // Of a search without slip in its last stable state, as of a block on a plane: the first failed level, where the
+  // joints slip after the motion to which the sticking ones resist. K is singular there.
+  void look_beyond(double level) {
+    const Schedule schedule = at_level(schedule_, level);
+    Eigen::VectorXd q = Eigen::VectorXd::Zero(zero_.unknowns.free.size());
+    for (int k = 0; k < 2; ++k) {
+      const Eigen::VectorXd r = residual(zero_, schedule, q);
+      BlockMatrix<freedoms<Dim>> matrix = zero_.tangent(zero_.base);
+      if (k == 1) matrix.add_diagonal(singular_share * zero_.unknowns.scale);
+      const TangentFactors<Dim> factors(matrix);
+      if (!factors.regular()) break;
+      if (k == 0) {
+        q = factors.solve(r);
+        continue;
+      }
+      const Weakening weakening = weakening_at(schedule, factors, q);
+      if (!weakening.acts) break;
+      Nearness near = nearness(weakening);
+      for (Twin<Dim>& twin : twins_)
+        near.changes.push_back(
+            moved_alike(twin, twin.schedule_beside(zero_, schedule), factors, q, r, weakening).change);
+      nearer_.push_back(std::move(near));
+    }
+    if (nearer_.empty()) found_.reason = "no state near the collapse: the joints of a mechanism slip in none";
   }
 
   const std::vector<TwinScenes<Dim>>& numbers_;
@@ -332,8 +373,9 @@ class RunTwins {
   int increments_left_ = 0;
   std::vector<Motion<Dim>> motions_;  // its base's
   Schedule schedule_;                 // of the last step
-  // increments that no twin has followed: those of the trial or stage under way; of the last stable trial
-  std::vector<IncrementEnd<Dim>> ends_, stable_ends_;
+  std::vector<IncrementEnd<Dim>> ends_;  // of the trial or stage under way: no twin has followed yet
+  std::optional<Nearness> near_;         // of the trial that is followed
+  std::vector<Nearness> nearer_;         // of stable trials, in their order
 };
 
 }  // namespace
