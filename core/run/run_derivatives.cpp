@@ -17,7 +17,7 @@ namespace {
 
 // Corrections of a twin at the end of an increment; less than this is left of the first difference, or no correction
 // takes away this much of the one before: rounding.
-constexpr int most_corrections = 6;
+constexpr int most_corrections = 6, most_alike = 4;
 constexpr double corrected = 1e-12, hardly_corrected = 0.3;
 
 // Twins whose differences to the run differ by more than this share of the derivative have different contacts.
@@ -34,7 +34,10 @@ constexpr double mechanism_share = 0.01;
 constexpr double soft_share = 0.1;
 
 // of the unknowns' scale, on the diagonal of a singular tangent
-constexpr double singular_share = 1e-9;
+constexpr double singular_share = 1e-6;
+
+// motions beyond the last stable state until the joints of a mechanism slip
+constexpr int most_steps_beyond = 4;
 
 using Clock = std::chrono::steady_clock;
 
@@ -283,7 +286,7 @@ class RunTwins {
                          const Eigen::VectorXd& q, const Eigen::VectorXd& r, const Weakening& w) {
     MovedAlike own{q};
     const double began = w.along.dot(zero_.motion_to(twin.base.motions)), per_level = w.along.dot(w.by_level);
-    for (int k = 0; k < 4; ++k) {
+    for (int k = 0; k < most_alike; ++k) {
       const Eigen::VectorXd way =
           factors.solve(residual(twin, at_level(schedule, w.level + own.change), own.motion) - r);
       ++found_.counters.back_substitutions;
@@ -335,30 +338,46 @@ class RunTwins {
     return {.reason = "no state near the collapse"};
   }
 
-  // Of a search without slip in its last stable state, as of a block on a plane: the first failed level, where the
-  // joints slip after the motion to which the sticking ones resist. K is singular there.
+  // Of a search without slip in its last stable state, as of a block on a plane: the first failed level, after a motion
+  // in which the joints that stuck slip. K is singular there, and the level at which nothing is unbalanced is critical.
   void look_beyond(double level) {
     const Schedule schedule = at_level(schedule_, level);
     Eigen::VectorXd q = Eigen::VectorXd::Zero(zero_.unknowns.free.size());
-    for (int k = 0; k < 2; ++k) {
+    const Eigen::VectorXd balanced = q;
+    for (int k = 0; k < most_steps_beyond && nearer_.empty(); ++k) {
       const Eigen::VectorXd r = residual(zero_, schedule, q);
       BlockMatrix<freedoms<Dim>> matrix = zero_.tangent(zero_.base);
-      if (k == 1) matrix.add_diagonal(singular_share * zero_.unknowns.scale);
+      matrix.add_diagonal(singular_share * zero_.unknowns.scale);
       const TangentFactors<Dim> factors(matrix);
+      ++found_.counters.factorisations;
       if (!factors.regular()) break;
-      if (k == 0) {
-        q = factors.solve(r);
+      const Weakening weakening = weakening_at(schedule, factors, q);
+      if (!weakening.acts) {
+        q += factors.solve(r);
         continue;
       }
-      const Weakening weakening = weakening_at(schedule, factors, q);
-      if (!weakening.acts) break;
-      Nearness near = nearness(weakening);
-      for (Twin<Dim>& twin : twins_)
-        near.changes.push_back(
-            moved_alike(twin, twin.schedule_beside(zero_, schedule), factors, q, r, weakening).change);
-      nearer_.push_back(std::move(near));
+      if (slipped_) {
+        const double own = moved_alike(zero_, schedule, factors, q, balanced, weakening).change;
+        Nearness near = nearness(weakening);
+        for (Twin<Dim>& twin : twins_)
+          near.changes.push_back(
+              moved_alike(twin, twin.schedule_beside(zero_, schedule), factors, q, balanced, weakening).change - own);
+        near.at.level += own;
+        nearer_.push_back(std::move(near));
+      } else {
+        const Eigen::VectorXd& u = weakening.vectors.motion;
+        q += (u.dot(r) < 0 ? -1 : 1) * largest_overlap() / u.template lpNorm<Eigen::Infinity>() * u;
+        slipped_ = true;
+      }
     }
     if (nearer_.empty()) found_.reason = "no state near the collapse: the joints of a mechanism slip in none";
+  }
+
+  double largest_overlap() const {
+    double largest = 0;
+    for (const Contact<Dim>& c : zero_.state().contacts.list)
+      if (c.touching()) largest = std::max(largest, c.geometry.overlap);
+    return largest;
   }
 
   const std::vector<TwinScenes<Dim>>& numbers_;
@@ -374,6 +393,7 @@ class RunTwins {
   std::vector<Motion<Dim>> motions_;  // its base's
   Schedule schedule_;                 // of the last step
   std::vector<IncrementEnd<Dim>> ends_;  // of the trial or stage under way: no twin has followed yet
+  bool slipped_ = false;                 // beyond the last stable state
   std::optional<Nearness> near_;         // of the trial that is followed
   std::vector<Nearness> nearer_;         // of stable trials, in their order
 };

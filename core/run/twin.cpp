@@ -155,28 +155,30 @@ NullVectors null_vectors(const TangentFactors<Dim>& factors, const Eigen::Vector
   const auto inverse_transposed = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
     return root.cwiseProduct(factors.solve_transposed(root.cwiseProduct(x)));
   };
-  // the direction across `known` whose inverse (K'K)^-1 is longest; and its singular value
-  const auto find = [&](const Eigen::VectorXd* known) {
+  const auto across = [](Eigen::VectorXd x, const Eigen::VectorXd* known) -> Eigen::VectorXd {
+    if (known) x -= known->dot(x) * *known;
+    return x;
+  };
+  // the right and left directions, across those that are known, which K shortens most, and its singular value
+  const auto find = [&](const Eigen::VectorXd* right, const Eigen::VectorXd* left) {
     Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(scale.size(), 1, 2);
     for (Eigen::Index i = 0; i < x.size(); i += 2)
       x[i] = -x[i];
     double value = 0;
     for (int k = 0; k < most_inverse_iterations; ++k) {
-      if (known) x -= known->dot(x) * *known;
-      x.normalize();
-      const Eigen::VectorXd next = inverse(inverse_transposed(x));
-      const double now = 1 / std::sqrt(next.norm());
+      x = across(x, right).normalized();
+      const Eigen::VectorXd next = inverse(across(inverse_transposed(x), left));
+      const double now = 1 / std::sqrt(across(next, right).norm());
       x = next;
       if (std::abs(now - std::exchange(value, now)) <= steady_direction * now) break;
     }
-    if (known) x -= known->dot(x) * *known;
-    x.normalize();
+    x = across(x, right).normalized();
     return std::pair(value, x);
   };
-  const auto [smallest, right] = find(nullptr);
-  NullVectors found{.smallest = smallest, .motion = right.cwiseQuotient(root), .weight = {}};
-  if (scale.size() > 1) found.second = find(&right).first;
-  found.weight = inverse_transposed(right).normalized().cwiseQuotient(root);
+  const auto [smallest, right] = find(nullptr, nullptr);
+  const Eigen::VectorXd left = inverse_transposed(right).normalized();
+  NullVectors found{.smallest = smallest, .motion = right.cwiseQuotient(root), .weight = left.cwiseQuotient(root)};
+  if (scale.size() > 1) found.second = find(&right, &left).first;
   if (found.weight.dot(found.motion) < 0) found.weight = -found.weight;
   return found;
 }
