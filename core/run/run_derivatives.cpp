@@ -22,6 +22,7 @@ constexpr double corrected = 1e-12, hardly_corrected = 0.3;
 
 // Twins whose differences to the run differ by more than this share of the derivative have different contacts.
 constexpr double smooth = 0.01;
+constexpr double rounding_of_answer = 1e-10;
 
 // of a level: the step of the derivative by it
 constexpr double step_of_level = 1e-7;
@@ -59,32 +60,36 @@ bool same_place(const std::vector<Motion<Dim>>& a, const std::vector<Motion<Dim>
   });
 }
 
-// The middle of the twins' differences to the run.
-RunDerivative derivative_between(double below, double base, double above, double step) {
+// The middle of the twins' differences to the run. `size`: of the answer, whose rounding the differences see.
+RunDerivative derivative_between(double below, double base, double above, double step, double size) {
   RunDerivative d;
   d.below = (base - below) / step;
   d.above = (above - base) / step;
   d.value = 0.5 * (d.below + d.above);
   const double apart = std::abs(d.above - d.below);
+  const bool same_branch = apart <= smooth * std::abs(d.value) + rounding_of_answer * size / step;
   if (!std::isfinite(d.value))
     d.reason = "not a number";
-  else
-    d.bar = apart > smooth * std::abs(d.value) ? apart : 0.1 * apart;
+  else if (!same_branch)
+    d.reason = "a contact changes its branch within the step";
+  d.bar = 0.1 * apart;
   return d;
-}
-
-bool is_smooth(const RunDerivative& d) {
-  return std::abs(d.above - d.below) <= smooth * std::abs(d.value);
 }
 
 template <int Dim>
 class RunTwins {
  public:
   RunTwins(const Prepared<Dim>& scene, const std::vector<TwinScenes<Dim>>& numbers, RunDerivatives& found)
-      : numbers_(numbers), found_(found), zero_(scene) {
-    for (const TwinScenes<Dim>& n : numbers)
+      : found_(found), zero_(scene) {
+    for (const TwinScenes<Dim>& n : numbers) {
+      std::string reason = not_twins(scene.model, n.below.model);
+      if (reason.empty()) reason = not_twins(scene.model, n.above.model);
+      refused_.push_back(std::move(reason));
+      if (!refused_.back().empty()) continue;
+      steps_.push_back(n.step);
       for (const Prepared<Dim>* side : {&n.below, &n.above})
         twins_.emplace_back(*side);
+    }
   }
 
   // before every step of the run
@@ -251,7 +256,7 @@ class RunTwins {
     Weakening w;
     w.level = level_in_force(plan.searched, chosen_properties(zero_.model, plan), schedule);
     const double step = step_of_level * w.level;
-    const auto at = [&](double level) { return residual(zero_, at_level(schedule, level), q); };
+    const auto at = [&](double level) { return residual(zero_, at_level(zero_, schedule, level), q); };
     w.by_level = factors.solve((at(w.level + step) - at(w.level - step)) / (2 * step));
     ++found_.counters.back_substitutions;
     w.along = zero_.unknowns.scale.cwiseProduct(w.by_level);
@@ -270,9 +275,9 @@ class RunTwins {
     return softest;
   }
 
-  Schedule at_level(Schedule schedule, double level) const {
+  Schedule at_level(const Twin<Dim>& twin, Schedule schedule, double level) const {
     const ReducePlan& plan = search_plan();
-    set_strength(zero_.model, plan.searched, chosen_properties(zero_.model, plan), level, schedule);
+    set_strength(twin.model, plan.searched, chosen_properties(zero_.model, plan), level, schedule);
     return schedule;
   }
 
@@ -288,13 +293,13 @@ class RunTwins {
     const double began = w.along.dot(zero_.motion_to(twin.base.motions)), per_level = w.along.dot(w.by_level);
     for (int k = 0; k < most_alike; ++k) {
       const Eigen::VectorXd way =
-          factors.solve(residual(twin, at_level(schedule, w.level + own.change), own.motion) - r);
+          factors.solve(residual(twin, at_level(twin, schedule, w.level + own.change), own.motion) - r);
       ++found_.counters.back_substitutions;
       const double more = -(began + w.along.dot(own.motion - q + way)) / per_level;
       own.motion += way + more * w.by_level;
       own.change += more;
     }
-    residual(twin, at_level(schedule, w.level + own.change), own.motion);
+    residual(twin, at_level(twin, schedule, w.level + own.change), own.motion);
     return own;
   }
 
@@ -305,11 +310,16 @@ class RunTwins {
   void find_at_rest(const AnswersAtRest<Dim>& answers) {
     const auto of = [&](const Twin<Dim>& twin) { return answers(*twin.scene, twin.model, twin.state()); };
     found_.answers = of(zero_);
-    for (std::size_t n = 0; n < numbers_.size(); ++n) {
-      const std::vector<double> below = of(twins_[2 * n]), above = of(twins_[2 * n + 1]);
-      std::vector<RunDerivative>& row = found_.at_rest.emplace_back();
-      for (std::size_t k = 0; k < below.size(); ++k)
-        row.push_back(derivative_between(below[k], found_.answers[k], above[k], numbers_[n].step));
+    std::size_t t = 0;
+    for (const std::string& reason : refused_) {
+      std::vector<RunDerivative>& row = found_.at_rest.emplace_back(found_.answers.size());
+      const std::vector<double> below = reason.empty() ? of(twins_[2 * t]) : found_.answers;
+      const std::vector<double> above = reason.empty() ? of(twins_[2 * t + 1]) : found_.answers;
+      for (std::size_t k = 0; k < row.size(); ++k)
+        row[k] = reason.empty() ? derivative_between(below[k], found_.answers[k], above[k], steps_[t],
+                                                    std::abs(found_.answers[k]))
+                                : RunDerivative{.reason = reason};
+      t += reason.empty();
     }
   }
 
@@ -318,21 +328,21 @@ class RunTwins {
     if (failed()) return;
     CriticalDerivatives& c = found_.critical.emplace(nearer_.back().at);
     c.critical = 0.5 * (now.reduction.stable + now.reduction.failed);
-    for (std::size_t n = 0; n < numbers_.size(); ++n)
-      c.by.push_back(derivative_of_level(n));
+    std::size_t t = 0;
+    for (const std::string& reason : refused_)
+      c.by.push_back(reason.empty() ? derivative_of_level(t++) : RunDerivative{.reason = reason});
   }
 
   // The derivative of the last stable trial whose twins have the run's contacts; the bar is what the last trials have
   // changed.
-  RunDerivative derivative_of_level(std::size_t n) const {
+  RunDerivative derivative_of_level(std::size_t t) const {
     const auto of = [&](const Nearness& near) {
-      return derivative_between(near.changes[2 * n], 0, near.changes[2 * n + 1], numbers_[n].step);
+      return derivative_between(near.changes[2 * t], 0, near.changes[2 * t + 1], steps_[t], near.at.level);
     };
     for (std::size_t k = nearer_.size(); k-- > 0;) {
       RunDerivative d = of(nearer_[k]);
-      if (!is_smooth(d) && k > 0) continue;
+      if (!d.reason.empty() && k > 0) continue;
       if (k > 0) d.bar = std::max(d.bar, std::abs(d.value - of(nearer_[k - 1]).value));
-      if (!is_smooth(d)) d.reason = "contacts change their branch";
       return d;
     }
     return {.reason = "no state near the collapse"};
@@ -341,7 +351,7 @@ class RunTwins {
   // Of a search without slip in its last stable state, as of a block on a plane: the first failed level, after a motion
   // in which the joints that stuck slip. K is singular there, and the level at which nothing is unbalanced is critical.
   void look_beyond(double level) {
-    const Schedule schedule = at_level(schedule_, level);
+    const Schedule schedule = at_level(zero_, schedule_, level);
     Eigen::VectorXd q = Eigen::VectorXd::Zero(zero_.unknowns.free.size());
     const Eigen::VectorXd balanced = q;
     for (int k = 0; k < most_steps_beyond && nearer_.empty(); ++k) {
@@ -380,10 +390,11 @@ class RunTwins {
     return largest;
   }
 
-  const std::vector<TwinScenes<Dim>>& numbers_;
   RunDerivatives& found_;
+  std::vector<std::string> refused_;  // by number: why it has no twins
+  std::vector<double> steps_;         // of the others
   Twin<Dim> zero_;                 // of the scene itself: by Newton's method alone, as all twins
-  std::vector<Twin<Dim>> twins_;   // by number: below, above
+  std::vector<Twin<Dim>> twins_;  // of the same: below, above
 
   int stage_ = -1, trial_ = -1;
   double target_ = 0;
@@ -427,7 +438,8 @@ std::string not_twins(const Model<Dim>& model, const Model<Dim>& other) {
     const bool same = one.name == two.name && one.fixed == two.fixed && one.free_translation == two.free_translation &&
                       one.free_rotation == two.free_rotation &&
                       std::ranges::equal(one.parts, two.parts, [](const Polytope<Dim>& p, const Polytope<Dim>& q) {
-                        return p.joints == q.joints && p.loops == q.loops;
+                        return p.joints == q.joints && p.vertices.size() == q.vertices.size() &&
+                               std::ranges::equal(p.loops, q.loops, {}, &std::vector<int>::size, &std::vector<int>::size);
                       });
     const double apart = (one.reference - two.reference).norm();
     if (!same || apart > 0.01 * one.radius) return fmt::format("block {} has other faces or another place", b);
@@ -443,9 +455,6 @@ RunDerivatives run_with_derivatives(const Prepared<Dim>& scene, const std::vecto
                                     const AnswersAtRest<Dim>& answers, Progress<Dim>& progress) {
   RunDerivatives found;
   found.reason = not_differentiable(scene);
-  for (const TwinScenes<Dim>& n : numbers)
-    for (const Prepared<Dim>* side : {&n.below, &n.above})
-      if (found.reason.empty()) found.reason = not_twins(scene.model, side->model);
   const Clock::time_point began = Clock::now();
   RunTwins<Dim> twins(scene, numbers, found);
   Watcher<Dim> watcher;
