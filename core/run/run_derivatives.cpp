@@ -146,7 +146,8 @@ class RunTwins {
     }
     const bool under_way = state.increment.under_way;
     const std::vector<Motion<Dim>>& motions = under_way ? state.increment.base.motions : state.bodies.motions;
-    if (newton_ && (!under_way || state.increment.increments_left != increments_left_ || !same_place(motions, motions_)))
+    if (newton_ &&
+        (!under_way || state.increment.increments_left != increments_left_ || !same_place(motions, motions_)))
       ends_.push_back({motions, schedule_});
     newton_ = under_way;
     schedule_ = state.schedule;
@@ -316,9 +317,9 @@ class RunTwins {
       const std::vector<double> below = reason.empty() ? of(twins_[2 * t]) : found_.answers;
       const std::vector<double> above = reason.empty() ? of(twins_[2 * t + 1]) : found_.answers;
       for (std::size_t k = 0; k < row.size(); ++k)
-        row[k] = reason.empty() ? derivative_between(below[k], found_.answers[k], above[k], steps_[t],
-                                                    std::abs(found_.answers[k]))
-                                : RunDerivative{.reason = reason};
+        row[k] = reason.empty()
+                     ? derivative_between(below[k], found_.answers[k], above[k], steps_[t], std::abs(found_.answers[k]))
+                     : RunDerivative{.reason = reason};
       t += reason.empty();
     }
   }
@@ -393,16 +394,16 @@ class RunTwins {
   RunDerivatives& found_;
   std::vector<std::string> refused_;  // by number: why it has no twins
   std::vector<double> steps_;         // of the others
-  Twin<Dim> zero_;                 // of the scene itself: by Newton's method alone, as all twins
-  std::vector<Twin<Dim>> twins_;  // of the same: below, above
+  Twin<Dim> zero_;                    // of the scene itself: by Newton's method alone, as all twins
+  std::vector<Twin<Dim>> twins_;      // of the same: below, above
 
   int stage_ = -1, trial_ = -1;
   double target_ = 0;
   long long fallbacks_ = 0;
   bool newton_ = false;  // an increment was under way before the last step
   int increments_left_ = 0;
-  std::vector<Motion<Dim>> motions_;  // its base's
-  Schedule schedule_;                 // of the last step
+  std::vector<Motion<Dim>> motions_;     // its base's
+  Schedule schedule_;                    // of the last step
   std::vector<IncrementEnd<Dim>> ends_;  // of the trial or stage under way: no twin has followed yet
   bool slipped_ = false;                 // beyond the last stable state
   std::optional<Nearness> near_;         // of the trial that is followed
@@ -424,7 +425,8 @@ std::string not_differentiable(const Prepared<Dim>& scene) {
     const auto* search = std::get_if<ReducePlan>(&stage.plan);
     if (search && search->method != ReductionMethod::bisection)
       return fmt::format("stage {} does not search by bisection", stage.name);
-    if (search && &stage != &scene.stages.back()) return fmt::format("stages follow the search of stage {}", stage.name);
+    if (search && &stage != &scene.stages.back())
+      return fmt::format("stages follow the search of stage {}", stage.name);
   }
   return {};
 }
@@ -435,12 +437,13 @@ std::string not_twins(const Model<Dim>& model, const Model<Dim>& other) {
     return fmt::format("{} blocks instead of {}", other.bodies.size(), model.bodies.size());
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const Body<Dim>&one = model.bodies[b], &two = other.bodies[b];
-    const bool same = one.name == two.name && one.fixed == two.fixed && one.free_translation == two.free_translation &&
-                      one.free_rotation == two.free_rotation &&
-                      std::ranges::equal(one.parts, two.parts, [](const Polytope<Dim>& p, const Polytope<Dim>& q) {
-                        return p.joints == q.joints && p.vertices.size() == q.vertices.size() &&
-                               std::ranges::equal(p.loops, q.loops, {}, &std::vector<int>::size, &std::vector<int>::size);
-                      });
+    const bool same =
+        one.name == two.name && one.fixed == two.fixed && one.free_translation == two.free_translation &&
+        one.free_rotation == two.free_rotation &&
+        std::ranges::equal(one.parts, two.parts, [](const Polytope<Dim>& p, const Polytope<Dim>& q) {
+          return p.joints == q.joints && p.vertices.size() == q.vertices.size() &&
+                 std::ranges::equal(p.loops, q.loops, {}, &std::vector<int>::size, &std::vector<int>::size);
+        });
     const double apart = (one.reference - two.reference).norm();
     if (!same || apart > 0.01 * one.radius) return fmt::format("block {} has other faces or another place", b);
   }
@@ -471,11 +474,11 @@ RunDerivatives run_with_derivatives(const Prepared<Dim>& scene, const std::vecto
   return found;
 }
 
-#define VOUSSOIR_INSTANTIATE(Dim)                                                             \
-  template std::string not_differentiable<Dim>(const Prepared<Dim>&);                         \
-  template std::string not_twins<Dim>(const Model<Dim>&, const Model<Dim>&);                  \
-  template RunDerivatives run_with_derivatives<Dim>(                                          \
-      const Prepared<Dim>&, const std::vector<TwinScenes<Dim>>&, const AnswersAtRest<Dim>&, Progress<Dim>&);
+#define VOUSSOIR_INSTANTIATE(Dim)                                                                              \
+  template std::string not_differentiable<Dim>(const Prepared<Dim>&);                                          \
+  template std::string not_twins<Dim>(const Model<Dim>&, const Model<Dim>&);                                   \
+  template RunDerivatives run_with_derivatives<Dim>(const Prepared<Dim>&, const std::vector<TwinScenes<Dim>>&, \
+                                                    const AnswersAtRest<Dim>&, Progress<Dim>&);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)
 #undef VOUSSOIR_INSTANTIATE

@@ -6,7 +6,8 @@
 //
 // with the factors of K that serve all twins; then the twin's joints take their own histories. At rest the answer's
 // derivative is the twins' difference over 2 h: dq/dp = K^-1 (dr/dp + dr/dh dh/dp), direct differentiation with all
-// histories. A search ends where K is singular, with left null vector v; there the derivative of the critical level F is
+// histories. A search ends where K is singular, with left null vector v; there the derivative of the critical level F
+// is
 //
 //   dF/dp = -v . (dr/dp + dr/dh dh/dp) / (v . dr/dF),
 //
@@ -31,10 +32,10 @@ struct TwinScenes {
 };
 
 struct RunDerivative {
-  double value = 0;         // by the number's unit
+  double value = 0;             // by the number's unit
   double below = 0, above = 0;  // from one side; equal but for the curvature if no contact changes its branch
-  double bar = 0;           // estimated from these
-  std::string reason{};     // why there is none
+  double bar = 0;               // estimated from these
+  std::string reason{};         // why there is none
 };
 
 // Of a search: at its last stable state.
@@ -47,25 +48,24 @@ struct CriticalDerivatives {
 };
 
 struct TwinCounters {
-  long long increments = 0;         // whose ends were followed
-  long long factorisations = 0;     // of tangents
-  long long evaluations = 0;        // of residuals, by all twins
+  long long increments = 0;          // whose ends were followed
+  long long factorisations = 0;      // of tangents
+  long long evaluations = 0;         // of residuals, by all twins
   long long back_substitutions = 0;  // likewise
 };
 
 struct RunDerivatives {
-  std::string reason{};                                // why there are none
-  std::vector<double> answers{};                       // at the end of the run
-  std::vector<std::vector<RunDerivative>> at_rest{};   // by number, by answer
-  std::optional<CriticalDerivatives> critical{};       // of the last stage, if it is a search
+  std::string reason{};                               // why there are none
+  std::vector<double> answers{};                      // at the end of the run
+  std::vector<std::vector<RunDerivative>> at_rest{};  // by number, by answer
+  std::optional<CriticalDerivatives> critical{};      // of the last stage, if it is a search
   TwinCounters counters{};
   double seconds = 0, seconds_of_run = 0;  // of the twins; of the run
 };
 
 // numbers at rest that the forces and motions of a state give
 template <int Dim>
-using AnswersAtRest =
-    std::function<std::vector<double>(const Prepared<Dim>&, const Model<Dim>&, const State<Dim>&)>;
+using AnswersAtRest = std::function<std::vector<double>(const Prepared<Dim>&, const Model<Dim>&, const State<Dim>&)>;
 
 // Why a scene's run cannot be differentiated; empty: it can. Every stage must reach equilibrium by Newton's method; a
 // search, by bisection.

@@ -133,11 +133,10 @@ Number slope(double dip) {
 TEST(RunDerivatives, OfABlockAtRestAreThoseOfItsSpring) {
   const double dip = 20, ks = 5e8, density = 2600, length = 4;
   const SceneWith scene = text_with(block_text, {slope(dip)(0).front(), "equilibrium.unbalanced=1e-9"});
-  const RunDerivatives found =
-      derivatives<2>(scene, {twins_of<2>(scene, key("joint_properties.base.shear_stiffness", ks), 1e-4 * ks),
-                             twins_of<2>(scene, key("density", density), 1e-4 * density),
-                             twins_of<2>(scene, slope(dip), 5e-3),
-                             twins_of<2>(scene, key("joint_properties.base.friction_deg", 25), 1e-3)});
+  const RunDerivatives found = derivatives<2>(
+      scene, {twins_of<2>(scene, key("joint_properties.base.shear_stiffness", ks), 1e-4 * ks),
+              twins_of<2>(scene, key("density", density), 1e-4 * density), twins_of<2>(scene, slope(dip), 5e-3),
+              twins_of<2>(scene, key("joint_properties.base.friction_deg", 25), 1e-3)});
   const double u = found.answers.at(0), share = 1 - u / (length - u);
   ASSERT_GT(u, 0);
   EXPECT_NEAR(found.at_rest[0][0].value * ks / u * share, -1, 1e-6);
@@ -148,10 +147,9 @@ TEST(RunDerivatives, OfABlockAtRestAreThoseOfItsSpring) {
 
 // It slips on its base: the tangent is unsymmetric.
 TEST(RunDerivatives, OfABlockThatSlipsAndLeansAreThoseOfWholeRuns) {
-  const SceneWith scene =
-      text_with(std::string(block_text) + wall_text, {"restrain.1.above=[\"base\", \"wall\"]",
-                                                      "monitors.block.above=[\"base\", \"wall\"]",
-                                                      "equilibrium.unbalanced=1e-9"});
+  const SceneWith scene = text_with(std::string(block_text) + wall_text,
+                                    {"restrain.1.above=[\"base\", \"wall\"]",
+                                     "monitors.block.above=[\"base\", \"wall\"]", "equilibrium.unbalanced=1e-9"});
   const std::vector<std::pair<Number, double>> numbers{{key("joint_properties.base.friction_deg", 25), 25},
                                                        {key("density", 2600), 2600},
                                                        {key("joint_properties.wall.normal_stiffness", 5e7), 5e7},
@@ -170,7 +168,8 @@ TEST(RunDerivatives, OfABlockThatSlipsAndLeansAreThoseOfWholeRuns) {
 
 // Critical friction of a block on a plane, which sticks until it slides: d/d(dip) = 1, and its size does not matter.
 TEST(RunDerivatives, OfABlockOnAPlaneAreOnesOfItsDip) {
-  const SceneWith scene = text_with(std::string(block_text) + R"(
+  const SceneWith scene =
+      text_with(std::string(block_text) + R"(
 [[stage]]
 name = "reduce"
 kind = "reduce"
@@ -179,10 +178,10 @@ from_deg = 60
 to_deg = 5
 tolerance_deg = 0.01
 )",
-                                    {"joint_properties.base.friction_deg=60", "joints.base.dip=5", slope(15)(0).front()});
-  const RunDerivatives found = derivatives<2>(
-      scene, {twins_of<2>(scene, slope(15), 1e-4), twins_of<2>(scene, key("density", 2600), 1e-3),
-              twins_of<2>(scene, key("joints.base.dip", 5), 1e-4)});
+                {"joint_properties.base.friction_deg=60", "joints.base.dip=5", slope(15)(0).front()});
+  const RunDerivatives found =
+      derivatives<2>(scene, {twins_of<2>(scene, slope(15), 1e-4), twins_of<2>(scene, key("density", 2600), 1e-3),
+                             twins_of<2>(scene, key("joints.base.dip", 5), 1e-4)});
   ASSERT_TRUE(found.critical);
   EXPECT_TRUE(found.critical->near_collapse);
   EXPECT_NEAR(found.critical->level, 20 * degree, 1e-8);
@@ -216,10 +215,9 @@ TEST(RunDerivatives, OfAPlaneFailureWithWaterAreThoseOfItsClosedForm) {
 TEST(RunDerivatives, OfABoltedSlopeAreThoseOfItsClosedForm) {
   const SceneWith scene = file_with("cases/support/slope.toml", {"statics=newton"});
   const double density = 5096.839959;
-  const RunDerivatives found =
-      derivatives<2>(scene, {twins_of<2>(scene, key("joints.plane.dip", 40), 5e-5),
-                             twins_of<2>(scene, key("bolts.bolt.yield", 20e3), 2e-2),
-                             twins_of<2>(scene, key("density", density), 1e-6 * density)});
+  const RunDerivatives found = derivatives<2>(scene, {twins_of<2>(scene, key("joints.plane.dip", 40), 5e-5),
+                                                      twins_of<2>(scene, key("bolts.bolt.yield", 20e3), 2e-2),
+                                                      twins_of<2>(scene, key("density", density), 1e-6 * density)});
   ASSERT_TRUE(found.critical);
   const std::vector<RunDerivative>& d = found.critical->by;
   EXPECT_NEAR(d[0].value / degree, 0.99456966172619 + 0.0054303382738063, 1e-4);
@@ -231,9 +229,9 @@ TEST(RunDerivatives, OfABoltedSlopeAreThoseOfItsClosedForm) {
 // Of the wedge's dip, whose joints' histories count: with them frozen these derivatives are 0.6045, 0.5884, 0.5688.
 TEST(RunDerivatives, OfAWedgeCarryItsHistories) {
   for (const double ratio : {0.1, 0.5, 1.0}) {
-    const SceneWith scene = file_with(
-        "cases/wedge/scene.toml", {"statics=newton", "static_increments=60", "stage.reduce.tolerance_deg=1e-4",
-                                   fmt::format("joint_properties.rock.shear_stiffness={}", ratio * 10e6)});
+    const SceneWith scene = file_with("cases/wedge/scene.toml",
+                                      {"statics=newton", "static_increments=60", "stage.reduce.tolerance_deg=1e-4",
+                                       fmt::format("joint_properties.rock.shear_stiffness={}", ratio * 10e6)});
     const Number dip = key("joints.A.dip", 40), a = key("joints.A.dip_direction", 130),
                  b = key("joints.B.dip_direction", 220);
     const RunDerivatives found = derivatives<3>(
@@ -244,7 +242,8 @@ TEST(RunDerivatives, OfAWedgeCarryItsHistories) {
     EXPECT_NEAR(d[0].value / degree, of_runs, 1e-3 * of_runs) << ratio;
     EXPECT_TRUE(found.critical->near_collapse);
     // the motion: along the line of intersection, 37.06 degrees steep; the weight of the derivatives: level
-    const Vector<3> u = found.critical->motion.head<3>().normalized(), v = found.critical->weight.head<3>().normalized();
+    const Vector<3> u = found.critical->motion.head<3>().normalized(),
+                    v = found.critical->weight.head<3>().normalized();
     EXPECT_NEAR(std::asin(std::abs(u[2])) / degree, 37.058, 0.3 + ratio);
     EXPECT_LT(std::abs(v[2]), 0.2);
   }
