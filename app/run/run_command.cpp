@@ -117,6 +117,7 @@ ExitCode run_command(const RunArguments& arguments) {
   add_origin(options.origins, this_origin());
   const bool repeats = wants_budget(scene) || wants_stiffness_bar(scene);
   const bool differentiates = wants_derivatives(arguments);
+  if (differentiates) require_answer(scene, arguments.derivatives_of);
   if (!repeats && !differentiates) scene.stated.reset();
 
   // the folder is locked, and records the run before the first step

@@ -32,7 +32,7 @@ constexpr const char* stiffness_keys[] = {"normal_stiffness", "shear_stiffness"}
 constexpr double stiffness_unit = 1e9;   // Pa/m
 constexpr double usual_stiffness = 0.1;  // of the value
 
-bool searches(const StagePlan& stage) {
+bool is_search(const StagePlan& stage) {
   return std::holds_alternative<ReducePlan>(stage.plan);
 }
 
@@ -79,7 +79,7 @@ std::string motion_words(const Model<Dim>& model, const CriticalDerivatives& cri
 }
 
 // which of the monitored values; a name that is none throws
-std::size_t place_of(const std::vector<Column>& columns, const std::string& of) {
+std::size_t place_of_answer(const std::vector<Column>& columns, const std::string& of) {
   std::vector<std::string> names;
   for (const Column& column : columns)
     names.push_back(column.name);
@@ -106,14 +106,14 @@ DerivativeRow row_of_key(const MovingKey& key, const RunDerivative& found, doubl
 }
 
 template <int Dim>
-DerivativeTable table_of(const Scene& scene, const Prepared<Dim>& prepared, const std::string& of) {
-  const bool search = of.empty() && searches(prepared.stages.back());
+DerivativeTable table_of_twins(const Scene& scene, const Prepared<Dim>& prepared, const std::string& of) {
+  const bool search = of.empty() && is_search(prepared.stages.back());
   const std::vector<Column> columns = monitor_columns<Dim>(prepared.monitors);
-  const std::size_t place = search ? 0 : place_of(columns, of);
+  const std::size_t place = search ? 0 : place_of_answer(columns, of);
   DerivativeTable table;
   table.base.reason = not_differentiable(prepared);
-  if (!search && searches(prepared.stages.back()))
-    table.base.reason = "the last stage is a search: its own value alone";
+  if (!search && is_search(prepared.stages.back()))
+    table.base.reason = "the last stage is a search: derivatives are those of what it finds";
   if (!table.base.reason.empty()) return table;
 
   std::vector<MovingKey> keys;
@@ -204,8 +204,16 @@ std::vector<MovingKey> moving_keys_of_run(const Node& tree) {
   return keys;
 }
 
+void require_answer(const LoadedScene& scene, const std::string& of) {
+  const auto require = [&]<int Dim>(const Prepared<Dim>& prepared) {
+    if (!of.empty() || prepared.stages.empty() || !is_search(prepared.stages.back()))
+      place_of_answer(monitor_columns<Dim>(prepared.monitors), of);
+  };
+  std::visit(require, scene.prepared);
+}
+
 DerivativeTable run_derivatives(const LoadedScene& scene, const std::string& of) {
-  return std::visit([&](const auto& prepared) { return table_of(*scene.stated, prepared, of); }, scene.prepared);
+  return std::visit([&](const auto& prepared) { return table_of_twins(*scene.stated, prepared, of); }, scene.prepared);
 }
 
 void add_run_derivatives(const LoadedScene& scene, const std::string& of, const std::filesystem::path& folder,

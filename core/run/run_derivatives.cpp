@@ -40,10 +40,10 @@ constexpr double singular_share = 1e-6;
 // motions beyond the last stable state until the joints of a mechanism slip
 constexpr int most_steps_beyond = 4;
 
-using Clock = std::chrono::steady_clock;
+using TwinClock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point began) {
-  return std::chrono::duration<double>(Clock::now() - began).count();
+double seconds_since(TwinClock::time_point began) {
+  return std::chrono::duration<double>(TwinClock::now() - began).count();
 }
 
 // where the run was at the end of an increment, and under which schedule
@@ -94,14 +94,14 @@ class RunTwins {
 
   // before every step of the run
   void look(const Progress<Dim>& now) {
-    const Clock::time_point began = Clock::now();
+    const TwinClock::time_point began = TwinClock::now();
     watch(now);
     found_.seconds += seconds_since(began);
   }
 
   // after the last
   void end(const Progress<Dim>& now, const AnswersAtRest<Dim>& answers) {
-    const Clock::time_point began = Clock::now();
+    const TwinClock::time_point began = TwinClock::now();
     if (searches())
       end_trial(now);
     else if (!fallen_back(now.state))
@@ -197,7 +197,7 @@ class RunTwins {
       return;
     }
     const Weakening weakening = weakening_at(end.schedule, factors, q);
-    if (weakening.acts) near_ = nearness(weakening);
+    if (weakening.acts) near_ = near_collapse_at(weakening);
     for (Twin<Dim>& twin : twins_) {
       const Schedule schedule = twin.schedule_beside(zero_, end.schedule);
       if (weakening.acts) {
@@ -236,13 +236,13 @@ class RunTwins {
     NullVectors vectors;
   };
   // near a collapse: by twin the change of its level at which it moves as the run does
-  struct Nearness {
+  struct NearCollapse {
     CriticalDerivatives at;
     std::vector<double> changes;
   };
-  Nearness nearness(const Weakening& w) const {
+  NearCollapse near_collapse_at(const Weakening& w) const {
     const NullVectors& v = w.vectors;
-    Nearness near;
+    NearCollapse near;
     near.at.level = w.level;
     near.at.smallest = v.smallest;
     near.at.second = v.second;
@@ -337,7 +337,7 @@ class RunTwins {
   // The derivative of the last stable trial whose twins have the run's contacts; the bar is what the last trials have
   // changed.
   RunDerivative derivative_of_level(std::size_t t) const {
-    const auto of = [&](const Nearness& near) {
+    const auto of = [&](const NearCollapse& near) {
       return derivative_between(near.changes[2 * t], 0, near.changes[2 * t + 1], steps_[t], near.at.level);
     };
     for (std::size_t k = nearer_.size(); k-- > 0;) {
@@ -369,7 +369,7 @@ class RunTwins {
       }
       if (slipped_) {
         const double own = moved_alike(zero_, schedule, factors, q, balanced, weakening).change;
-        Nearness near = nearness(weakening);
+        NearCollapse near = near_collapse_at(weakening);
         for (Twin<Dim>& twin : twins_)
           near.changes.push_back(
               moved_alike(twin, twin.schedule_beside(zero_, schedule), factors, q, balanced, weakening).change - own);
@@ -406,8 +406,8 @@ class RunTwins {
   Schedule schedule_;                    // of the last step
   std::vector<IncrementEnd<Dim>> ends_;  // of the trial or stage under way: no twin has followed yet
   bool slipped_ = false;                 // beyond the last stable state
-  std::optional<Nearness> near_;         // of the trial that is followed
-  std::vector<Nearness> nearer_;         // of stable trials, in their order
+  std::optional<NearCollapse> near_;     // of the trial that is followed
+  std::vector<NearCollapse> nearer_;     // of stable trials, in their order
 };
 
 }  // namespace
@@ -458,7 +458,7 @@ RunDerivatives run_with_derivatives(const Prepared<Dim>& scene, const std::vecto
                                     const AnswersAtRest<Dim>& answers, Progress<Dim>& progress) {
   RunDerivatives found;
   found.reason = not_differentiable(scene);
-  const Clock::time_point began = Clock::now();
+  const TwinClock::time_point began = TwinClock::now();
   RunTwins<Dim> twins(scene, numbers, found);
   Watcher<Dim> watcher;
   watcher.pause = [&](const Progress<Dim>& now) {
