@@ -10,7 +10,7 @@
 #include "core/run/search_levels.hpp"
 #include "core/run/simulate.hpp"
 #include "core/run/twin.hpp"
-#include "core/step/static_solver.hpp"
+#include "core/step/integrate.hpp"
 
 namespace voussoir {
 namespace {
@@ -19,6 +19,10 @@ namespace {
 // takes away this much of the one before: rounding.
 constexpr int most_corrections = 6, most_alike = 4;
 constexpr double corrected = 1e-12, hardly_corrected = 0.3;
+
+// At the end of an increment the run's own twin, which relaxation has not moved, is as unbalanced as the run, or by
+// this times the criterion.
+constexpr double may_be_unbalanced = 10;
 
 // Twins whose differences to the run differ by more than this share of the derivative have different contacts.
 constexpr double smooth = 0.01;
@@ -51,6 +55,7 @@ template <int Dim>
 struct IncrementEnd {
   std::vector<Motion<Dim>> motions;
   Schedule schedule;
+  bool begins = false, ends = false;  // the first part of an increment; the last, in equilibrium
 };
 
 template <int Dim>
@@ -146,9 +151,12 @@ class RunTwins {
     }
     const bool under_way = state.increment.under_way;
     const std::vector<Motion<Dim>>& motions = under_way ? state.increment.base.motions : state.bodies.motions;
-    if (newton_ &&
-        (!under_way || state.increment.increments_left != increments_left_ || !same_place(motions, motions_)))
-      ends_.push_back({motions, schedule_});
+    const bool ends = newton_ && (!under_way || state.increment.increments_left != increments_left_);
+    if (ends || (newton_ && !same_place(motions, motions_))) {
+      ends_.push_back({motions, schedule_, begins_, ends});
+      begins_ = false;
+    }
+    begins_ = begins_ || ends || !newton_;
     newton_ = under_way;
     schedule_ = state.schedule;
     if (!under_way) return;
@@ -185,10 +193,25 @@ class RunTwins {
     return twin.residual(schedule, twin.base, q);
   }
 
+  bool rests(const Twin<Dim>& twin) const {
+    return unbalanced_ratio(twin.model, twin.settings.threads, twin.state()) <=
+           may_be_unbalanced * twin.settings.equilibrium.unbalanced;
+  }
+
   void follow(const IncrementEnd<Dim>& end) {
     if (failed()) return;
+    if (end.begins) {
+      zero_.begin_increment(end.schedule);
+      for (Twin<Dim>& twin : twins_)
+        twin.begin_increment(twin.schedule_beside(zero_, end.schedule));
+      found_.counters.evaluations += static_cast<long long>(1 + twins_.size());
+    }
     const Eigen::VectorXd q = zero_.motion_to(end.motions);
     const Eigen::VectorXd r = residual(zero_, end.schedule, q);
+    if (end.ends && !rests(zero_)) {
+      found_.reason = "by Newton's method alone the run does not come to rest where it did";
+      return;
+    }
     const TangentFactors<Dim> factors(zero_.tangent(zero_.base));
     ++found_.counters.increments;
     ++found_.counters.factorisations;
@@ -209,6 +232,8 @@ class RunTwins {
       }
     }
     zero_.take_base(q);
+    if (!zero_.answers() || !std::ranges::all_of(twins_, &Twin<Dim>::answers))
+      found_.reason = "a contact of a twin has no solution";
   }
 
   // the twin's motion at which it has the unbalanced forces r
@@ -401,6 +426,7 @@ class RunTwins {
   double target_ = 0;
   long long fallbacks_ = 0;
   bool newton_ = false;  // an increment was under way before the last step
+  bool begins_ = true;   // no part of it has ended
   int increments_left_ = 0;
   std::vector<Motion<Dim>> motions_;     // its base's
   Schedule schedule_;                    // of the last step
@@ -411,47 +437,6 @@ class RunTwins {
 };
 
 }  // namespace
-
-template <int Dim>
-std::string not_differentiable(const Prepared<Dim>& scene) {
-  if (!newton_applies(scene.model)) return "joints that soften, dilate or mobilise are left to relaxation";
-  for (const StagePlan& stage : scene.stages) {
-    const Settings settings = settings_of(stage, scene.settings);
-    if (std::holds_alternative<RunPlan>(stage.plan))
-      return fmt::format("stage {} is a motion in time, not an equilibrium", stage.name);
-    if (settings.statics.method != Statics::newton)
-      return fmt::format("stage {} does not use Newton's method (statics = \"newton\")", stage.name);
-    if (!stage.change.excavate.empty()) return fmt::format("stage {} excavates", stage.name);
-    const auto* search = std::get_if<ReducePlan>(&stage.plan);
-    if (search && search->method != ReductionMethod::bisection)
-      return fmt::format("stage {} does not search by bisection", stage.name);
-    if (search && &stage != &scene.stages.back())
-      return fmt::format("stages follow the search of stage {}", stage.name);
-  }
-  return {};
-}
-
-template <int Dim>
-std::string not_twins(const Model<Dim>& model, const Model<Dim>& other) {
-  if (model.bodies.size() != other.bodies.size())
-    return fmt::format("{} blocks instead of {}", other.bodies.size(), model.bodies.size());
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const Body<Dim>&one = model.bodies[b], &two = other.bodies[b];
-    const bool same =
-        one.name == two.name && one.fixed == two.fixed && one.free_translation == two.free_translation &&
-        one.free_rotation == two.free_rotation &&
-        std::ranges::equal(one.parts, two.parts, [](const Polytope<Dim>& p, const Polytope<Dim>& q) {
-          return p.joints == q.joints && p.vertices.size() == q.vertices.size() &&
-                 std::ranges::equal(p.loops, q.loops, {}, &std::vector<int>::size, &std::vector<int>::size);
-        });
-    const double apart = (one.reference - two.reference).norm();
-    if (!same || apart > 0.01 * one.radius) return fmt::format("block {} has other faces or another place", b);
-  }
-  if (model.properties.size() != other.properties.size() || model.bolts.size() != other.bolts.size() ||
-      model.joints.size() != other.joints.size())
-    return "other joints or bolts";
-  return {};
-}
 
 template <int Dim>
 RunDerivatives run_with_derivatives(const Prepared<Dim>& scene, const std::vector<TwinScenes<Dim>>& numbers,
@@ -475,8 +460,6 @@ RunDerivatives run_with_derivatives(const Prepared<Dim>& scene, const std::vecto
 }
 
 #define VOUSSOIR_INSTANTIATE(Dim)                                                                              \
-  template std::string not_differentiable<Dim>(const Prepared<Dim>&);                                          \
-  template std::string not_twins<Dim>(const Model<Dim>&, const Model<Dim>&);                                   \
   template RunDerivatives run_with_derivatives<Dim>(const Prepared<Dim>&, const std::vector<TwinScenes<Dim>>&, \
                                                     const AnswersAtRest<Dim>&, Progress<Dim>&);
 VOUSSOIR_INSTANTIATE(2)

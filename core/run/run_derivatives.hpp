@@ -20,16 +20,10 @@
 #include <vector>
 
 #include "core/model/prepared.hpp"
+#include "core/run/twin_scenes.hpp"
 #include "core/run/watcher.hpp"
 
 namespace voussoir {
-
-// a number of the scene: the scene with less and with more of it
-template <int Dim>
-struct TwinScenes {
-  Prepared<Dim> below, above;
-  double step = 0;  // from the scene's value to either; the unit of the number
-};
 
 struct RunDerivative {
   double value = 0;             // by the number's unit
@@ -66,15 +60,6 @@ struct RunDerivatives {
 // numbers at rest that the forces and motions of a state give
 template <int Dim>
 using AnswersAtRest = std::function<std::vector<double>(const Prepared<Dim>&, const Model<Dim>&, const State<Dim>&)>;
-
-// Why a scene's run cannot be differentiated; empty: it can. Every stage must reach equilibrium by Newton's method; a
-// search, by bisection.
-template <int Dim>
-std::string not_differentiable(const Prepared<Dim>& scene);
-
-// Why two scenes have not the same blocks, faces and joints in the same order; empty: they have.
-template <int Dim>
-std::string not_twins(const Model<Dim>& model, const Model<Dim>& other);
 
 // Runs the scene, whose progress is that of `simulate` to the bit, with its twins.
 template <int Dim>

@@ -166,6 +166,40 @@ TEST(RunDerivatives, OfABlockThatSlipsAndLeansAreThoseOfWholeRuns) {
   }
 }
 
+// Some 150 blocks, of which many slip: in eight increments of gravity contacts close and open.
+TEST(RunDerivatives, OfSlicedRockAreThoseOfWholeRuns) {
+  const SceneWith scene = file_with("cases/slicing/rock_mass.toml",
+                                    {"statics=newton", "domain.box.max=[5, 4, 2]", "equilibrium.unbalanced=1e-8",
+                                     "static_increments=8", "stage.settle.gravity_ramp_s=0.5"});
+  const auto way = [](const State<3>& state) {
+    Vector<3> sum = Vector<3>::Zero();
+    for (const Motion<3>& m : state.bodies.motions)
+      sum += m.displacement;
+    return sum;
+  };
+  const std::vector<std::pair<Number, double>> numbers{{key("joint_properties.rock.friction_deg", 35), 57},
+                                                       {key("joint_properties.rock.shear_stiffness", 5e8), 5e8}};
+  std::vector<TwinScenes<3>> twins;
+  for (const auto& number : numbers)
+    twins.push_back(twins_of<3>(scene, number.first, 1e-6 * number.second));
+  Progress<3> progress;
+  const AnswersAtRest<3> answers = [&](const Prepared<3>&, const Model<3>&, const State<3>& state) {
+    return std::vector<double>{way(state)[0], way(state)[2]};
+  };
+  const RunDerivatives found = run_with_derivatives<3>(prepare<3>(scene({})), twins, answers, progress);
+  ASSERT_EQ(found.reason, "");
+  EXPECT_EQ(found.counters.increments, 8);
+  for (std::size_t n = 0; n < numbers.size(); ++n) {
+    const double step = 1e-5 * numbers[n].second;
+    const Vector<3> above = way(whole_run(prepare<3>(scene(numbers[n].first(step)))).state),
+                    below = way(whole_run(prepare<3>(scene(numbers[n].first(-step)))).state);
+    for (const int axis : {0, 2}) {
+      const double of_runs = (above[axis] - below[axis]) / (2 * step);
+      EXPECT_NEAR(found.at_rest[n][axis / 2].value, of_runs, 1e-4 * std::abs(of_runs)) << n << ", axis " << axis;
+    }
+  }
+}
+
 // Critical friction of a block on a plane, which sticks until it slides: d/d(dip) = 1, and its size does not matter.
 TEST(RunDerivatives, OfABlockOnAPlaneAreOnesOfItsDip) {
   const SceneWith scene =

@@ -99,6 +99,15 @@ Eigen::VectorXd Twin<Dim>::residual(const Schedule& schedule, const StaticBase<D
 }
 
 template <int Dim>
+void Twin<Dim>::begin_increment(const Schedule& schedule) {
+  residual(schedule, base, Eigen::VectorXd::Zero(unknowns.free.size()));
+  State<Dim>& state = progress.state;
+  std::vector<PairStiffness<Dim>> closed;
+  follow_list(state.contacts, state.counters.neighbour_builds, base, closed);
+  find_closed_joints(model, settings, state.bodies, state.contacts, base.histories, state.counters, closed);
+}
+
+template <int Dim>
 BlockMatrix<freedoms<Dim>> Twin<Dim>::tangent(const StaticBase<Dim>& from) {
   State<Dim>& state = progress.state;
   StaticBase<Dim> begin = from;

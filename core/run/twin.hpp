@@ -29,6 +29,10 @@ class Twin {
   // return mapping from the base's histories. Contacts and loads of the state are then those at base + q.
   Eigen::VectorXd residual(const Schedule& schedule, const StaticBase<Dim>& from, const Eigen::VectorXd& q);
 
+  // Before the first motion of an increment: joints that are closed but without force get a history, as the solver
+  // gives them one (find_closed_joints).
+  void begin_increment(const Schedule& schedule);
+
   // K = -dr/dq where the residual was last found, without regularisation; restrained directions have their scale on
   // the diagonal
   BlockMatrix<freedoms<Dim>> tangent(const StaticBase<Dim>& from);
