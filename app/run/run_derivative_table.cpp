@@ -45,16 +45,16 @@ double smallest_block(const Model<Dim>& model) {
   return size > 0 ? size : 1;
 }
 
-double step_of_key(const MovingKey& key, double share, double size) {
+double step_of_key(const MovingKey& key, double relative, double size) {
   switch (key.scale) {
     case KeyScale::angle:
-      return share / degree;
+      return relative / degree;
     case KeyScale::length:
-      return share * size;
+      return relative * size;
     case KeyScale::share:
       break;
   }
-  return share * std::abs(key.value);
+  return relative * std::abs(key.value);
 }
 
 // the block that moves most as the collapse begins, and where to; the rows of `motion` are those of the free blocks
