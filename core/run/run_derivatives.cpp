@@ -38,6 +38,9 @@ constexpr double mechanism_share = 0.01;
 // From this share on a search's twins move as far as the run, before it at the same level.
 constexpr double soft_share = 0.1;
 
+// The roots of two trials' distances to the critical level of which one extrapolates differ by this factor.
+constexpr double far_enough = 1.25;
+
 // of the unknowns' scale, on the diagonal of a singular tangent
 constexpr double singular_share = 1e-6;
 
@@ -356,19 +359,30 @@ class RunTwins {
     c.critical = 0.5 * (now.reduction.stable + now.reduction.failed);
     std::size_t t = 0;
     for (const std::string& reason : refused_)
-      c.by.push_back(reason.empty() ? derivative_of_level(t++) : RunDerivative{.reason = reason});
+      c.by.push_back(reason.empty() ? derivative_of_level(t++, c.critical) : RunDerivative{.reason = reason});
   }
 
-  // The derivative of the last stable trial whose twins have the run's contacts; the bar is what the last trials have
-  // changed.
-  RunDerivative derivative_of_level(std::size_t t) const {
+  // The derivative D of the last stable trial whose twins have the run's contacts. On the way to the collapse it
+  // changes with the root of the distance d to the critical level, D = D* + c d^(1/2): the last two give D*, and its
+  // distance from the last is the bar.
+  RunDerivative derivative_of_level(std::size_t t, double critical) const {
     const auto of = [&](const NearCollapse& near) {
       return derivative_between(near.changes[2 * t], 0, near.changes[2 * t + 1], steps_[t], near.at.level);
     };
+    const auto root_of_way = [&](const NearCollapse& near) { return std::sqrt(std::abs(near.at.level - critical)); };
     for (std::size_t k = nearer_.size(); k-- > 0;) {
       RunDerivative d = of(nearer_[k]);
       if (!d.reason.empty() && k > 0) continue;
-      if (k > 0) d.bar = std::max(d.bar, std::abs(d.value - of(nearer_[k - 1]).value));
+      if (k == 0) return d;
+      const RunDerivative before = of(nearer_[k - 1]);
+      const double last = root_of_way(nearer_[k]), first = root_of_way(nearer_[k - 1]), change = d.value - before.value;
+      if (before.reason.empty() && first > far_enough * last) {
+        const double more = change * last / (first - last);
+        d.value += more;
+        d.bar = std::max(d.bar, std::abs(more));
+      } else {
+        d.bar = std::max(d.bar, std::abs(change));
+      }
       return d;
     }
     return {.reason = "no state near the collapse"};
