@@ -18,7 +18,7 @@ namespace {
 // Corrections of a twin at the end of an increment; less than this is left of the first difference, or no correction
 // takes away this much of the one before: rounding.
 constexpr int most_corrections = 6, most_alike = 4;
-constexpr double corrected = 1e-12, hardly_corrected = 0.3;
+constexpr double corrected = 1e-7, hardly_corrected = 0.3;
 
 // At the end of an increment the run's own twin, which relaxation has not moved, is as unbalanced as the run, or by
 // this times the criterion.
@@ -320,13 +320,18 @@ class RunTwins {
                          const Eigen::VectorXd& q, const Eigen::VectorXd& r, const Weakening& w) {
     MovedAlike own{q};
     const double began = w.along.dot(zero_.motion_to(twin.base.motions)), per_level = w.along.dot(w.by_level);
+    double first = 0;
     for (int k = 0; k < most_alike; ++k) {
       const Eigen::VectorXd way =
           factors.solve(residual(twin, at_level(twin, schedule, w.level + own.change), own.motion) - r);
       ++found_.counters.back_substitutions;
       const double more = -(began + w.along.dot(own.motion - q + way)) / per_level;
-      own.motion += way + more * w.by_level;
+      const Eigen::VectorXd step = way + more * w.by_level;
+      own.motion += step;
       own.change += more;
+      const double now = size_of(step.cwiseProduct(zero_.unknowns.scale));
+      if (k == 0) first = now;
+      if (now <= corrected * first) break;
     }
     residual(twin, at_level(twin, schedule, w.level + own.change), own.motion);
     return own;

@@ -6,12 +6,15 @@
 //
 // with the factors of K that serve all twins; then the twin's joints take their own histories. At rest the answer's
 // derivative is the twins' difference over 2 h: dq/dp = K^-1 (dr/dp + dr/dh dh/dp), direct differentiation with all
-// histories. A search ends where K is singular, with left null vector v; there the derivative of the critical level F
-// is
+// histories. Near the collapse that a search looks for, K is nearly singular and a twin may have no rest at the run's
+// level F. There its level changes by y, and it has come as far as the run along w = K^-1 dr/dF, in the measure D of
+// the unknowns (D w . total difference of places = 0):
 //
-//   dF/dp = -v . (dr/dp + dr/dh dh/dp) / (v . dr/dF),
+//   r_twin(q + x, F + y) = r(q, F),   y += -D w . (difference + way)/(D w . w),   x += way + y w,   way = K^-1 (...).
 //
-// the forces of the twins at the motion of the search's last increment, from their own histories at its base.
+// With both at the same places before, this is dF/dp = -v . (dr/dp + dr/dh dh/dp)/(v . dr/dF) in the limit, v the left
+// null vector of K; but it holds at a distance, too: the level that rest takes at given places depends on p alone, and
+// the bordered system is regular.
 #pragma once
 
 #include <functional>
