@@ -227,21 +227,21 @@ class RunTwins {
     for (Twin<Dim>& twin : twins_) {
       const Schedule schedule = twin.schedule_beside(zero_, end.schedule);
       if (weakening.acts) {
-        const MovedAlike own = moved_alike(twin, schedule, factors, q, r, weakening);
-        near_->changes.push_back(own.change);
-        twin.take_base(own.motion);
+        near_->changes.push_back(moved_alike(twin, schedule, factors, q, r, weakening));
+        twin.take_base();
       } else {
-        twin.take_base(corrected_motion(twin, schedule, factors, q, r));
+        correct(twin, schedule, factors, q, r);
+        twin.take_base();
       }
     }
-    zero_.take_base(q);
+    zero_.take_base();
     if (!zero_.answers() || !std::ranges::all_of(twins_, &Twin<Dim>::answers))
       found_.reason = "a contact of a twin has no solution";
   }
 
-  // the twin's motion at which it has the unbalanced forces r
-  Eigen::VectorXd corrected_motion(Twin<Dim>& twin, const Schedule& schedule, const TangentFactors<Dim>& factors,
-                                   const Eigen::VectorXd& q, const Eigen::VectorXd& r) {
+  // moves the twin to where it has the unbalanced forces r
+  void correct(Twin<Dim>& twin, const Schedule& schedule, const TangentFactors<Dim>& factors, const Eigen::VectorXd& q,
+               const Eigen::VectorXd& r) {
     Eigen::VectorXd own = q, rest = residual(twin, schedule, own) - r;
     const double first = size_of(rest);
     double before = first;
@@ -251,7 +251,6 @@ class RunTwins {
       rest = residual(twin, schedule, own) - r;
       if (const double now = size_of(rest); std::exchange(before, now) * hardly_corrected < now) break;
     }
-    return own;
   }
 
   // ---- in a search --------------------------------------------------------------------------------------------------
@@ -310,31 +309,27 @@ class RunTwins {
     return schedule;
   }
 
-  // The twin's motion, and the change of its level, at which it has the unbalanced forces r and has come as far as the
+  // Moves the twin to where it has the unbalanced forces r and has come as far as the
   // run along w: near a collapse a level may have no rest, or one far away, but every motion has a level.
-  struct MovedAlike {
-    Eigen::VectorXd motion;
+  double moved_alike(Twin<Dim>& twin, const Schedule& schedule, const TangentFactors<Dim>& factors,
+                     const Eigen::VectorXd& q, const Eigen::VectorXd& r, const Weakening& w) {
+    Eigen::VectorXd own = q;
     double change = 0;
-  };
-  MovedAlike moved_alike(Twin<Dim>& twin, const Schedule& schedule, const TangentFactors<Dim>& factors,
-                         const Eigen::VectorXd& q, const Eigen::VectorXd& r, const Weakening& w) {
-    MovedAlike own{q};
     const double began = w.along.dot(zero_.motion_to(twin.base.motions)), per_level = w.along.dot(w.by_level);
     double first = 0;
     for (int k = 0; k < most_alike; ++k) {
-      const Eigen::VectorXd way =
-          factors.solve(residual(twin, at_level(twin, schedule, w.level + own.change), own.motion) - r);
+      const Eigen::VectorXd way = factors.solve(residual(twin, at_level(twin, schedule, w.level + change), own) - r);
       ++found_.counters.back_substitutions;
-      const double more = -(began + w.along.dot(own.motion - q + way)) / per_level;
+      const double more = -(began + w.along.dot(own - q + way)) / per_level;
       const Eigen::VectorXd step = way + more * w.by_level;
-      own.motion += step;
-      own.change += more;
+      own += step;
+      change += more;
       const double now = size_of(step.cwiseProduct(zero_.unknowns.scale));
       if (k == 0) first = now;
       if (now <= corrected * first) break;
     }
-    residual(twin, at_level(twin, schedule, w.level + own.change), own.motion);
-    return own;
+    residual(twin, at_level(twin, schedule, w.level + change), own);
+    return change;
   }
 
   double size_of(const Eigen::VectorXd& x) const { return std::sqrt(x.dot(x.cwiseQuotient(zero_.unknowns.scale))); }
@@ -412,11 +407,11 @@ class RunTwins {
         continue;
       }
       if (slipped_) {
-        const double own = moved_alike(zero_, schedule, factors, q, balanced, weakening).change;
+        const double own = moved_alike(zero_, schedule, factors, q, balanced, weakening);
         NearCollapse near = near_collapse_at(weakening);
         for (Twin<Dim>& twin : twins_)
           near.changes.push_back(
-              moved_alike(twin, twin.schedule_beside(zero_, schedule), factors, q, balanced, weakening).change - own);
+              moved_alike(twin, twin.schedule_beside(zero_, schedule), factors, q, balanced, weakening) - own);
         near.at.level += own;
         nearer_.push_back(std::move(near));
       } else {

@@ -50,8 +50,10 @@ void Twin<Dim>::enter(int stage) {
   stop(state.bodies.motions);
   cache_poses(model, settings.threads, state.bodies);
   unknowns = Unknowns<Dim>(model);
-  base = last_base = base_of(state);
-  last_motion = Eigen::VectorXd::Zero(unknowns.free.size());
+  // the run has found its forces once when its first increment begins: joints that touch have a history
+  const Schedule schedule = state.schedule;
+  residual(schedule, base_of(state), Eigen::VectorXd::Zero(unknowns.free.size()));
+  take_base();
 }
 
 template <int Dim>
@@ -145,11 +147,8 @@ Eigen::VectorXd Twin<Dim>::motion_to(const std::vector<Motion<Dim>>& motions) co
 }
 
 template <int Dim>
-void Twin<Dim>::take_base(const Eigen::VectorXd& q) {
+void Twin<Dim>::take_base() {
   State<Dim>& state = progress.state;
-  last_base = std::move(base);
-  last_motion = q;
-  last_schedule = state.schedule;
   stop(state.bodies.motions);
   cache_poses(model, settings.threads, state.bodies);
   base = base_of(state);

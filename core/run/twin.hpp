@@ -41,7 +41,7 @@ class Twin {
   Eigen::VectorXd motion_to(const std::vector<Motion<Dim>>& motions) const;
 
   // the motion that was last evaluated is an increment's end: the state there is the next base
-  void take_base(const Eigen::VectorXd& q);
+  void take_base();
 
   StageInForce<Dim> stage() const { return {*scene, progress.stage, model, settings}; }
   const State<Dim>& state() const { return progress.state; }
@@ -52,9 +52,7 @@ class Twin {
   Settings settings{};
   Progress<Dim> progress;
   Unknowns<Dim> unknowns{model};
-  StaticBase<Dim> base{}, last_base{};  // of the increment to come, and of the last one
-  Eigen::VectorXd last_motion{};        // of the last increment
-  Schedule last_schedule{};
+  StaticBase<Dim> base{};  // of the increment to come
 };
 
 // The factors of a tangent: those of the matrix itself, for its transpose, too.
