@@ -7,11 +7,14 @@
 #include <variant>
 
 #include "app/base/arguments.hpp"
+#include "app/base/interruption.hpp"
 #include "app/base/message.hpp"
 #include "app/check/assess.hpp"
+#include "app/derivatives/derivative_files.hpp"
 #include "app/run/carry_out.hpp"
 #include "app/run/error_budget.hpp"
 #include "app/run/memory_needed.hpp"
+#include "app/run/run_derivative_table.hpp"
 #include "app/run_folder/begin_run.hpp"
 #include "app/run_folder/origin.hpp"
 #include "core/base/bad_input.hpp"
@@ -29,11 +32,13 @@ struct RunArguments {
   int threads = 1;
   std::optional<long long> checkpoint_steps;  // of RunOptions if stated
   std::optional<double> checkpoint_seconds;
-  fs::path begin;       // folder of another run, at whose end this one begins; empty: none
-  std::string until;    // the stage after which it ends, its state kept; empty: the last
-  bool keep = false;    // the state at the end
-  bool budget = false;  // as if the scene stated accuracy.budget
-  bool view = false;    // as if the scene stated output.view
+  fs::path begin;              // folder of another run, at whose end this one begins; empty: none
+  std::string until;           // the stage after which it ends, its state kept; empty: the last
+  bool keep = false;           // the state at the end
+  bool budget = false;         // as if the scene stated accuracy.budget
+  bool view = false;           // as if the scene stated output.view
+  bool derivatives = false;    // of the answer, by the numbers of the scene
+  std::string derivatives_of;  // a monitored value at rest; empty: the default answer
   bool overwrite = false;
   bool quiet = false;
 };
@@ -53,6 +58,10 @@ RunOptions options_of(const RunArguments& arguments) {
   return options;
 }
 
+bool wants_derivatives(const RunArguments& arguments) {
+  return arguments.derivatives || !arguments.derivatives_of.empty();
+}
+
 LoadedScene scene_of(const RunArguments& arguments) {
   std::vector<std::string> overrides = arguments.scene.overrides;
   if (arguments.budget) overrides.push_back("accuracy.budget=true");
@@ -63,6 +72,9 @@ LoadedScene scene_of(const RunArguments& arguments) {
         fmt::format("{}: a budget's runs cover all stages; leave it out, or leave out --budget and accuracy.budget",
                     arguments.until.empty() ? "--begin" : "--until"));
   end_with(arguments.until, scene);
+  if (wants_derivatives(arguments) && !(arguments.until.empty() && arguments.begin.empty()))
+    throw BadInput(fmt::format("{}: derivatives are those of all stages; leave it out, or leave out --derivatives",
+                               arguments.until.empty() ? "--begin" : "--until"));
   return scene;
 }
 
@@ -104,18 +116,24 @@ ExitCode run_command(const RunArguments& arguments) {
   std::optional<AnyProgress> begun = begun_at(arguments.begin, scene, inputs, options);
   add_origin(options.origins, this_origin());
   const bool repeats = wants_budget(scene) || wants_stiffness_bar(scene);
-  if (!repeats) scene.stated.reset();
+  const bool differentiates = wants_derivatives(arguments);
+  if (differentiates) require_answer(scene, arguments.derivatives_of);
+  if (!repeats && !differentiates) scene.stated.reset();
 
   // the folder is locked, and records the run before the first step
   const fs::path folder = results_folder(arguments);
   Outputs outputs = run_outputs();
   if (repeats) outputs.folders = budget_folders(scene);
+  if (differentiates) outputs.files.insert(outputs.files.end(), {derivatives_csv_file, derivatives_svg_file});
   const ClaimedFolder claim(folder, outputs, inputs, arguments.overwrite);
   if (begun) begin_in(folder, scene.hash, *begun);
   begun.reset();
   write_file(folder / "scene.toml", scene.text);
   write_options(folder, options);
-  return carry_out(scene, {folder, options, arguments.quiet});
+  const ExitCode ended = carry_out(scene, {folder, options, arguments.quiet});
+  if (differentiates && ended == ExitCode::done && interruption() == 0)
+    add_run_derivatives(scene, arguments.derivatives_of, folder, arguments.quiet);
+  return ended;
 }
 
 }  // namespace
@@ -150,6 +168,12 @@ void add_run(CLI::App& program, Action& action) {
       "--budget", arguments.budget,
       "error budget: vary numerical settings one at a time in additional runs; every value then lists their "
       "effects, and its error bar covers them (accuracy.budget)");
+  command->add_flag("--derivatives", arguments.derivatives,
+                    "what moves the answer of the last search, or else of the first monitored displacement: its "
+                    "derivative by every number of the scene, with error bar, from Newton's method's own tangent "
+                    "(derivatives.csv, derivatives.svg)");
+  command->add_option("--derivatives-of", arguments.derivatives_of, "the same of this monitored value at the end")
+      ->check(plain_text());
   command->add_flag("--view", arguments.view,
                     "write the interactive 3-D page view.html, with the frames that ParaView would get "
                     "(output.view)");

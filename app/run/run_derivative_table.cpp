@@ -1,0 +1,227 @@
+#include "app/run/run_derivative_table.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/derivatives/derivative_files.hpp"
+#include "app/run_folder/results_hash.hpp"
+#include "core/base/bad_input.hpp"
+#include "core/geometry/plunge_trend.hpp"
+#include "core/output/atomic_file.hpp"
+#include "core/output/monitor.hpp"
+#include "core/run/run_derivatives.hpp"
+#include "core/scene/scene.hpp"
+#include "core/scene/scene_error.hpp"
+#include "text/angle.hpp"
+#include "text/plain_text.hpp"
+#include "text/read_file.hpp"
+
+namespace voussoir {
+namespace {
+
+// steps of the twins, over a radian, the blocks' size, or the value: near a collapse little is between two trials
+constexpr double step_at_rest = 1e-5, step_in_search = 1e-7;
+
+// of the answer, by the usual change: twins do not see less
+constexpr double seen_by_twins = 1e-7;
+
+constexpr const char* stiffness_keys[] = {"normal_stiffness", "shear_stiffness"};
+constexpr double stiffness_unit = 1e9;   // Pa/m
+constexpr double usual_stiffness = 0.1;  // of the value
+
+bool is_search(const StagePlan& stage) {
+  return std::holds_alternative<ReducePlan>(stage.plan);
+}
+
+// m: the smallest free block
+template <int Dim>
+double smallest_block(const Model<Dim>& model) {
+  double size = 0;
+  for (const Body<Dim>& body : model.bodies)
+    if (!body.fixed && (size == 0 || body.size < size)) size = body.size;
+  return size > 0 ? size : 1;
+}
+
+double step_of_key(const MovingKey& key, double relative, double size) {
+  switch (key.scale) {
+    case KeyScale::angle:
+      return relative / degree;
+    case KeyScale::length:
+      return relative * size;
+    case KeyScale::share:
+      break;
+  }
+  return relative * std::abs(key.value);
+}
+
+// the block that moves most as the collapse begins, and where to; the rows of `motion` are those of the free blocks
+template <int Dim>
+std::string motion_words(const Model<Dim>& model, const CriticalDerivatives& critical) {
+  int most = -1, row = 0;
+  Vector<Dim> way = Vector<Dim>::Zero();
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    if (model.bodies[b].fixed || !model.bodies[b].present) continue;
+    const Vector<Dim> own = critical.motion.template segment<Dim>(row);
+    row += freedoms<Dim>;
+    if (own.norm() > way.norm()) {
+      way = own;
+      most = static_cast<int>(b);
+    }
+  }
+  if (most < 0) return "no block moves";
+  if (way.dot(model.gravity) < 0) way = -way;
+  const auto [plunge, trend] = plunge_and_trend<Dim>(way);
+  return fmt::format("{} moves first, {:.1f}/{:.1f} (plunge/trend){}", label_of(model, most), plunge, trend,
+                     critical.near_collapse ? "" : "; one of its joints still sticks: the derivatives are rough");
+}
+
+// which of the monitored values; a name that is none throws
+std::size_t place_of_answer(const std::vector<Column>& columns, const std::string& of) {
+  std::vector<std::string> names;
+  for (const Column& column : columns)
+    names.push_back(column.name);
+  const auto found =
+      of.empty() ? std::ranges::find_if(names, [](const std::string& n) { return n.find("displacement") != n.npos; })
+                 : std::ranges::find(names, of);
+  if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+  if (of.empty()) throw BadInput("--derivatives: the last stage is no search, and no monitor follows a displacement");
+  throw BadInput(fmt::format("--derivatives-of {}: no monitored value has this name; {}", one_line(of, 60),
+                             suggestion(of, names)));
+}
+
+DerivativeRow row_of_key(const MovingKey& key, const RunDerivative& found, double unit) {
+  DerivativeRow row{.key = key};
+  row.refused = !found.reason.empty();
+  if (row.refused) {
+    row.remark = "no derivative; " + one_line(found.reason, 100);
+    return row;
+  }
+  row.derivative.value = unit * found.value;
+  row.derivative.bar = unit * found.bar;
+  row.change = *row.derivative.value * key.usual;
+  return row;
+}
+
+template <int Dim>
+DerivativeTable table_of_twins(const Scene& scene, const Prepared<Dim>& prepared, const std::string& of) {
+  const bool search = of.empty() && is_search(prepared.stages.back());
+  const std::vector<Column> columns = monitor_columns<Dim>(prepared.monitors);
+  const std::size_t place = search ? 0 : place_of_answer(columns, of);
+  DerivativeTable table;
+  table.base.reason = not_differentiable(prepared);
+  if (!search && is_search(prepared.stages.back()))
+    table.base.reason = "the last stage is a search: derivatives are those of what it finds";
+  if (!table.base.reason.empty()) return table;
+
+  std::vector<MovingKey> keys;
+  std::vector<TwinScenes<Dim>> numbers;
+  const double size = smallest_block(prepared.model);
+  for (MovingKey& key : moving_keys_of_run(*scene.tree)) {
+    const double step = step_of_key(key, search ? step_in_search : step_at_rest, size);
+    const auto refuse = [&](const std::string& reason) {
+      table.rows.push_back(row_of_key(key, {.reason = reason}, 1));
+    };
+    if (key.below < step || key.above < step) {
+      refuse("its range ends here");
+      continue;
+    }
+    try {
+      const auto at = [&](double distance) {
+        return std::get<Prepared<Dim>>(load_changed(scene, key.overrides(distance)).prepared);
+      };
+      numbers.push_back({at(-step), at(step), step});
+      keys.push_back(std::move(key));
+    } catch (const SceneError& error) {
+      refuse(error.what());
+    } catch (const BadInput& error) {
+      refuse(error.what());
+    }
+  }
+
+  Progress<Dim> progress;
+  const AnswersAtRest<Dim> answers = [&](const Prepared<Dim>& of_scene, const Model<Dim>& model,
+                                         const State<Dim>& state) {
+    return std::vector<double>{columns.empty() ? 0 : monitor_values<Dim>(of_scene.monitors, model, state)[place]};
+  };
+  const RunDerivatives found = run_with_derivatives<Dim>(prepared, numbers, answers, progress);
+  table.answers = static_cast<int>(2 * numbers.size());
+  table.base.reason = found.reason;
+  if (!found.reason.empty()) return table;
+  const bool factor = search && std::get<ReducePlan>(prepared.stages.back().plan).searched == Searched::factor;
+  const std::string name = !search ? columns[place].name : factor ? "factor_of_safety" : "critical_friction";
+  const Value* value = progress.results.find(name);
+  if (!value) {
+    table.base.reason = "the run has no " + name;
+    return table;
+  }
+  table.answer.name = name;
+  table.answer.unit = value->unit;
+  table.answer.bar = value->error_bar.value_or(0);
+  table.base.value = value->value;
+  table.base.words = search ? motion_words(prepared.model, *found.critical) : "at rest";
+
+  for (std::size_t n = 0; n < keys.size(); ++n) {
+    DerivativeRow row =
+        row_of_key(keys[n], search ? found.critical->by[n] : found.at_rest[n][0], search && !factor ? 1 / degree : 1);
+    const bool still = !row.refused && (std::abs(row.change) <= seen_by_twins * std::abs(value->value) ||
+                                        std::abs(*row.derivative.value) <= row.derivative.bar);
+    if (!still)
+      table.rows.push_back(std::move(row));
+    else
+      table.still.push_back(row.key.key);
+  }
+  std::ranges::stable_sort(table.rows, [](const DerivativeRow& a, const DerivativeRow& b) {
+    return a.refused != b.refused ? b.refused : std::abs(a.change) > std::abs(b.change);
+  });
+  return table;
+}
+
+}  // namespace
+
+std::vector<MovingKey> moving_keys_of_run(const Node& tree) {
+  std::vector<MovingKey> keys = moving_keys(tree);
+  const Node* list = tree.find("joint_properties");
+  if (!list || !list->is_list_of_tables()) return keys;
+  for (std::size_t i = 0; i < list->items.size(); ++i)
+    for (const char* name : stiffness_keys) {
+      const Node* node = list->items[i].find(name);
+      if (!node || !node->is_number() || !(node->number > 0)) continue;
+      MovingKey key{.key = key_path(item_path("joint_properties", list->items[i], i), name),
+                    .unit = "Pa/m",
+                    .value = node->number,
+                    .shown = stiffness_unit,
+                    .shown_unit = "GPa/m",
+                    .usual = usual_stiffness * node->number,
+                    .below = node->number};
+      key.overrides = [path = key.key, value = node->number](double distance) {
+        return std::vector<std::string>{fmt::format("{}={}", path, value + distance)};
+      };
+      keys.push_back(std::move(key));
+    }
+  return keys;
+}
+
+void require_answer(const LoadedScene& scene, const std::string& of) {
+  const auto require = [&]<int Dim>(const Prepared<Dim>& prepared) {
+    if (!of.empty() || prepared.stages.empty() || !is_search(prepared.stages.back()))
+      place_of_answer(monitor_columns<Dim>(prepared.monitors), of);
+  };
+  std::visit(require, scene.prepared);
+}
+
+DerivativeTable run_derivatives(const LoadedScene& scene, const std::string& of) {
+  return std::visit([&](const auto& prepared) { return table_of_twins(*scene.stated, prepared, of); }, scene.prepared);
+}
+
+void add_run_derivatives(const LoadedScene& scene, const std::string& of, const std::filesystem::path& folder,
+                         bool quiet) {
+  const DerivativeTable table = run_derivatives(scene, of);
+  write_derivatives(table, folder);
+  write_results(folder, with_derivatives(read_file(folder / "results.json", largest_results), table));
+  if (!quiet) fmt::print("{}", derivatives_text(table));
+}
+
+}  // namespace voussoir
