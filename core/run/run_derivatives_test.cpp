@@ -200,6 +200,16 @@ TEST(RunDerivatives, OfSlicedRockAreThoseOfWholeRuns) {
   }
 }
 
+// A stack that leans over: the solver keeps its increment in three parts, of which two end without equilibrium.
+TEST(RunDerivatives, OfAnIncrementInPartsAreThoseOfWholeRuns) {
+  const SceneWith scene = file_with("cases/overhang/scene.toml", {"statics=newton", "equilibrium.unbalanced=1e-9"});
+  const Number density = key("density", 2500);
+  const RunDerivatives found = derivatives<3>(scene, {twins_of<3>(scene, density, 2e-3)});
+  EXPECT_GT(found.counters.increments, 1);
+  const double of_runs = by<3>(scene, density, 0.2, "top_displacement_x");
+  EXPECT_NEAR(found.at_rest.at(0).at(0).value, of_runs, 1e-5 * std::abs(of_runs));
+}
+
 // Critical friction of a block on a plane, which sticks until it slides: d/d(dip) = 1, and its size does not matter.
 TEST(RunDerivatives, OfABlockOnAPlaneAreOnesOfItsDip) {
   const SceneWith scene =
