@@ -210,9 +210,9 @@ class RunTwins {
       found_.counters.evaluations += static_cast<long long>(1 + twins_.size());
     }
     const Eigen::VectorXd q = zero_.motion_to(end.motions);
-    // contacts are found near those of the last evaluation: the run came here by steps
-    residual(zero_, end.schedule, 0.5 * q);
-    const Eigen::VectorXd r = residual(zero_, end.schedule, q);
+    // The run came here by steps, and contacts are found near those of the last evaluation: once more, unless it rests.
+    Eigen::VectorXd r = residual(zero_, end.schedule, q);
+    if (!end.ends || !rests(zero_)) r = residual(zero_, end.schedule, q);
     if (end.ends && !rests(zero_)) {
       found_.reason = "by Newton's method alone the run does not come to rest where it did";
       return;

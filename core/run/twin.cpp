@@ -50,9 +50,6 @@ void Twin<Dim>::enter(int stage) {
   stop(state.bodies.motions);
   cache_poses(model, settings.threads, state.bodies);
   unknowns = Unknowns<Dim>(model);
-  // the run has found its forces once when its first increment begins: joints that touch have a history
-  const Schedule schedule = state.schedule;
-  residual(schedule, base_of(state), Eigen::VectorXd::Zero(unknowns.free.size()));
   take_base();
 }
 
