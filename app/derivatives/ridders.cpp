@@ -29,7 +29,7 @@ class HalvingTable {
     std::vector<Extrapolated> row{{quotient, noise}};
     double power = factor_;
     for (std::size_t j = 1; j <= last_.size(); ++j, power *= factor_) {
-      const Extrapolated &fine = row[j - 1], &coarse = last_[j - 1];
+      const Extrapolated fine = row[j - 1], coarse = last_[j - 1];
       row.push_back({(power * fine.value - coarse.value) / (power - 1), (power * fine.bar + coarse.bar) / (power - 1)});
       const double bar =
           row[j].bar + std::max(std::abs(row[j].value - fine.value), std::abs(row[j].value - coarse.value));
