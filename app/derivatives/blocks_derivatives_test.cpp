@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "app/testing/derivative_row.hpp"
 #include "core/scene/scene.hpp"
 #include "text/angle.hpp"
 
@@ -18,14 +19,6 @@ using Overrides = std::vector<std::string>;
 
 DerivativeTable derivatives_of(const char* file, const Overrides& overrides) {
   return blocks_derivatives(read_scene(fs::path(VOUSSOIR_SOURCE_DIR) / file, overrides), {});
-}
-
-const DerivativeRow& row_of(const DerivativeTable& table, const std::string& key) {
-  for (const DerivativeRow& row : table.rows)
-    if (row.key.key == key) return row;
-  ADD_FAILURE() << key << " is not in the table";
-  static const DerivativeRow none{};
-  return none;
 }
 
 bool is_still(const DerivativeTable& table, const std::string& key) {

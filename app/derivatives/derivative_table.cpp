@@ -63,6 +63,12 @@ double change_of(const Derivative& derivative, const MovingKey& key) {
 
 }  // namespace
 
+void sort_rows(DerivativeTable& table) {
+  std::stable_sort(table.rows.begin(), table.rows.end(), [](const DerivativeRow& a, const DerivativeRow& b) {
+    return a.refused != b.refused ? b.refused : std::abs(a.change) > std::abs(b.change);
+  });
+}
+
 DerivativeTable derivative_table(const std::vector<MovingKey>& keys, const PieceAnswer& base,
                                  const DifferentiatedAnswer& answer, const AnswerWith& answer_with,
                                  const KeyHook& hook) {
@@ -102,9 +108,7 @@ DerivativeTable derivative_table(const std::vector<MovingKey>& keys, const Piece
     else
       table.rows.push_back(std::move(row));
   }
-  std::stable_sort(table.rows.begin(), table.rows.end(), [](const DerivativeRow& a, const DerivativeRow& b) {
-    return a.refused != b.refused ? b.refused : std::abs(a.change) > std::abs(b.change);
-  });
+  sort_rows(table);
   return table;
 }
 

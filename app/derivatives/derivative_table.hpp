@@ -42,6 +42,9 @@ struct DerivativeTable {
 // called with the number of keys that are done and of all; false ends the table, without the key before it
 using KeyHook = std::function<bool(std::size_t done, std::size_t all)>;
 
+// into the order that DerivativeTable::rows has
+void sort_rows(DerivativeTable& table);
+
 // Without a value of `base` the table is empty.
 DerivativeTable derivative_table(const std::vector<MovingKey>& keys, const PieceAnswer& base,
                                  const DifferentiatedAnswer& answer, const AnswerWith& answer_with,

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/testing/derivative_row.hpp"
 #include "core/scene/scene.hpp"
 #include "text/angle.hpp"
 
@@ -31,14 +32,6 @@ DerivativeTable derivatives_of(const char* file, const Overrides& overrides, con
 DerivativeTable derivatives_of_text(const std::string& text, const LimitRequest& request = {}) {
   LoadedScene scene = load_changed(parse_scene(text, "text.toml"), {});
   return derivatives_of<2>(scene, request);
-}
-
-const DerivativeRow& row_of(const DerivativeTable& table, const std::string& key) {
-  for (const DerivativeRow& row : table.rows)
-    if (row.key.key == key) return row;
-  ADD_FAILURE() << key << " is not in the table";
-  static const DerivativeRow none{};
-  return none;
 }
 
 struct Expected {

@@ -36,9 +36,10 @@ struct MovingRow {
   bool usual_is_share = false;  // of the value
   KeyScale scale = KeyScale::share;
   double low = -no_end, high = no_end;
+  MovedAnswer moves = MovedAnswer::of_rigid_blocks;  // run: nothing else
 };
 
-constexpr double kilo = 1e3, mega = 1e6;
+constexpr double kilo = 1e3, mega = 1e6, giga = 1e9;
 constexpr double unit_weight = 0;  // shown and usual: the density of 1 kN/m³ under the scene's gravity
 constexpr double below_90 = 89.9;  // deg: friction is less than 90
 
@@ -81,6 +82,8 @@ constexpr std::array moving_rows{
     MovingRow{"bolts.*.dowel_strength", KeyForm::number, "N", 100 * kilo, "100 kN", 0.1, true, KeyScale::share, 0},
     MovingRow{"bolts.*.bond_strength", KeyForm::number, "N/m", 100 * kilo, "100 kN/m", 0.1, true, KeyScale::share, 0},
     MovingRow{"stage.*.force.*.force", KeyForm::size, "N", 100 * kilo, "100 kN", 0.1, true, KeyScale::share, 0},
+    MovingRow{"joint_properties.*.normal_stiffness", KeyForm::number, "Pa/m", giga, "GPa/m", 0.1, true, KeyScale::share, 0, no_end, MovedAnswer::run},
+    MovingRow{"joint_properties.*.shear_stiffness", KeyForm::number, "Pa/m", giga, "GPa/m", 0.1, true, KeyScale::share, 0, no_end, MovedAnswer::run},
 };
 // clang-format on
 
@@ -125,9 +128,9 @@ class KeyFinder {
     density_of_unit_ = kilo / (gravity > 0 ? gravity : 9.81);
   }
 
-  std::vector<MovingKey> find() {
+  std::vector<MovingKey> find(MovedAnswer of) {
     for (const MovingRow& row : moving_rows)
-      search(row, row.pattern, tree_, "");
+      if (row.moves == MovedAnswer::of_rigid_blocks || row.moves == of) search(row, row.pattern, tree_, "");
     return std::move(found_);
   }
 
@@ -311,8 +314,8 @@ class KeyFinder {
 
 }  // namespace
 
-std::vector<MovingKey> moving_keys(const Node& tree) {
-  return KeyFinder(tree).find();
+std::vector<MovingKey> moving_keys(const Node& tree, MovedAnswer of) {
+  return KeyFinder(tree).find(of);
 }
 
 }  // namespace voussoir

@@ -26,9 +26,12 @@ struct MovingKey {
   std::function<std::vector<std::string>(double distance)> overrides{};  // as after --set
 };
 
+// stiffnesses of joints move runs alone
+enum class MovedAnswer { of_rigid_blocks, run };
+
 // All keys of the table of app/derivatives/moving_keys.cpp that the tree states, in the table's order. `tree` is a
 // scene's effective tree (Scene::tree). Joints whose plane is given by its normal, and planes that dip 0 without a
 // direction, have no dip and direction here.
-std::vector<MovingKey> moving_keys(const Node& tree);
+std::vector<MovingKey> moving_keys(const Node& tree, MovedAnswer of = MovedAnswer::of_rigid_blocks);
 
 }  // namespace voussoir

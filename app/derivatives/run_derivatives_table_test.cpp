@@ -9,6 +9,7 @@
 
 #include "app/derivatives/derivative_files.hpp"
 #include "app/run/run_derivative_table.hpp"
+#include "app/testing/derivative_row.hpp"
 #include "core/base/bad_input.hpp"
 #include "core/scene/scene.hpp"
 
@@ -17,14 +18,6 @@ namespace {
 
 LoadedScene scene_with(const char* file, const std::vector<std::string>& overrides = {}) {
   return load_scene(std::filesystem::path(VOUSSOIR_SOURCE_DIR) / file, overrides);
-}
-
-const DerivativeRow& row_of(const DerivativeTable& table, const std::string& key) {
-  for (const DerivativeRow& row : table.rows)
-    if (row.key.key == key) return row;
-  ADD_FAILURE() << key << " is not in the table";
-  static const DerivativeRow none{};
-  return none;
 }
 
 // as block theory, whose blocks do not move: docs/derivatives.md

@@ -28,10 +28,6 @@ constexpr double step_at_rest = 1e-5, step_in_search = 1e-7;
 // of the answer, by the usual change: twins do not see less
 constexpr double seen_by_twins = 1e-7;
 
-constexpr const char* stiffness_keys[] = {"normal_stiffness", "shear_stiffness"};
-constexpr double stiffness_unit = 1e9;   // Pa/m
-constexpr double usual_stiffness = 0.1;  // of the value
-
 bool is_search(const StagePlan& stage) {
   return std::holds_alternative<ReducePlan>(stage.plan);
 }
@@ -119,7 +115,7 @@ DerivativeTable table_of_twins(const Scene& scene, const Prepared<Dim>& prepared
   std::vector<MovingKey> keys;
   std::vector<TwinScenes<Dim>> numbers;
   const double size = smallest_block(prepared.model);
-  for (MovingKey& key : moving_keys_of_run(*scene.tree)) {
+  for (MovingKey& key : moving_keys(*scene.tree, MovedAnswer::run)) {
     const double step = step_of_key(key, search ? step_in_search : step_at_rest, size);
     const auto refuse = [&](const std::string& reason) {
       table.rows.push_back(row_of_key(key, {.reason = reason}, 1));
@@ -173,36 +169,11 @@ DerivativeTable table_of_twins(const Scene& scene, const Prepared<Dim>& prepared
     else
       table.still.push_back(row.key.key);
   }
-  std::ranges::stable_sort(table.rows, [](const DerivativeRow& a, const DerivativeRow& b) {
-    return a.refused != b.refused ? b.refused : std::abs(a.change) > std::abs(b.change);
-  });
+  sort_rows(table);
   return table;
 }
 
 }  // namespace
-
-std::vector<MovingKey> moving_keys_of_run(const Node& tree) {
-  std::vector<MovingKey> keys = moving_keys(tree);
-  const Node* list = tree.find("joint_properties");
-  if (!list || !list->is_list_of_tables()) return keys;
-  for (std::size_t i = 0; i < list->items.size(); ++i)
-    for (const char* name : stiffness_keys) {
-      const Node* node = list->items[i].find(name);
-      if (!node || !node->is_number() || !(node->number > 0)) continue;
-      MovingKey key{.key = key_path(item_path("joint_properties", list->items[i], i), name),
-                    .unit = "Pa/m",
-                    .value = node->number,
-                    .shown = stiffness_unit,
-                    .shown_unit = "GPa/m",
-                    .usual = usual_stiffness * node->number,
-                    .below = node->number};
-      key.overrides = [path = key.key, value = node->number](double distance) {
-        return std::vector<std::string>{fmt::format("{}={}", path, value + distance)};
-      };
-      keys.push_back(std::move(key));
-    }
-  return keys;
-}
 
 void require_answer(const LoadedScene& scene, const std::string& of) {
   const auto require = [&]<int Dim>(const Prepared<Dim>& prepared) {

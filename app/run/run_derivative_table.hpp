@@ -7,13 +7,8 @@
 
 #include "app/base/run_scene.hpp"
 #include "app/derivatives/derivative_table.hpp"
-#include "app/derivatives/moving_keys.hpp"
-#include "core/scene/node.hpp"
 
 namespace voussoir {
-
-// the keys of the scene's table of moving keys, then the stiffnesses of its joints: these move runs alone
-std::vector<MovingKey> moving_keys_of_run(const Node& tree);
 
 // `of`: a monitored value at rest; empty: what the last stage searches, or else the first displacement that a monitor
 // follows. Throws BadInput if a run of the scene has no such value.

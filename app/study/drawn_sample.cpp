@@ -39,7 +39,7 @@ std::vector<DrawnRow> rows_from(const BlocksAnswers& answers, const DrawnKeys& d
 std::string header_of(const StudyPlan& plan, const Sweep& sample) {
   std::vector<std::string> header{"row"};
   for (const TiedKey& key : sample.with)
-    header.push_back(key.unit.empty() || key.unit == "1" ? key.key : fmt::format("{} ({})", key.key, key.unit));
+    header.push_back(with_unit(key.key, key.unit));
   header.insert(header.end(), {plan.quantity, "error_bar", "result_unit", "status"});
   if (sample.fails) header.emplace_back("fails");
   header.emplace_back("mode");

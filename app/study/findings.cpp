@@ -14,10 +14,6 @@
 namespace voussoir {
 namespace {
 
-std::string with_unit(const std::string& name, const std::string& unit) {
-  return unit.empty() || unit == "1" ? name : fmt::format("{} ({})", name, unit);
-}
-
 std::string unit_of(const std::vector<StudyRow>& rows) {
   for (const StudyRow& row : rows)
     if (row.result) return row.result_unit;

@@ -40,6 +40,18 @@ TiedKey named_key(const Subject& table) {
   return key;
 }
 
+// the keys of the scene with the values of the first rows drawn
+void take_rows(int rows, Sweep& sweep) {
+  const std::vector<std::string> names = sweep.drawn->scene_keys(), units = sweep.drawn->units();
+  for (std::size_t k = 0; k < names.size(); ++k)
+    sweep.with.push_back({names[k], {}, units[k]});
+  for (int row = 1; row <= rows; ++row) {
+    const std::vector<double> values = sweep.drawn->row(row);
+    for (std::size_t k = 0; k < names.size(); ++k)
+      sweep.with[k].values.push_back(fmt::format("{}", values[k]));
+  }
+}
+
 }  // namespace
 
 Sweep read_grid(const Subject& table) {
@@ -121,14 +133,7 @@ Sweep read_reliability(const Subject& table) {
   if (!(plan.target >= 0.001 && plan.target <= 1)) refuse(table, "target", "must be from 0.001 to 1");
   plan.most_rows = static_cast<int>(whole_number_of(table, "most_rows", 50, most_drawn).value_or(plan.most_rows));
   analysis.reliability = plan;
-  const std::vector<std::string> names = analysis.drawn->scene_keys(), units = analysis.drawn->units();
-  for (std::size_t k = 0; k < names.size(); ++k)
-    analysis.with.push_back({names[k], {}, units[k]});
-  for (int row = 1; row <= 3; ++row) {
-    const std::vector<double> values = analysis.drawn->row(row);
-    for (std::size_t k = 0; k < names.size(); ++k)
-      analysis.with[k].values.push_back(fmt::format("{}", values[k]));
-  }
+  take_rows(3, analysis);
   return analysis;
 }
 
@@ -141,16 +146,11 @@ void draw_rows(const Subject& table, Sweep& sample) {
   for (const DrawnKey& key : drawn.keys)
     if (key.per != DrawnPer::property && !in_process)
       refuse(table, "per", "is for samples with blocks = {}; state joint_properties for each joint instead");
-  const std::vector<std::string> names = drawn.scene_keys(), units = drawn.units();
-  for (std::size_t k = 0; k < names.size(); ++k)
-    sample.with.push_back({names[k], {}, units[k]});
   // of rows without a run of their own the first ones tell whether a key acts
-  for (int row = 1; row <= (in_process ? std::min(drawn.rows, 3) : drawn.rows); ++row) {
-    if (!in_process) sample.values.push_back(std::to_string(row));
-    const std::vector<double> values = drawn.row(row);
-    for (std::size_t k = 0; k < names.size(); ++k)
-      sample.with[k].values.push_back(fmt::format("{}", values[k]));
-  }
+  take_rows(in_process ? std::min(drawn.rows, 3) : drawn.rows, sample);
+  if (!in_process)
+    for (int row = 1; row <= drawn.rows; ++row)
+      sample.values.push_back(std::to_string(row));
   sample.numbers.resize(sample.values.size());
 }
 

@@ -15,10 +15,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr double least_counted = 0.005;  // importance of a key that is named
 
-std::string named(const std::string& name, const std::string& unit) {
-  return unit.empty() || unit == "1" ? name : fmt::format("{} ({})", name, unit);
-}
-
 // by drawn key, whose components are summed
 std::vector<double> by_key(const DrawnKeys& drawn, const std::vector<double>& components) {
   std::vector<double> sums;
@@ -105,7 +101,7 @@ std::string reliability_csv(const StudyPlan& plan, const Sweep& sweep, const Rel
   std::vector<std::string> header{"answer", "purpose"};
   const std::vector<std::string> keys = drawn.scene_keys(), units = drawn.units();
   for (std::size_t k = 0; k < keys.size(); ++k)
-    header.push_back(named(keys[k], units[k]));
+    header.push_back(with_unit(keys[k], units[k]));
   for (std::size_t k = 0; k < drawn.components(); ++k)
     header.push_back(fmt::format("u{}", k + 1));
   header.insert(header.end(), {plan.quantity, "error_bar", "mode", "status", "weight"});

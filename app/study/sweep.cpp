@@ -6,6 +6,10 @@ std::string shown_value(const std::string& value) {
   return value.starts_with('"') ? value.substr(1, value.size() - 2) : value;
 }
 
+std::string with_unit(const std::string& name, const std::string& unit) {
+  return unit.empty() || unit == "1" ? name : name + " (" + unit + ")";
+}
+
 std::vector<std::string> overrides_of(const Sweep& sweep, std::size_t place) {
   std::vector<std::string> overrides = sweep.overrides;
   if (sweep.varied == Varied::one_key && !sweep.key.empty()) overrides.push_back(sweep.key + "=" + sweep.values[place]);

@@ -99,4 +99,7 @@ std::vector<std::string> overrides_of(const Sweep& sweep, std::size_t place);
 // a value as displayed: without the quotes that --set takes
 std::string shown_value(const std::string& value);
 
+// a column's name, "density (kg/m3)"
+std::string with_unit(const std::string& name, const std::string& unit);
+
 }  // namespace voussoir
