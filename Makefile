@@ -44,7 +44,7 @@ history: test
 	@cmake --build $(BUILD) --target history
 
 test-long: build
-	@cmake/install_packages.sh notebooks
+	@cmake/install_packages.sh notebooks referees
 	@cmake/run_tests.sh $(BUILD) $(JOBS) long
 
 coverage:

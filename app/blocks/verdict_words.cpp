@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
+
 #include "core/geometry/plunge_trend.hpp"
 #include "core/output/block_verdicts.hpp"
 
@@ -29,7 +31,8 @@ std::string joints_shown(const Survey<Dim>& survey, const SurveyRow<Dim>& row) {
 
 template <int Dim>
 std::string direction_shown(const Vector<Dim>& v) {
-  const auto [plunge, trend] = plunge_and_trend(v);
+  const auto [exact_plunge, trend] = plunge_and_trend(v);
+  const double plunge = std::round(10 * exact_plunge) / 10 + 0.0;  // no "-0.0"
   if (Dim == 2 && std::abs(v[0]) <= rounding_of_directions * v.norm()) return plunge > 0 ? "down" : "up";
   return Dim == 3 ? fmt::format("{:.1f}/{:05.1f}", plunge, trend)
                   : fmt::format("{:.1f} {}", plunge, trend < 180 ? "right" : "left");

@@ -138,6 +138,13 @@ std::string with_derivatives(const std::string& json, const DerivativeTable& tab
     object["complete"] = !table.unfinished;
     object["keys"] = rows;
     object["do_not_move_it"] = table.still;
+    for (const TrialTangent& trial : table.way)
+      object["way_to_collapse"].push_back({{"level", trial.level},
+                                           {"smallest_singular_value", trial.smallest},
+                                           {"second_singular_value", trial.second}});
+    for (const BlockAtCollapse& motion : table.motion)
+      object["motion_at_collapse"].push_back(
+          {{"block", motion.block}, {"displacement", motion.displacement}, {"rotation_rad", motion.rotation}});
   } else {
     object["message"] = table.base.reason;
   }

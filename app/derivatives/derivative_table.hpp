@@ -30,6 +30,18 @@ struct DerivativeRow {
   std::string remark{};     // what happens at a kink or beside it; why there is none
 };
 
+// of a stable trial of a run's search: singular values of the tangent, over its scale
+struct TrialTangent {
+  double level = 0;  // in the answer's unit
+  double smallest = 0, second = 0;
+};
+
+// with which a collapse begins; of all blocks the largest displacement is 1
+struct BlockAtCollapse {
+  std::string block;
+  std::vector<double> displacement, rotation;  // rotation in rad per that
+};
+
 struct DerivativeTable {
   DifferentiatedAnswer answer{};
   PieceAnswer base{};
@@ -37,6 +49,8 @@ struct DerivativeTable {
   std::vector<std::string> still{};   // keys that do not move it
   int answers = 0;                    // that were asked for
   bool unfinished = false;            // the hook ended it
+  std::vector<TrialTangent> way{};    // of a run's search, towards the collapse
+  std::vector<BlockAtCollapse> motion{};  // likewise
 };
 
 // called with the number of keys that are done and of all; false ends the table, without the key before it

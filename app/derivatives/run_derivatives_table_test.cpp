@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "app/testing/derivative_row.hpp"
 #include "core/base/bad_input.hpp"
 #include "core/scene/scene.hpp"
+#include "text/angle.hpp"
 
 namespace voussoir::run_derivatives_table_test {
 namespace {
@@ -34,6 +36,25 @@ TEST(RunDerivativeTable, OfAWetSlopeIsThatOfBlockTheory) {
     return a.refused != b.refused ? b.refused : std::abs(a.change) > std::abs(b.change);
   }));
   EXPECT_NE(derivatives_text(table).find("what moves factor_of_safety 0.84"), std::string::npos);
+}
+
+// the distance from collapse: the smallest singular value falls as the level nears the critical one, the second does
+// not
+TEST(RunDerivativeTable, TellsTheWayToTheCollapse) {
+  const DerivativeTable table = run_derivatives(scene_with("cases/wedge/scene.toml", {"statics=newton"}), "");
+  ASSERT_TRUE(table.base.value) << table.base.reason;
+  ASSERT_GE(table.way.size(), 4u);
+  EXPECT_NEAR(table.way.back().level, *table.base.value, table.answer.bar);
+  EXPECT_LT(table.way.back().smallest, 0.1 * table.way.front().smallest);
+  EXPECT_GT(table.way.back().second, 0.5 * table.way.front().second);
+  ASSERT_EQ(table.motion.size(), 1u);
+  const std::vector<double>& way = table.motion.front().displacement;
+  ASSERT_EQ(way.size(), 3u);
+  EXPECT_NEAR(std::hypot(way[0], way[1], way[2]), 1, 1e-12);
+  EXPECT_NEAR(way[2], -std::sin(37.058295 * degree), 1e-4) << "the line of its planes";
+  const auto json = nlohmann::json::parse(with_derivatives("{}", table))["derivatives"];
+  EXPECT_EQ(json["way_to_collapse"].size(), table.way.size());
+  EXPECT_EQ(json["motion_at_collapse"][0]["displacement"].size(), 3u);
 }
 
 // a block that sticks on a level joint under an inclined gravity

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "app/derivatives/derivative_files.hpp"
 #include "app/run_folder/results_hash.hpp"
@@ -53,25 +54,53 @@ double step_of_key(const MovingKey& key, double relative, double size) {
   return relative * std::abs(key.value);
 }
 
-// the block that moves most as the collapse begins, and where to; the rows of `motion` are those of the free blocks
+// With which the collapse begins, of each free block; down, and as long as the farthest goes 1. The rows of `motion`
+// are those of the free blocks.
 template <int Dim>
-std::string motion_words(const Model<Dim>& model, const CriticalDerivatives& critical) {
-  int most = -1, row = 0;
+struct CollapseMotion {
+  std::vector<BlockAtCollapse> blocks;
+  int first = -1;  // the block that moves most
   Vector<Dim> way = Vector<Dim>::Zero();
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    if (model.bodies[b].fixed || !model.bodies[b].present) continue;
+};
+template <int Dim>
+CollapseMotion<Dim> motion_at_collapse(const Model<Dim>& model, const CriticalDerivatives& critical) {
+  constexpr int F = freedoms<Dim>, S = spin_freedoms<Dim>;
+  CollapseMotion<Dim> found;
+  const auto each_free = [&](const auto& look) {
+    int row = 0;
+    for (std::size_t b = 0; b < model.bodies.size(); ++b)
+      if (!model.bodies[b].fixed && model.bodies[b].present) look(static_cast<int>(b), std::exchange(row, row + F));
+  };
+  each_free([&](int b, int row) {
     const Vector<Dim> own = critical.motion.template segment<Dim>(row);
-    row += freedoms<Dim>;
-    if (own.norm() > way.norm()) {
-      way = own;
-      most = static_cast<int>(b);
+    if (own.norm() > found.way.norm()) {
+      found.way = own;
+      found.first = b;
     }
-  }
-  if (most < 0) return "no block moves";
-  if (way.dot(model.gravity) < 0) way = -way;
-  const auto [plunge, trend] = plunge_and_trend<Dim>(way);
-  return fmt::format("{} moves first, {:.1f}/{:.1f} (plunge/trend){}", label_of(model, most), plunge, trend,
-                     critical.near_collapse ? "" : "; one of its joints still sticks: the derivatives are rough");
+  });
+  if (found.first < 0) return found;
+  const double size = (found.way.dot(model.gravity) < 0 ? -1 : 1) * found.way.norm();
+  found.way /= size;
+  each_free([&](int b, int row) {
+    const Vector<Dim> own = critical.motion.template segment<Dim>(row) / size;
+    const Spin<Dim> turn = critical.motion.template segment<S>(row + Dim) / size;
+    found.blocks.push_back({label_of(model, b), {own.begin(), own.end()}, {turn.begin(), turn.end()}});
+  });
+  return found;
+}
+
+// the block that moves most as the collapse begins, and where to; the failed trial's motion if it is of other blocks
+template <int Dim>
+std::string motion_words(const Model<Dim>& model, const CriticalDerivatives& critical,
+                         const CollapseMotion<Dim>& motion, const FailureMechanism& of_trial) {
+  if (motion.first < 0) return "no block moves";
+  const auto [plunge, trend] = plunge_and_trend<Dim>(motion.way);
+  const std::vector<int> failed = of_trial.bodies();
+  return fmt::format("{} moves first, {:.1f}/{:.1f} (plunge/trend){}{}", label_of(model, motion.first), plunge, trend,
+                     critical.near_collapse ? "" : "; one of its joints still sticks: the derivatives are rough",
+                     failed.empty() || std::ranges::count(failed, motion.first)
+                         ? ""
+                         : "; in the failed trial " + sentence_of(of_trial));
 }
 
 // which of the monitored values; a name that is none throws
@@ -157,7 +186,17 @@ DerivativeTable table_of_twins(const Scene& scene, const Prepared<Dim>& prepared
   table.answer.unit = value->unit;
   table.answer.bar = value->error_bar.value_or(0);
   table.base.value = value->value;
-  table.base.words = search ? motion_words(prepared.model, *found.critical) : "at rest";
+  table.base.words = "at rest";
+  if (search) {
+    CollapseMotion<Dim> motion = motion_at_collapse(prepared.model, *found.critical);
+    const std::vector<StableState>& states = progress.results.at_last_stable_state;
+    const std::optional<TrialRow> failed = states.empty() ? std::nullopt : states.back().failed;
+    table.base.words =
+        motion_words(prepared.model, *found.critical, motion, failed ? failed->mechanism : FailureMechanism{});
+    table.motion = std::move(motion.blocks);
+    for (const TangentOfTrial& trial : found.critical->way)
+      table.way.push_back({factor ? trial.level : trial.level / degree, trial.smallest, trial.second});
+  }
 
   for (std::size_t n = 0; n < keys.size(); ++n) {
     DerivativeRow row =

@@ -21,7 +21,7 @@ struct Findings {
   bool interrupted = false;                                // while rows were drawn: nothing else is complete
 };
 
-using EvaluationsOf = std::function<Evaluate(const Sweep&)>;
+using EvaluationsOf = std::function<Evaluations(const Sweep&)>;
 
 // `rows` as table_of gives them. Samples on block theory are drawn and judged here, and reliability analyses are made.
 Findings findings_of(const StudyPlan& plan, const std::vector<StudyRow>& rows, const EvaluationsOf& evaluations = {},

@@ -18,6 +18,7 @@ constexpr double fine_bar = 1e-5;  // of an answer, relative to its distance fro
 constexpr double turns_of_bar = 16, most_tolerance = 0.01;
 // of second differences, which lose twice as many digits
 constexpr double step_of_curvature = 0.02;
+constexpr double step_at_medians = 0.01;
 constexpr std::size_t most_keys_of_curvature = 12;
 // of an unsettled search: g near the limit, beside that at the medians; number of such points; their spread
 constexpr double near_limit = 0.02, most_spread = 0.2;
@@ -42,30 +43,25 @@ void choose_step(const EvaluatedSetting& medians, DesignPointRequest& search) {
 // asks for answers at points u, and remembers them
 class Asked {
  public:
-  Asked(const Sweep& sweep, const Evaluate& evaluate, ReliabilityFound& found)
-      : sweep_(sweep), evaluate_(evaluate), found_(found) {}
+  Asked(const Sweep& sweep, const Evaluations& evaluations, ReliabilityFound& found)
+      : sweep_(sweep), evaluations_(evaluations), found_(found) {}
 
   std::string purpose;
   bool reversed = false;
   int below_zero = 0;  // answers with a friction angle below 0, taken as 0
   int undecided = 0;   // whose error bar contains the limit
 
+  // g, or only its sign where that is cheaper
+  std::vector<StateAnswer> failed(const std::vector<StandardPoint>& points) {
+    return answers(points, evaluations_.failed ? evaluations_.failed : evaluations_.value);
+  }
   std::vector<StateAnswer> operator()(const std::vector<StandardPoint>& points) {
-    KeySettings settings;
-    for (const StandardPoint& u : points)
-      settings.push_back(values_at(u));
-    const std::vector<EvaluatedSetting> answers = evaluate_(settings);
-    std::vector<StateAnswer> limits;
-    for (std::size_t k = 0; k < points.size(); ++k) {
-      found_.rows.push_back({purpose, points[k], settings[k], answers[k]});
-      limits.push_back({g_of(answers[k]), answers[k].mode});
-      undecided += limits.back().g && answers[k].error_bar && std::abs(*limits.back().g) <= *answers[k].error_bar;
-    }
-    return limits;
+    return answers(points, evaluations_.value);
   }
 
   // above 0: stands; of a reversed search: fails
   std::optional<double> g_of(const EvaluatedSetting& answer) const {
+    if (answer.failed) return *answer.failed != reversed ? -1 : 1;
     if (!answer.value || !std::isfinite(*answer.value)) return std::nullopt;
     const Fails& fails = *sweep_.fails;
     const double g = fails.below ? *answer.value - fails.limit : fails.limit - *answer.value;
@@ -73,6 +69,20 @@ class Asked {
   }
 
  private:
+  std::vector<StateAnswer> answers(const std::vector<StandardPoint>& points, const Evaluate& evaluate) {
+    KeySettings settings;
+    for (const StandardPoint& u : points)
+      settings.push_back(values_at(u));
+    const std::vector<EvaluatedSetting> found = evaluate(settings);
+    std::vector<StateAnswer> limits;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      found_.rows.push_back({purpose, points[k], settings[k], found[k]});
+      limits.push_back({g_of(found[k]), found[k].mode});
+      undecided += limits.back().g && found[k].error_bar && std::abs(*limits.back().g) <= *found[k].error_bar;
+    }
+    return limits;
+  }
+
   // A law without ends may give a friction angle below 0, which is no friction.
   std::vector<double> values_at(const StandardPoint& u) {
     std::vector<double> values = sweep_.drawn->at(u);
@@ -88,14 +98,15 @@ class Asked {
   }
 
   const Sweep& sweep_;
-  const Evaluate& evaluate_;
+  const Evaluations& evaluations_;
   ReliabilityFound& found_;
 };
 
-// Squares of the direction of the keys' normals z at the design point: γ = α L⁻¹/|α L⁻¹|; those of u if all are
+// Squares of the direction γ = α L⁻¹/|α L⁻¹| of the keys' normals z, of a direction α of u: at the design point the
+// importances of the keys, along the gradient at the medians their shares of the variance. Those of u if all are
 // independent.
-std::vector<double> importances_of(const DrawnKeys& drawn, const DesignPoint& point) {
-  std::vector<double> gamma = point.u;
+std::vector<double> shares_of(const DrawnKeys& drawn, const StandardPoint& direction) {
+  std::vector<double> gamma = direction;
   if (!drawn.factor.empty())
     for (std::size_t k = gamma.size(); k-- > 0;) {
       for (std::size_t j = k + 1; j < gamma.size(); ++j)
@@ -108,6 +119,24 @@ std::vector<double> importances_of(const DrawnKeys& drawn, const DesignPoint& po
   for (double& g : gamma)
     g = size > 0 ? g * g / size : 0;
   return gamma;
+}
+
+// Of g's variance to first order: by central differences at the medians. Empty if an answer is missing.
+std::vector<double> shares_at_medians(const DrawnKeys& drawn, Asked& asked) {
+  std::vector<StandardPoint> points;
+  for (std::size_t k = 0; k < drawn.components(); ++k)
+    for (const double step : {-step_at_medians, step_at_medians}) {
+      points.emplace_back(drawn.components(), 0.0);
+      points.back()[k] = step;
+    }
+  asked.purpose = "variance";
+  const std::vector<StateAnswer> answers = asked(points);
+  StandardPoint slope;
+  for (std::size_t k = 0; k < answers.size(); k += 2) {
+    if (!answers[k].g || !answers[k + 1].g) return {};
+    slope.push_back(*answers[k + 1].g - *answers[k].g);
+  }
+  return shares_of(drawn, slope);
 }
 
 // a design point that no strength has
@@ -190,7 +219,8 @@ void warn_of_several(const ReliabilityFound& found, std::vector<std::string>& wa
 void sample(const Sweep& sweep, Asked& asked, const LimitFunction& g, const DesignPointRequest& search,
             ReliabilityFound& found) {
   asked.purpose = "pilot";
-  const OtherPointsRequest others{.seed = sweep.drawn->seed, .search = search};
+  const LimitFunction failed = [&](const std::vector<StandardPoint>& points) { return asked.failed(points); };
+  const OtherPointsRequest others{.seed = sweep.drawn->seed, .failed = failed, .search = search};
   const OtherPoints points = find_other_design_points(g, found.points.front(), others);
   found.points = points.points;
   found.pilots = points.pilots;
@@ -212,7 +242,7 @@ void sample(const Sweep& sweep, Asked& asked, const LimitFunction& g, const Desi
   asked.undecided = 0;
   const SamplingRequest request{
       .seed = sweep.drawn->seed, .target = sweep.reliability->target, .most_rows = sweep.reliability->most_rows};
-  const SamplingEstimate estimate = sample_by_importance(g, found.points, request);
+  const SamplingEstimate estimate = sample_by_importance(failed, found.points, request);
   found.sampled = of_failing(estimate, found.medians_fail);
   if (estimate.failed == 0) {
     found.failure = fmt::format(
@@ -247,10 +277,10 @@ void sample(const Sweep& sweep, Asked& asked, const LimitFunction& g, const Desi
 
 }  // namespace
 
-ReliabilityFound analyse_reliability(const Sweep& sweep, const Evaluate& evaluate) {
+ReliabilityFound analyse_reliability(const Sweep& sweep, const Evaluations& evaluations) {
   const DrawnKeys& drawn = *sweep.drawn;
   ReliabilityFound found;
-  Asked asked(sweep, evaluate, found);
+  Asked asked(sweep, evaluations, found);
   const LimitFunction g = [&](const std::vector<StandardPoint>& points) { return asked(points); };
 
   asked.purpose = "medians";
@@ -268,6 +298,7 @@ ReliabilityFound analyse_reliability(const Sweep& sweep, const Evaluate& evaluat
         "the medians fail: beta is negative, the probability above one half; a [[sample]] of 200 rows tells it best");
   }
 
+  if (!found.rows.front().answer.error_bar) found.variance_shares = shares_at_medians(drawn, asked);
   asked.purpose = "design point";
   DesignPointRequest search;
   const double tolerance = search.tolerance;
@@ -305,7 +336,7 @@ ReliabilityFound analyse_reliability(const Sweep& sweep, const Evaluate& evaluat
     found.warnings.push_back(fmt::format("{} answers are of a friction angle below 0, taken as 0", asked.below_zero));
   for (const DesignPoint& point : found.points) {
     found.point_values.push_back(drawn.at(point.u));
-    found.importances.push_back(importances_of(drawn, point));
+    found.importances.push_back(shares_of(drawn, point.u));
   }
   return found;
 }

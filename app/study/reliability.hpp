@@ -15,7 +15,7 @@ namespace voussoir {
 
 // an answer that the analysis asked for
 struct ReliabilityRow {
-  std::string purpose;  // medians, design point, second order, pilot, importance
+  std::string purpose;  // medians, variance, design point, second order, pilot, importance
   StandardPoint u;
   std::vector<double> values;
   EvaluatedSetting answer;
@@ -25,6 +25,7 @@ struct ReliabilityFound {
   std::string failure;  // why there is no probability; else empty
   double g_at_medians = 0;
   bool medians_fail = false;                      // beta is negative, the probability above one half
+  std::vector<double> variance_shares;            // to first order at the medians, by component; of cheap answers
   std::vector<DesignPoint> points;                // the nearest first
   std::vector<std::vector<double>> point_values;  // of these, as DrawnKeys::at
   std::vector<std::vector<double>> importances;   // of these, by component of the drawn keys; their sum is 1
@@ -37,7 +38,7 @@ struct ReliabilityFound {
 };
 
 // Throws EvaluationsInterrupted, and what the evaluations throw.
-ReliabilityFound analyse_reliability(const Sweep& sweep, const Evaluate& evaluate);
+ReliabilityFound analyse_reliability(const Sweep& sweep, const Evaluations& evaluations);
 
 std::string reliability_json(const StudyPlan& plan, const Sweep& sweep, const ReliabilityFound& found);
 std::string reliability_csv(const StudyPlan& plan, const Sweep& sweep, const ReliabilityFound& found);

@@ -27,20 +27,40 @@ std::vector<double> by_key(const DrawnKeys& drawn, const std::vector<double>& co
   return sums;
 }
 
+Json shares_json(const DrawnKeys& drawn, const std::vector<double>& components) {
+  const std::vector<double> shares = by_key(drawn, components);
+  Json json = Json::object();
+  for (std::size_t k = 0; k < drawn.keys.size(); ++k)
+    json[drawn.keys[k].key] = shares[k];
+  return json;
+}
+
+// "clay.friction_deg 64 %, rough.friction_deg 36 %", the largest first
+std::string shares_text(const DrawnKeys& drawn, const std::vector<double>& components, const char* word) {
+  const std::vector<double> shares = by_key(drawn, components);
+  std::vector<std::size_t> order;
+  for (std::size_t k = 0; k < shares.size(); ++k)
+    if (shares[k] >= least_counted) order.push_back(k);
+  std::ranges::sort(order, [&](std::size_t a, std::size_t b) { return shares[a] > shares[b]; });
+  std::vector<std::string> texts;
+  for (const std::size_t k : order)
+    texts.push_back(fmt::format("{}{} {:.0f} %", short_name(drawn.keys[k].key), word, 100 * shares[k]));
+  return fmt::format("{}", fmt::join(texts, ", "));
+}
+
 Json point_json(const DrawnKeys& drawn, const ReliabilityFound& found, std::size_t p) {
   const DesignPoint& point = found.points[p];
-  Json values = Json::object(), importances = Json::object();
+  Json values = Json::object();
   const std::vector<std::string> keys = drawn.scene_keys();
   for (std::size_t k = 0; k < keys.size(); ++k)
     values[keys[k]] = found.point_values[p][k];
-  const std::vector<double> shares = by_key(drawn, found.importances[p]);
-  for (std::size_t k = 0; k < drawn.keys.size(); ++k)
-    importances[drawn.keys[k].key] = shares[k];
   Json pieces = Json::array();
   for (const FailedHalfSpace& piece : point.pieces)
     pieces.push_back({{"direction", piece.direction}, {"distance", piece.distance}});
-  return {{"beta", point.beta}, {"u", point.u}, {"values", values}, {"importances", importances},
-          {"mode", point.mode}, {"g", point.g}, {"pieces", pieces}, {"iterations", point.iterations}};
+  return {{"beta", point.beta}, {"u", point.u},
+          {"values", values},   {"importances", shares_json(drawn, found.importances[p])},
+          {"mode", point.mode}, {"g", point.g},
+          {"pieces", pieces},   {"iterations", point.iterations}};
 }
 
 std::map<std::string, int> answers_by_purpose(const ReliabilityFound& found) {
@@ -69,6 +89,7 @@ std::string reliability_json(const StudyPlan& plan, const Sweep& sweep, const Re
   json["shared_draws"] = sharing_text(drawn);
   json["g_at_medians"] = found.g_at_medians;
   json["medians_fail"] = found.medians_fail;
+  if (!found.variance_shares.empty()) json["variance_shares_at_medians"] = shares_json(drawn, found.variance_shares);
   json["failure"] = found.failure;
   json["warnings"] = found.warnings;
   if (found.failure.empty()) {
@@ -143,21 +164,16 @@ std::vector<std::string> reliability_lines(const Sweep& sweep, const Reliability
                         units[k].empty() || units[k] == "1" ? "" : " " + units[k]);
   std::vector<std::string> lines{line};
 
-  const std::vector<double> shares = by_key(drawn, found.importances.front());
-  std::vector<std::size_t> order;
-  for (std::size_t k = 0; k < shares.size(); ++k)
-    if (shares[k] >= least_counted) order.push_back(k);
-  std::ranges::sort(order, [&](std::size_t a, std::size_t b) { return shares[a] > shares[b]; });
-  std::vector<std::string> counts;
-  for (const std::size_t k : order)
-    counts.push_back(fmt::format("{} counts {:.0f} %", short_name(drawn.keys[k].key), 100 * shares[k]));
-  lines.push_back(
-      fmt::format("  {}{}", fmt::join(counts, ", "), nearest.mode.empty() ? "" : "; mechanism: " + nearest.mode));
+  lines.push_back(fmt::format("  {}{}", shares_text(drawn, found.importances.front(), " counts"),
+                              nearest.mode.empty() ? "" : "; mechanism: " + nearest.mode));
+  if (!found.variance_shares.empty())
+    lines.push_back("  of the variance at the medians: " + shares_text(drawn, found.variance_shares, ""));
   const std::size_t answers = found.rows.size();
   if (found.sampled)
     lines.push_back(
-        fmt::format("  {} answers, {} of them importance sampling; {} design point{}, sought by {} pilot rows", answers,
-                    found.sampled->rows, found.points.size(), found.points.size() == 1 ? "" : "s", found.pilots));
+        fmt::format("  {} answers, {} of them importance sampling; {} design point{}, sought by {} pilot rows{}",
+                    answers, found.sampled->rows, found.points.size(), found.points.size() == 1 ? "" : "s",
+                    found.pilots, found.rows.back().answer.failed ? "; both are single trials at the limit" : ""));
   else
     lines.push_back(
         fmt::format("  {} answers; other mechanisms were not looked for (method = \"importance\" does)", answers));

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "app/study/search_trial.hpp"
 #include "app/testing/program.hpp"
 #include "core/joint_sets/statistics.hpp"
 
@@ -58,6 +59,8 @@ class StudyReliability : public Program {
     return run("study study.toml --out " + out);
   }
 };
+
+using StudyReliabilityLong = StudyReliability;
 
 // ---- samples ------------------------------------------------------------------------------------------------------
 
@@ -188,6 +191,7 @@ TEST_F(StudyReliability, AProbabilityOfOneKeyAndItsRepetition) {
   EXPECT_LE(found["sampled"]["low"].get<double>(), phi(-2.5));
   EXPECT_GE(found["sampled"]["high"].get<double>(), phi(-2.5));
   EXPECT_EQ(found["design_points"][0]["mode"], "slides on (no joint)");
+  EXPECT_EQ(found["variance_shares_at_medians"], (json{{"joint_properties.r.friction_deg", 1.0}}));
   const std::string first = read(folder_ / "out/reliability_1.csv");
   ASSERT_EQ(study(analysis, "again").code, 0);
   EXPECT_EQ(read(folder_ / "again/reliability_1.csv"), first);
@@ -226,6 +230,58 @@ TEST_F(StudyReliability, RunsOfAnAnalysisAreKept) {
     EXPECT_EQ(fs::last_write_time(entry.path() / "results.json"), fs::file_time_type::min());
   EXPECT_EQ(second.out.substr(second.out.find("reliability 'r'")), first.out.substr(first.out.find("reliability 'r'")));
   EXPECT_NE(first.out.find("to first order; not checked"), std::string::npos) << first.out;
+}
+
+// ---- runs ---------------------------------------------------------------------------------------------------------
+
+// the factor of the cube is sought by a run
+const std::string searched = std::string(cube) + R"(statics = "newton"
+[[stage]]
+name = "settle"
+kind = "settle"
+[[stage]]
+name = "safety"
+kind = "reduce"
+search = "factor"
+from_factor = 0.5
+to_factor = 3
+tolerance_factor = 0.01
+)";
+
+// one trial at the limit says what a whole search would
+TEST_F(StudyReliability, ATrialAtTheLimitStandsOrFails) {
+  write("searched.toml", searched);
+  const Fails below{.below = true, .limit = 1}, above{.below = false, .limit = 1};
+  const Scene scene = read_scene((folder_ / "searched.toml").string(), {});
+  EXPECT_TRUE(trial_at_limit(scene, "critical_friction", below).empty());
+  EXPECT_TRUE(trial_at_limit(scene, "factor_of_safety", above).empty());
+  EXPECT_TRUE(trial_at_limit(scene, "factor_of_safety", {.below = true, .limit = 0.4}).empty());
+  std::string options;
+  for (const std::string& text : trial_at_limit(scene, "factor_of_safety", below))
+    options += " --set " + text;
+  ASSERT_NE(options, "");
+  for (const auto& [friction, fails] : {std::pair{44.5, true}, {45.5, false}}) {
+    const std::string out = fmt::format("trial_{}", friction);
+    run(fmt::format("run searched.toml --quiet --out {} --set joint_properties.r.friction_deg={}{}", out, friction,
+                    options));
+    EXPECT_EQ(trial_failed(folder_ / out), fails) << friction;
+  }
+}
+
+// 95 % and 12 % of the standard error
+TEST_F(StudyReliabilityLong, OfRunsIsSampledByTrials) {
+  write("searched.toml", searched);
+  write("study.toml", "scene = \"searched.toml\"\nquantity = \"factor_of_safety\"\n" +
+                          std::string(analysis).replace(analysis.find("fails"), 0, "target = 0.12\n"));
+  const Ended ended = run("study study.toml --out out");
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  const json found = findings("out/reliability_1.json");
+  EXPECT_NEAR(found["beta"].get<double>(), 2.5, 0.02);
+  const double p = found["sampled"]["probability"], error = found["sampled"]["standard_error"];
+  EXPECT_NEAR(p, phi(-2.5), 3 * error);
+  EXPECT_LE(error, 0.12 * p);
+  EXPECT_NE(ended.out.find("both are single trials at the limit"), std::string::npos) << ended.out;
+  EXPECT_NE(read(folder_ / "out/reliability_1.csv").find(",stands,"), std::string::npos);
 }
 
 TEST_F(StudyReliability, WhatHasNoAnswerIsRefused) {

@@ -93,8 +93,8 @@ TEST(Reliability, OneFailureInAMillionAsItsIntegral) {
                  Kind::exact,
                  "reference/reliability: least distance",
                  beta,
-                 {1e-5, 0},
-                 "its search ends within 10⁻³ of the point, the distance differs by half of the square"},
+                 {1e-6, 0},
+                 "the search ends within 10⁻⁵ of the point; slopes by differences are right to 10⁻⁴"},
                 found.at("beta"));
   report.report("slab, probability to first order", "1", found.at("first_order").at("probability"),
                 fmt::format("{:.2f} of the exact one", found.at("first_order").at("probability").get<double>() /
@@ -140,8 +140,8 @@ TEST(Reliability, BothWaysToFailAreFound) {
                    Kind::exact,
                    "closed form: (m - 30)/s",
                    beta,
-                   {1e-5, 0},
-                   "a straight limit in the friction angle; the search ends within 10⁻³ of the first g"},
+                   {1e-6, 0},
+                   "a straight limit in the friction angle; the search ends within 10⁻⁵ of the first g"},
                   point.at("beta"));
   };
   judge("b", beta_b, points[0]);

@@ -244,8 +244,8 @@ void visit_fields(Either<PairStiffness> auto& p, auto&& visit) {
 }
 
 void visit_fields(Either<ContactHistory> auto& c, auto&& visit) {
-  auto& [part_a, part_b, divided_face, bond_due, history] = c;
-  visit(Saved{}, part_a, part_b, divided_face, bond_due, history);
+  auto& [part_a, part_b, cells, divided_face, bond_due, history] = c;
+  visit(Saved{}, part_a, part_b, cells, divided_face, bond_due, history);
 }
 
 void visit_fields(Either<JointHistories> auto& h, auto&& visit) {

@@ -11,7 +11,7 @@ JointHistories<Dim> histories_of(const ContactsState<Dim>& contacts) {
   JointHistories<Dim> histories;
   histories.contacts.reserve(contacts.list.size());
   for (const Contact<Dim>& c : contacts.list)
-    histories.contacts.push_back({c.part_a, c.part_b, c.divided_face, c.bond_due, c.history});
+    histories.contacts.push_back({c.part_a, c.part_b, c.cells, c.divided_face, c.bond_due, c.history});
   histories.subs.reserve(contacts.subs.size());
   for (const SubContact<Dim>& s : contacts.subs)
     histories.subs.push_back(s.history);
@@ -26,8 +26,12 @@ void set_histories(const JointHistories<Dim>& histories, ContactsState<Dim>& con
     Contact<Dim>& c = contacts.list[i];
     if (!contacts.kept.empty() && contacts.kept[i]) continue;
     c.history = then.history;
+    c.cells = then.cells;
     c.divided_face = then.divided_face;
     c.bond_due = then.bond_due;
+    if (then.history.normal.isZero(0) || c.touching() || c.unanswered()) continue;
+    c.status = ContactStatus::separated;
+    c.near_until = c.free_until = 0;
   }
   const std::size_t stride = sub_stride(contacts);
   for (std::size_t i = 0; i < histories.subs.size(); ++i)

@@ -14,7 +14,7 @@ namespace voussoir {
 template <int Dim>
 struct ContactHistory {
   int part_a = 0, part_b = 0;
-  int divided_face = -1;
+  int cells = 0, divided_face = -1;
   bool bond_due = false;
   JointState<Dim> history;
 };
@@ -43,7 +43,8 @@ std::span<const JointRise<Dim>> rises_of(const JointHistories<Dim>& histories, i
 template <int Dim>
 JointHistories<Dim> histories_of(const ContactsState<Dim>& contacts);
 
-// Restores them, but for those of contacts that are kept. The contacts are those of the histories, in their order.
+// Restores them, but for those of contacts that are kept. The contacts are those of the histories, in their order. What
+// a contact was when it was last found must not matter: one that has parted since is looked at again.
 template <int Dim>
 void set_histories(const JointHistories<Dim>& histories, ContactsState<Dim>& contacts);
 

@@ -138,11 +138,15 @@ struct DesignPointWalk {
     return best;
   }
 
-  DesignPoint told(const LocalAnswer& local, const Linearisations& memory, int iteration) const {
-    const double beta = length(local.u);
-    DesignPoint point{local.u, request.reversed ? -beta : beta, local.g, {}, local.mode, iteration};
-    if (beta > 0 && is_smooth(memory, local.u)) {
-      point.pieces.push_back({local.u, beta});
+  // `next`: the nearest point of the linearisations, which are those at `local` where all is smooth
+  DesignPoint told(const LocalAnswer& local, const StandardPoint& next, const Linearisations& memory,
+                   int iteration) const {
+    const bool smooth = length(local.u) > 0 && is_smooth(memory, local.u);
+    const StandardPoint& u = smooth && request.bracket == 0 ? next : local.u;
+    const double beta = length(u);
+    DesignPoint point{u, request.reversed ? -beta : beta, local.g, {}, local.mode, iteration};
+    if (smooth) {
+      point.pieces.push_back({u, beta});
       for (double& part : point.pieces.front().direction)
         part /= beta;
     } else {
@@ -169,7 +173,7 @@ struct DesignPointWalk {
           search.found = std::move(doubted);
           return true;
         }
-        doubted = told(local, memory, iteration);
+        doubted = told(local, next, memory, iteration);
         memory.forget_afar(within);
         next = memory.next();
       }
@@ -179,7 +183,7 @@ struct DesignPointWalk {
           search.reason = "the search ended where what fails lies towards the medians";
           return true;
         }
-        search.found = told(local, memory, iteration);
+        search.found = told(local, next, memory, iteration);
         return true;
       }
       if (manner.shrinks) {

@@ -14,7 +14,7 @@ namespace voussoir {
 struct DesignPoint {
   StandardPoint u;
   double beta = 0;  // |u|; of a reversed search -|u|
-  double g = 0;     // there, of the function searched
+  double g = 0;     // of the function searched, in its last answer: where g is smooth, `tolerance` away at most
   // those that hold the point where it is; one: g is smooth there; two or more: a kink, where all of them must fail
   std::vector<FailedHalfSpace> pieces;
   std::string mode;  // the mechanism's name there

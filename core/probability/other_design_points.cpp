@@ -38,7 +38,7 @@ struct PointHunt {
       for (double& part : rows.back())
         part = spread * stream.normal();
     }
-    const std::vector<StateAnswer> answers = limit(rows);
+    const std::vector<StateAnswer> answers = (request.failed ? request.failed : limit)(rows);
     found.pilots = request.pilots;
     found.evaluations += request.pilots;
     for (std::size_t k = 0; k < rows.size(); ++k) {

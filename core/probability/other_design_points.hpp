@@ -15,6 +15,7 @@ struct OtherPointsRequest {
   std::uint64_t seed = 0;
   int pilots = 200;
   int most_starts = 4;
+  LimitFunction failed{};       // of the pilots, whose sign alone counts; empty: g
   DesignPointRequest search{};  // of every further search; its start is not used
 };
 

@@ -172,8 +172,10 @@ class RunTwins {
     if (now.reduction.stable != target_) return ends_.clear();
     if (fallen_back(now.state)) return;
     near_.reset();
+    tangent_.reset();
     follow_all();
     if (near_) nearer_.push_back(std::move(*near_));
+    if (tangent_) way_.push_back(*tangent_);
   }
 
   void begin_stage_of_twins(int stage) {
@@ -293,6 +295,7 @@ class RunTwins {
     if (w.along.dot(w.by_level) > 0) {
       w.vectors = null_vectors<Dim>(factors, zero_.unknowns.scale);
       w.acts = w.vectors.smallest < soft_share * softest_joint() * w.vectors.second;
+      tangent_ = {w.level, w.vectors.smallest, w.vectors.second};
     }
     residual(zero_, schedule, q);
     return w;
@@ -359,6 +362,7 @@ class RunTwins {
     if (failed()) return;
     CriticalDerivatives& c = found_.critical.emplace(nearer_.back().at);
     c.critical = 0.5 * (now.reduction.stable + now.reduction.failed);
+    c.way = std::move(way_);
     std::size_t t = 0;
     for (const std::string& reason : refused_)
       c.by.push_back(reason.empty() ? derivative_of_level(t++, c.critical) : RunDerivative{.reason = reason});
@@ -444,12 +448,14 @@ class RunTwins {
   bool newton_ = false;  // an increment was under way before the last step
   bool begins_ = true;   // no part of it has ended
   int increments_left_ = 0;
-  std::vector<Motion<Dim>> motions_;     // its base's
-  Schedule schedule_;                    // of the last step
-  std::vector<IncrementEnd<Dim>> ends_;  // of the trial or stage under way: no twin has followed yet
-  bool slipped_ = false;                 // beyond the last stable state
-  std::optional<NearCollapse> near_;     // of the trial that is followed
-  std::vector<NearCollapse> nearer_;     // of stable trials, in their order
+  std::vector<Motion<Dim>> motions_;       // its base's
+  Schedule schedule_;                      // of the last step
+  std::vector<IncrementEnd<Dim>> ends_;    // of the trial or stage under way: no twin has followed yet
+  bool slipped_ = false;                   // beyond the last stable state
+  std::optional<NearCollapse> near_;       // of the trial that is followed
+  std::vector<NearCollapse> nearer_;       // of stable trials, in their order
+  std::optional<TangentOfTrial> tangent_;  // of the trial that is followed
+  std::vector<TangentOfTrial> way_;        // of stable trials, in their order
 };
 
 }  // namespace

@@ -35,6 +35,13 @@ struct RunDerivative {
   std::string reason{};         // why there is none
 };
 
+// How far a stable trial is from collapse: the smallest singular value of its tangent falls with the root of the
+// distance to the critical level, the second does not.
+struct TangentOfTrial {
+  double level = 0;                 // rad or 1
+  double smallest = 0, second = 0;  // over the unknowns' scale
+};
+
 // Of a search: at its last stable state.
 struct CriticalDerivatives {
   double level = 0, critical = 0;      // of that state; that the search found; rad or 1
@@ -42,6 +49,7 @@ struct CriticalDerivatives {
   bool near_collapse = false;          // smallest / second is that of a mechanism, not of a shear spring
   Eigen::VectorXd motion{}, weight{};  // u: the motion with which the collapse begins; v; by degree of freedom
   std::vector<RunDerivative> by{};     // by number; rad or 1 per its unit
+  std::vector<TangentOfTrial> way{};   // by stable trial in which a lower strength moves the blocks
 };
 
 struct TwinCounters {

@@ -332,6 +332,27 @@ TEST(RunDerivatives, LeaveTheRunAsItIs) {
   EXPECT_LE(n.factorisations, n.increments + 4);
 }
 
+// The forces at a place belong to the place and the histories at the base alone, also where a joint has closed since,
+// of whose parts each has its own history.
+TEST(Twin, HasTheForcesOfItsPlaceWhateverCameBefore) {
+  const Prepared<3> scene = prepare<3>(file_with("cases/overhang/scene.toml", {"statics=newton"})({}));
+  const Progress<3> ended = whole_run(scene);
+  Twin<3> twin(scene);
+  twin.enter(0);
+  const Schedule& schedule = ended.state.schedule;
+  twin.begin_increment(schedule);
+  const Eigen::VectorXd place = twin.motion_to(ended.state.bodies.motions), none = Eigen::VectorXd::Zero(place.size());
+  const Eigen::VectorXd first = twin.residual(schedule, twin.base, place);
+  const double size = twin.state().contacts.list.front().force.norm();
+  const auto again = [&](const Eigen::VectorXd& before) {
+    twin.residual(schedule, twin.base, before);
+    return Eigen::VectorXd(twin.residual(schedule, twin.base, place));
+  };
+  EXPECT_LT((again(place) - first).norm(), 1e-9 * size);
+  EXPECT_LT((again(none) - first).norm(), 1e-9 * size);
+  EXPECT_LT((again(-place) - first).norm(), 1e-9 * size) << "all joints were open";
+}
+
 TEST(RunDerivatives, AreRefusedWithTheReason) {
   const SceneWith wedge = file_with("cases/wedge/scene.toml", {});
   EXPECT_NE(not_differentiable(prepare<3>(wedge({}))).find("does not use Newton's method"), std::string::npos);

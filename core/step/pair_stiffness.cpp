@@ -435,6 +435,7 @@ void find_closed_joints(const Model<Dim>& model, const Settings& settings, const
       std::fill(cells.begin(), cells.end(), SubContact<Dim>{});
       divide<Dim>(pairs[j], properties.sub_contacts, c, std::span(cells).first(count));
       history = unloaded<Dim>(n, c.geometry.point, c.geometry.area);
+      histories.contacts[closed.contact].cells = count;
       histories.contacts[closed.contact].divided_face = c.divided_face;
       for (int k = 0; k < count; ++k)
         if (cells[k].area > 0)
