@@ -243,6 +243,7 @@ kind = "settle"
 name = "safety"
 kind = "reduce"
 search = "factor"
+friction = [{ name = "r", friction_deg = 50 }]
 from_factor = 0.5
 to_factor = 3
 tolerance_factor = 0.01
@@ -262,7 +263,7 @@ TEST_F(StudyReliability, ATrialAtTheLimitStandsOrFails) {
   ASSERT_NE(options, "");
   for (const auto& [friction, fails] : {std::pair{44.5, true}, {45.5, false}}) {
     const std::string out = fmt::format("trial_{}", friction);
-    run(fmt::format("run searched.toml --quiet --out {} --set joint_properties.r.friction_deg={}{}", out, friction,
+    run(fmt::format("run searched.toml --quiet --out {} --set stage.safety.friction.r.friction_deg={}{}", out, friction,
                     options));
     EXPECT_EQ(trial_failed(folder_ / out), fails) << friction;
   }
@@ -271,8 +272,10 @@ TEST_F(StudyReliability, ATrialAtTheLimitStandsOrFails) {
 // 95 % and 12 % of the standard error
 TEST_F(StudyReliabilityLong, OfRunsIsSampledByTrials) {
   write("searched.toml", searched);
-  write("study.toml", "scene = \"searched.toml\"\nquantity = \"factor_of_safety\"\n" +
-                          std::string(analysis).replace(analysis.find("fails"), 0, "target = 0.12\n"));
+  write("study.toml",
+        "scene = \"searched.toml\"\nquantity = \"factor_of_safety\"\n"
+        "[[reliability]]\nname = \"r\"\ntarget = 0.12\nfails = { below = 1 }\n"
+        "keys = [{ key = \"stage.safety.friction.r.friction_deg\", law = \"normal\", mean = 50, deviation = 2 }]\n");
   const Ended ended = run("study study.toml --out out");
   ASSERT_EQ(ended.code, 0) << ended.err;
   const json found = findings("out/reliability_1.json");

@@ -264,9 +264,9 @@ void visit_fields(Just<StepsOfFew> auto& f, auto&& visit) {
 }
 
 void visit_fields(Just<StaticProgress> auto& p, auto&& visit) {
-  auto& [iteration, since_commit, tries, polished, regularisation, overshoot, length, lengths, accepted, residual,
-         change, merits, pairs, few] = p;
-  visit(Saved{}, iteration, since_commit, tries, polished, regularisation, overshoot, length, lengths, accepted,
+  auto& [iteration, since_commit, tries, polished, broke, regularisation, overshoot, length, lengths, accepted,
+         residual, change, merits, pairs, few] = p;
+  visit(Saved{}, iteration, since_commit, tries, polished, broke, regularisation, overshoot, length, lengths, accepted,
         residual, change, merits, pairs, few);
 }
 

@@ -71,6 +71,7 @@ struct StepsOfFew {
 struct StaticProgress {
   int iteration = 0;  // accepted ones of this increment
   int since_commit = 0, tries = 0, polished = 0;
+  bool broke = false;         // bonds, in a trial that was refused
   double regularisation = 1;  // lambda
   double overshoot = 0;       // the linear system's solution over the largest permitted step
   double length = 1;          // of the last step, over the bounded solution; how often it was shortened

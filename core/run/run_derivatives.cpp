@@ -15,10 +15,12 @@
 namespace voussoir {
 namespace {
 
-// Corrections of a twin at the end of an increment; less than this is left of the first difference, or no correction
-// takes away this much of the one before: rounding.
+// Corrections of a twin at the end of an increment, until less than this is left of the first difference, which the
+// derivative has as its error: by the run's own factors one correction leaves about h of it where no contact changes its
+// branch. Near a collapse the factors magnify what is left. Or no correction takes away this much of the one before:
+// rounding.
 constexpr int most_corrections = 6, most_alike = 4;
-constexpr double corrected = 1e-7, hardly_corrected = 0.3;
+constexpr double corrected_at_rest = 1e-4, corrected = 1e-7, hardly_corrected = 0.3;
 
 // At the end of an increment the run's own twin, which relaxation has not moved, is as unbalanced as the run, or by
 // this times the criterion.
@@ -249,7 +251,7 @@ class RunTwins {
     Eigen::VectorXd own = q, rest = residual(twin, schedule, own) - r;
     const double first = size_of(rest);
     double before = first;
-    for (int k = 0; k < most_corrections && before > corrected * first; ++k) {
+    for (int k = 0; k < most_corrections && before > corrected_at_rest * first; ++k) {
       own += factors.solve(rest);
       ++found_.counters.back_substitutions;
       rest = residual(twin, schedule, own) - r;

@@ -26,8 +26,7 @@ namespace {
 
 constexpr double first_regularisation = 1, least_regularisation = 1e-9;
 
-// Accepted iterations of an increment before it is left to relaxation.
-constexpr int iteration_limit = 150;
+constexpr int iteration_limit = 150;  // accepted ones of an increment before it is left to relaxation
 
 // A step is shortened if less than this is left of the residual's work along it, 1 before it and 0 at the least energy
 // (negative: the joints drive it back): to where that work, interpolated, is zero, within these bounds. It has at most
@@ -44,9 +43,9 @@ constexpr double most_fall = 0.02, least_fall = 0.5, slow_fall = 0.1, bounded_fa
 // alternately, and a short step (at least this regularisation) breaks the cycle.
 constexpr double hardly_fallen = 0.7, short_step = 0.1;
 
-// Accepted iterations after which an increment follows a valley: a mode softer than the joints by many powers of ten,
-// such as the sway of an arch on four hinges. Stiff joints resist the square of a step along it, so the residual grows
-// even if the step is right. Columns, walls and sliced rock of thousands of blocks converge in fewer.
+// Accepted iterations after which an increment follows a valley, a mode softer than the joints by many powers of ten,
+// such as the sway of an arch on four hinges: stiff joints resist the square of a step along it, so the residual grows
+// even if the step is right. Or is left to relaxation, if its trials broke bonds. Others converge in fewer.
 constexpr int valley_after = 50;
 
 // The few bodies of most of the residual move by themselves, after the first steps of all, until no more than this
@@ -59,8 +58,7 @@ constexpr double left_to_few = 0.2, first_of_few = 0.1;
 constexpr double first_if_carried = 0.01, nearly_balanced = 0.1;
 constexpr std::ptrdiff_t one_closed_of = 10;
 
-// Refused steps, which break bonds, before an increment is left to relaxation; accepted ones before the increment so
-// far is kept.
+// Refused steps, which break bonds, before relaxation takes over; accepted ones before the increment so far is kept.
 constexpr int most_tries = 12, most_since_commit = 25;
 
 // Closed joints without force count as stiff for this many iterations; otherwise a load would reach only one more row
@@ -300,7 +298,7 @@ struct Newton {
   }
 
   void start_increment() {
-    progress.iteration = progress.tries = progress.polished = progress.pairs = 0;
+    progress.iteration = progress.tries = progress.polished = progress.pairs = progress.broke = 0;
     progress.few = {};
     progress.merits.clear();
     system.closed.clear();
@@ -349,6 +347,7 @@ struct Newton {
 
   void refuse(bool breaks) {
     ++state.counters.static_rejections;
+    progress.broke = progress.broke || breaks;
     if (++progress.tries >= most_tries && breaks) return find_all(Trial::last);
     progress.regularisation = std::max(8 * progress.regularisation, 1e-6);
     step_from_accepted();
@@ -383,7 +382,8 @@ struct Newton {
     else
       progress.merits.push_back(now);
     if (rests()) return of_all ? end_increment() : find_all(Trial::complete);
-    if (of_all && progress.iteration >= iteration_limit) return give_up(&Counters::unconverged_fallbacks);
+    if (of_all && progress.iteration >= (progress.broke ? valley_after : iteration_limit))
+      return give_up(progress.broke ? &Counters::broken_bonds_fallbacks : &Counters::unconverged_fallbacks);
     choose_moving(residual, now, far);
     if (few_move()) {
       find_stiffness();
