@@ -49,7 +49,7 @@ Problem sliding_cube() {
       "a step of 2 ms of first order moves the place by half a step times 1 m/s: 1 mm; the joint's overlap under the "
       "weight and its growth while it slides stay below 1e-5 m";
   for (const Asked& asked : p.asked) {
-    const Reference reference{"incline", "cube sent off at 1 m/s: " + asked.quantity, {}, 1, 1e-3, 0, because};
+    const Reference reference{"incline", "cube sent off at 1 m/s: " + asked.quantity, {}, 1e-3, 0, because};
     p.references.push_back({asked.quantity, reference, reference});
   }
   p.dimensions = {{{-0.5, -0.5, 1.2}, {0.5, -0.5, 1.2}, "1 m"},
@@ -85,7 +85,6 @@ Problem incline() {
   const Reference reference{"incline",
                             "critical friction, 3-D",
                             {},
-                            1,
                             0.01,
                             0,
                             "half the bracket of 0.005 deg, and the criterion: 0.5 mm in 1 s is 5e-4 m/s2 more, which "
@@ -126,18 +125,12 @@ Problem toppling_block() {
       "the joint, 3 % of the joint's own lean at 100 GPa/m and 10 % at 1 GPa/m, less with damping";
   p.references = {
       {"critical tilt, stiff joints",
-       Reference{"toppling",
-                 "block of the problem files: slope that overturns it, 100 GPa/m",
-                 {},
-                 1,
-                 0.05,
-                 0,
-                 elastic_because},
        Reference{
-           "toppling", "block of the problem files: slope that overturns it, rigid", {}, 1, 0.04, 0, rigid_because}},
+           "toppling", "block of the problem files: slope that overturns it, 100 GPa/m", {}, 0.05, 0, elastic_because},
+       Reference{"toppling", "block of the problem files: slope that overturns it, rigid", {}, 0.04, 0, rigid_because}},
       {"critical tilt, stated joints",
        Reference{
-           "toppling", "block of the problem files: slope that overturns it, 1 GPa/m", {}, 1, 0.2, 0, elastic_because},
+           "toppling", "block of the problem files: slope that overturns it, 1 GPa/m", {}, 0.2, 0, elastic_because},
        {}}};
   p.dimensions = {{{-0.25, -0.25, 1.15}, {0.25, -0.25, 1.15}, "0.5 m"}, {{0.45, -0.25, 0}, {0.45, -0.25, 1}, "1 m"}};
   p.words.model =
@@ -199,11 +192,11 @@ Problem wedge() {
       "dies out as the wedge creeps down, 4 mm at 0.01 deg above the angle";
   const std::string upper = "groove 45/38: critical friction, kinetic";
   p.references = {
-      {"critical friction, kinetic", Reference{"wedge", upper, {}, 1, 0.02, 0, kinetic_because},
-       Reference{"wedge", upper, {}, 1, 0.02, 0, kinetic_because}},
+      {"critical friction, kinetic", Reference{"wedge", upper, {}, 0.02, 0, kinetic_because},
+       Reference{"wedge", upper, {}, 0.02, 0, kinetic_because}},
       {"critical friction, at rest",
-       Reference{"wedge", "groove 45/38: critical friction, at rest", {}, 1, 0.03, 0, rest_because},
-       Reference{"wedge", upper, "groove 45/38: least friction of any equilibrium", 1, 0.03, 0,
+       Reference{"wedge", "groove 45/38: critical friction, at rest", {}, 0.03, 0, rest_because},
+       Reference{"wedge", upper, "groove 45/38: least friction of any equilibrium", 0.03, 0,
                  rest_because +
                      "; any friction between the ends has an equilibrium of rigid blocks, so the load's path "
                      "and the solver decide"}}};
@@ -255,11 +248,11 @@ Problem free_rotation() {
       "no moment acts: (omega dt)2/12 = 3.3e-5 of a step of 10 ms of second order, and 4500 such steps each rounded to "
       "6e-8 in single precision, at worst in one direction";
   for (std::size_t k = 0; k < 3; ++k) {
-    const Reference reference{"free_rotation", p.asked[k].quantity, {}, 1, 3e-3, 0, spin_because};
+    const Reference reference{"free_rotation", p.asked[k].quantity, {}, 3e-3, 0, spin_because};
     p.references.push_back({p.asked[k].quantity, reference, reference});
   }
   for (std::size_t k = 3; k < 5; ++k) {
-    const Reference reference{"free_rotation", p.asked[k].quantity, {}, 1, 3e-4, 0, kept_because};
+    const Reference reference{"free_rotation", p.asked[k].quantity, {}, 3e-4, 0, kept_because};
     p.references.push_back({p.asked[k].quantity, reference, reference});
   }
   p.dimensions = {{{-1.5, -1, -0.8}, {1.5, -1, -0.8}, "3 m"},

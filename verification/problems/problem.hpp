@@ -94,7 +94,6 @@ struct Asked {
 struct Reference {
   std::string case_name, row;
   std::optional<std::string> lower_row;  // rigid: the lower end, if it is another row; `row` is then the upper one
-  double scale = 1;                      // of the row's value
   double absolute = 0, relative = 0;
   std::string because;
 };
