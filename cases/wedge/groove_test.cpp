@@ -61,7 +61,7 @@ TEST(WedgeInAGroove, HoldsAtRestAboveTheSameAngle) {
   CaseReport report("wedge", {quantity + "critical friction, at rest"});
   const std::vector<std::string> rest{"blocks.wedge.velocity=[0, 0, 0]", "stage.slide.gravity_ramp_s=1",
                                       "stage.slide.duration_s=3.5", "stage.slide.damping.viscous_ratio=0.5"};
-  const double found = bisect(15, 40, [&](double friction) {
+  const double found = bisect(27, 31, [&](double friction) {
     const std::vector<double> p = path(friction, rest);
     return at(p, 3.5) - at(p, 2.5) - (at(p, 2.5) - at(p, 1.5)) <= 5e-4 && at(p, 3.5) <= 0.3;
   });
