@@ -87,9 +87,8 @@ Problem incline() {
                             {},
                             0.01,
                             0,
-                            "half the bracket of 0.005 deg, and the criterion: 0.5 mm in 1 s is 5e-4 m/s2 more, which "
-                            "is g cos 30 deg / cos2 30 deg times 0.0025 deg; twice that for a path that is measured by "
-                            "steps"};
+                            "half the bracket of 0.005 deg; the criterion, 0.5 mm more in 1 s, is 5e-4 m/s2, which "
+                            "0.0025 deg give; twice the sum"};
   p.references = {{"critical tilt", reference, reference}};
   p.dimensions = {{{-0.5, -0.5, 1.2}, {0.5, -0.5, 1.2}, "1 m"}, {{-6, -3, -1.4}, {6, -3, -1.4}, "12 m"}};
   p.words.model =
@@ -117,12 +116,11 @@ Problem toppling_block() {
   p.asked = {{"critical tilt, stiff joints", "deg", "middle of the last bracket of the search over tilt_deg"},
              {"critical tilt, stated joints", "deg", "the same with the stated stiffness of the joint"}};
   const std::string rigid_because =
-      "bracket of 0.005 deg; the criterion: at 5e-4 m/s2 of the centre the block leans 0.005 deg beyond its balance, "
-      "from which it also needs the 2 s to leave: its lean grows by exp(p t), p = 3.6 1/s, that is by 1300 within 2 s; "
-      "a skin or rounding of the edge by r moves the angle by 2 r/h, 0.09 deg for 1 mm: twice 0.02 deg are for it";
+      "half the bracket of 0.005 deg, and an edge that is rounded or has a skin by r = 0.4 mm: 2 r/h cos2 = 0.037 deg; "
+      "a larger one lowers the angle by 0.09 deg a mm and has to be stated";
   const std::string elastic_because =
-      "bracket of 0.005 deg and the criterion as for rigid codes; the swing that gravity's growth within 1 s leaves on "
-      "the joint, 3 % of the joint's own lean at 100 GPa/m and 10 % at 1 GPa/m, less with damping";
+      "the bracket of 0.005 deg, and a tenth of what the joint takes from the slope of a rigid block: gravity that "
+      "grows within 1 s leaves a lean that swings about its balance";
   p.references = {
       {"critical tilt, stiff joints",
        Reference{
@@ -184,12 +182,11 @@ Problem wedge() {
               "the wedge starts at 1 m/s along the groove; middle of the last bracket between faster and slower"},
              {"critical friction, at rest", "deg", "the variant 'at rest'; middle of the last bracket"}};
   const std::string kinetic_because =
-      "bracket of 0.005 deg; a speed that is read from places 0.5 s apart changes its sign of growth with the angle; "
-      "friction that a first-order step applies late by half a step is the same in both halves; 0.02 deg are 8 "
-      "brackets of the path's reading at 7 digits";
+      "half the bracket of 0.005 deg, and 0.0175 deg, which are 4.4e-3 m/s2: a difference of 1.1 mm between two paths "
+      "of 0.5 m, as steps, contacts that come and go and single precision leave";
   const std::string rest_because =
-      "bracket of 0.005 deg; the criterion of 5e-4 m/s2 is 0.003 deg; on elastic joints the shear across the groove "
-      "dies out as the wedge creeps down, 4 mm at 0.01 deg above the angle";
+      "half the bracket of 0.005 deg; the criterion of 5e-4 m/s2 is 0.002 deg; on elastic joints the shear across the "
+      "groove dies out while the wedge creeps, by 2 mm at 0.02 deg above the angle";
   const std::string upper = "groove 45/38: critical friction, kinetic";
   p.references = {
       {"critical friction, kinetic", Reference{"wedge", upper, {}, 0.02, 0, kinetic_because},

@@ -77,7 +77,9 @@ std::string faces_svg(const Problem& problem, const View& view, const Sheet& she
         depth += block.vertices[c].dot(view.towards) / static_cast<double>(face.corners.size());
       seen.push_back({depth, &block, &face});
     }
-  std::stable_sort(seen.begin(), seen.end(), [](const Seen& a, const Seen& b) { return a.depth < b.depth; });
+  std::stable_sort(seen.begin(), seen.end(), [](const Seen& a, const Seen& b) {
+    return a.block->fixed != b.block->fixed ? a.block->fixed : a.depth < b.depth;
+  });
   std::string text;
   for (const Seen& s : seen) {
     const double light = 0.75 + 0.25 * s.face->normal.dot(Point(0.3, -0.4, 0.87));
@@ -90,9 +92,9 @@ std::string faces_svg(const Problem& problem, const View& view, const Sheet& she
       const Pixel p = sheet.at(s.block->vertices[c]);
       text += fmt::format("{:.1f},{:.1f} ", p.x, p.y);
     }
-    // blocks in front let the others be seen
+    // free blocks are drawn over fixed ones, which let them be seen
     text += fmt::format("\" fill=\"{}\" fill-opacity=\"{}\" stroke=\"black\" stroke-width=\"0.7\"/>\n", colour,
-                        problem.blocks.size() > 50 && s.block->fixed ? 0.15 : 0.85);
+                        problem.dimension == 3 && s.block->fixed ? 0.5 : 0.9);
   }
   return text;
 }

@@ -104,9 +104,9 @@ std::string udec_text(const Problem& p) {
   for (const Solid& b : p.blocks)
     size = std::min(size, std::cbrt(b.mass / b.density));
   std::string text = fmt::format(
-      "; {}\n; A data file in the grammar of UDEC 4 to 6 (command reference of UDEC). Syntax held against the manual "
-      "by eye,\n"
-      "; not run. Units m, kg, s, Pa; x to the right, z of task.md is y here; 1 m deep. Stiff joints.\n",
+      "; {}\n; A data file in the grammar of UDEC 4 to 6 (command reference of UDEC). Its words were "
+      "not\n; compared with the manual by any program, and it was not run. Units m, kg, s, Pa; x to the right, z of "
+      "task.md is y here; 1 m deep. Stiff joints.\n",
       p.title);
   text += trial_text(p, ";");
   text += fmt::format("new\nround {:g}\nset ovtol {:g}\n", 1e-4 * size, 1e-2 * size);
@@ -178,7 +178,8 @@ std::string scene_text(const Problem& p) {
 }
 
 std::string three_dec_stages(const Problem& p) {
-  std::string text = "; stages of the problem\n" + trial_text(p, ";");
+  std::string text =
+      "; stages of the problem: not run, and their words not compared with the manual\n" + trial_text(p, ";");
   for (const Solid& b : p.blocks) {
     if (b.velocity.norm() > 0)
       text += fmt::format("; initial velocity of {}: {:.17g},{:.17g},{:.17g} m/s\n", b.name, b.velocity[0],
