@@ -10,7 +10,8 @@
 namespace voussoir {
 namespace {
 
-constexpr double figure_width = 720, figure_height = 460, left = 70, right = 200, top = 20, bottom = 50;  // px
+constexpr double figure_width = 720, figure_height = 460, left_margin = 70, right_margin = 200, top_margin = 20,
+                 bottom_margin = 50;  // px
 constexpr double least_error = 1e-3;  // tolerances: nearer to the truth is drawn there
 constexpr std::array colours{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#000000", "#8a6d3b"};
 
@@ -69,9 +70,9 @@ std::string error_against_cost(const Judgement& judgement) {
   }
   if (marks.empty()) return {};
   const Decades seconds = decades_of(marks, &Mark::seconds), errors = decades_of(marks, &Mark::error);
-  const double width = figure_width - left - right, height = figure_height - top - bottom;
-  const auto x_of = [&](double s) { return left + width * seconds.at(s); };
-  const auto y_of = [&](double e) { return top + height * (1 - errors.at(e)); };
+  const double width = figure_width - left_margin - right_margin, height = figure_height - top_margin - bottom_margin;
+  const auto x_of = [&](double s) { return left_margin + width * seconds.at(s); };
+  const auto y_of = [&](double e) { return top_margin + height * (1 - errors.at(e)); };
   std::string text = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" "
       "height=\"{1}\" font-family=\"sans-serif\" font-size=\"12\">\n<rect width=\"{0}\" "
@@ -81,28 +82,29 @@ std::string error_against_cost(const Judgement& judgement) {
     text += fmt::format(
         "<path d=\"M{0:.1f} {1:.1f}V{2:.1f}\" stroke=\"#ddd\"/><text x=\"{0:.1f}\" y=\"{3:.1f}\" "
         "text-anchor=\"middle\">{4:g}</text>\n",
-        x_of(std::pow(10, k)), top, top + height, top + height + 16, std::pow(10, k));
+        x_of(std::pow(10, k)), top_margin, top_margin + height, top_margin + height + 16, std::pow(10, k));
   for (int k = errors.low; k <= errors.high; ++k)
     text += fmt::format(
         "<path d=\"M{0:.1f} {1:.1f}H{2:.1f}\" stroke=\"{5}\"/><text x=\"{3:.1f}\" y=\"{1:.1f}\" "
         "text-anchor=\"end\">{4:g}</text>\n",
-        left, y_of(std::pow(10, k)), left + width, left - 6, std::pow(10, k), k == 0 ? "#c00" : "#ddd");
+        left_margin, y_of(std::pow(10, k)), left_margin + width, left_margin - 6, std::pow(10, k),
+        k == 0 ? "#c00" : "#ddd");
   text += fmt::format(
       "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">processor time, s</text>\n<text x=\"16\" "
       "y=\"{:.1f}\" transform=\"rotate(-90 16 {:.1f})\" text-anchor=\"middle\">error, tolerances</text>\n",
-      left + width / 2, figure_height - 12, top + height / 2, top + height / 2);
+      left_margin + width / 2, figure_height - 12, top_margin + height / 2, top_margin + height / 2);
   for (const Mark& mark : marks)
     text += shape(mark.problem, x_of(mark.seconds), y_of(mark.error), colours[mark.code % colours.size()]) +
             fmt::format(" fill-opacity=\"0.8\"><title>{} {}</title>{}\n", problems[mark.problem], mark.code + 1,
                         mark.problem % 4 == 0   ? "</circle>"
                         : mark.problem % 4 == 1 ? "</rect>"
                                                 : "</path>");
-  double y = top + 10;
+  double y = top_margin + 10;
   const auto label = [&](const std::string& mark, const std::string& name) {
-    text += mark + fmt::format("/><text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", left + width + 28, y + 4, name);
+    text += mark + fmt::format("/><text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", left_margin + width + 28, y + 4, name);
     y += 17;
   };
-  const double at = left + width + 16;
+  const double at = left_margin + width + 16;
   for (std::size_t k = 0; k < judgement.codes.size(); ++k) {
     std::string name;
     for (const char c : judgement.codes[k])

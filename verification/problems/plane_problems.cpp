@@ -10,7 +10,7 @@
 namespace voussoir::problems {
 namespace {
 
-constexpr double depth = 1;  // m
+constexpr double metre_deep = 1;  // m
 
 Solid fixed_box(const std::string& name, double density, const Point& least, const Point& greatest) {
   Solid block = box(name, density, least, greatest);
@@ -28,8 +28,8 @@ Problem rocking() {
   constexpr double breadth = 1, height = 4;
   const double lean = 0.5 * std::atan(breadth / height);
   const Eigen::Quaterniond turn(Eigen::AngleAxisd(lean, Point::UnitY()));
-  Solid block = turned(box("block", 2500, {-breadth, -depth / 2, 0}, {0, depth / 2, height}), turn);
-  p.blocks = {fixed_box("slab", 2500, {-6, -depth / 2, -1}, {6, depth / 2, 0}), block};
+  Solid block = turned(box("block", 2500, {-breadth, -metre_deep / 2, 0}, {0, metre_deep / 2, height}), turn);
+  p.blocks = {fixed_box("slab", 2500, {-6, -metre_deep / 2, -1}, {6, metre_deep / 2, 0}), block};
   p.joints = {one_joint(45, stiff_joint, {})};
   p.gravity = {{0, {0, 0, -standard_gravity}}};
   p.duration = 1.5;
@@ -98,14 +98,14 @@ Problem arch() {
     for (const Point& c : corners)
       polygon.emplace_back(c[0], c[2]);
     const std::string name = "voussoir_" + std::to_string(k + 1);
-    p.blocks.push_back(prism(name, 2500, polygon, depth));
+    p.blocks.push_back(prism(name, 2500, polygon, metre_deep));
     // both ends of the prism, in the order of its corners
     for (int end = 0; end < 2; ++end)
       for (const auto& [angle, sign] : {std::pair{left, -0.5}, {right, -0.5}, {right, 0.5}, {left, 0.5}})
         search.change[name].push_back(sign * out(angle));
   }
-  p.blocks.push_back(fixed_box("left abutment", 2500, {-6.25, -depth / 2, -1}, {-3.75, depth / 2, 0}));
-  p.blocks.push_back(fixed_box("right abutment", 2500, {3.75, -depth / 2, -1}, {6.25, depth / 2, 0}));
+  p.blocks.push_back(fixed_box("left abutment", 2500, {-6.25, -metre_deep / 2, -1}, {-3.75, metre_deep / 2, 0}));
+  p.blocks.push_back(fixed_box("right abutment", 2500, {3.75, -metre_deep / 2, -1}, {6.25, metre_deep / 2, 0}));
   p.joints = {one_joint(45, stiff_joint, {})};
   p.gravity = grown({0, 0, -standard_gravity});
   p.duration = 6;
@@ -147,8 +147,8 @@ Problem bonded_beam() {
   p.title = "Cantilever of one block, glued to a wall";
   p.dimension = 2;
   constexpr double length = 1, height = 0.5, density = 2500;
-  p.blocks = {fixed_box("wall", density, {-1, -depth / 2, -1}, {0, depth / 2, 1}),
-              box("beam", density, {0, -depth / 2, -height / 2}, {length, depth / 2, height / 2})};
+  p.blocks = {fixed_box("wall", density, {-1, -metre_deep / 2, -1}, {0, metre_deep / 2, 1}),
+              box("beam", density, {0, -metre_deep / 2, -height / 2}, {length, metre_deep / 2, height / 2})};
   JointOf joint = one_joint(30, {1e9, 1e9}, Stiffness{1e9, 1e9});
   joint.cohesion = 1e6;
   joint.tension = 300e3;
@@ -213,8 +213,8 @@ Problem bolted_block() {
   // the scene of cases/support: a square cut by a plane of 40 deg through its middle
   constexpr double density = 5096.839959, dip = 40, half = 1;
   const double drop = std::tan(dip * degree);
-  p.blocks = {prism("block", density, {{-half, drop}, {half, -drop}, {half, half}, {-half, half}}, depth),
-              prism("base", density, {{-half, -half}, {half, -half}, {half, -drop}, {-half, drop}}, depth)};
+  p.blocks = {prism("block", density, {{-half, drop}, {half, -drop}, {half, half}, {-half, half}}, metre_deep),
+              prism("base", density, {{-half, -half}, {half, -half}, {half, -drop}, {-half, drop}}, metre_deep)};
   p.blocks.back().fixed = true;
   p.joints = {one_joint(35, Stiffness{1e9, 5e8}, {})};
   p.gravity = grown({0, 0, -standard_gravity});

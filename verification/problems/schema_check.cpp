@@ -9,9 +9,9 @@
 namespace voussoir::problems {
 namespace {
 
-using Json = nlohmann::json;
+using SchemaJson = nlohmann::json;
 
-bool has_type(const Json& value, const std::string& type) {
+bool has_type(const SchemaJson& value, const std::string& type) {
   if (type == "null") return value.is_null();
   if (type == "number") return value.is_number();
   if (type == "integer") return value.is_number_integer();
@@ -24,9 +24,9 @@ bool has_type(const Json& value, const std::string& type) {
 
 class Checker {
  public:
-  explicit Checker(const Json& root) : root_(root) {}
+  explicit Checker(const SchemaJson& root) : root_(root) {}
 
-  std::vector<std::string> check(const Json& value, const Json& schema, const std::string& place) const {
+  std::vector<std::string> check(const SchemaJson& value, const SchemaJson& schema, const std::string& place) const {
     std::vector<std::string> found;
     for (const auto& [key, rule] : schema.items()) {
       if (key == "$schema" || key == "title" || key == "description" || key == "$defs") continue;
@@ -40,7 +40,7 @@ class Checker {
     to.insert(to.end(), more.begin(), more.end());
   }
 
-  void check_one(const Json& value, const Json& schema, const std::string& key, const Json& rule,
+  void check_one(const SchemaJson& value, const SchemaJson& schema, const std::string& key, const SchemaJson& rule,
                  const std::string& place, std::vector<std::string>& found) const {
     const auto require = [&](bool holds) {
       if (!holds) found.push_back(fmt::format("{}: {} = {}", place.empty() ? "/" : place, key, rule.dump()));
@@ -52,7 +52,7 @@ class Checker {
     else if (key == "enum")
       require(std::ranges::find(rule, value) != rule.end());
     else if (key == "$ref")
-      add(found, check(value, root_.at(Json::json_pointer(rule.get<std::string>().substr(1))), place));
+      add(found, check(value, root_.at(SchemaJson::json_pointer(rule.get<std::string>().substr(1))), place));
     else if (key == "minimum")
       require(!value.is_number() || value >= rule);
     else if (key == "exclusiveMinimum")
@@ -68,15 +68,16 @@ class Checker {
     else if (key == "pattern")
       require(!value.is_string() || std::regex_search(value.get<std::string>(), std::regex(rule.get<std::string>())));
     else if (key == "oneOf")
-      require(1 == std::ranges::count_if(rule, [&](const Json& one) { return check(value, one, place).empty(); }));
+      require(1 ==
+              std::ranges::count_if(rule, [&](const SchemaJson& one) { return check(value, one, place).empty(); }));
     else
       check_members(value, schema, key, rule, place, found);
   }
 
-  void check_members(const Json& value, const Json& schema, const std::string& key, const Json& rule,
+  void check_members(const SchemaJson& value, const SchemaJson& schema, const std::string& key, const SchemaJson& rule,
                      const std::string& place, std::vector<std::string>& found) const {
     if (key == "required") {
-      for (const Json& name : rule)
+      for (const SchemaJson& name : rule)
         if (value.is_object() && !value.contains(name.get<std::string>()))
           found.push_back(place + ": lacks " + name.dump());
     } else if (key == "properties") {
@@ -96,12 +97,12 @@ class Checker {
     }
   }
 
-  const Json& root_;
+  const SchemaJson& root_;
 };
 
 }  // namespace
 
-std::vector<std::string> schema_violations(const Json& document, const Json& schema) {
+std::vector<std::string> schema_violations(const SchemaJson& document, const SchemaJson& schema) {
   return Checker(schema).check(document, schema, "");
 }
 
