@@ -78,7 +78,7 @@ TEST(ToppledBlock, OverturnsAsARigidBlockByLimitAnalysis) {
       report.record({name,
                      "deg",
                      Kind::exact,
-                     "moments about the lower edge: tan slope = b/h",
+                     "equilibrium: moments about the lower edge, tan slope = b/h",
                      std::atan(breadth / height) / degree,
                      {1e-6, 0},
                      "bounds from forces and from the mechanism meet to 1e-9 of the factor"},
