@@ -7,7 +7,7 @@ JOBS   ?= $(shell nproc)
 # when make began: the last line of each target says how long it took
 export VOUSSOIR_STARTED := $(shell date +%s)
 
-.PHONY: help history build program test test-long coverage reports benchmark deb run format clean
+.PHONY: help history build program test test-long coverage reports problems benchmark deb run format clean
 
 help:
 	@echo "make run                 the program alone, and the tutorial's slope: a factor of safety and an interactive page"
@@ -17,6 +17,7 @@ help:
 	@echo "make history             test, and store the values as those of this version: verification/history"
 	@echo "make coverage            line coverage of the core's rooms by the unit tests (build-coverage)"
 	@echo "make reports             figures, studies and the verification manual: $(BUILD)/reports/manual-VERSION.html"
+	@echo "make problems            problems for any code, from the verdicts of make test: $(BUILD)/problems (BLIND=1: without references)"
 	@echo "make benchmark           time the kernels and their peers, and twenty thousand falling blocks, an hour on two cores"
 	@echo "                         (VOUSSOIR_FALL_BLOCKS=2000: minutes; VOUSSOIR_BENCHMARK=quick: the contact kernel, a minute)"
 	@echo "make deb                 Debian packages: build-packages/*.deb"
@@ -54,6 +55,10 @@ coverage:
 reports: build
 	@cmake --build $(BUILD) --parallel $(JOBS) --target benchmarks
 	@cmake/make_reports.sh $(BUILD) $(JOBS)
+
+# from the rows that the cases' tests wrote: make test comes first
+problems: build
+	@$(BUILD)/verification/voussoir_problems $(BUILD)/problems $(if $(BLIND),--blind)
 
 benchmark:
 	@cmake/install_packages.sh program benchmarks

@@ -24,6 +24,8 @@ TEST(Architecture, AllowsArrowsTowardsTheGround) {
   EXPECT_TRUE(arrow("cases/wedge/wedge_test.cpp", "reference/wedge/wedge.hpp").empty());
   EXPECT_TRUE(arrow("reports/manual.cpp", "verification/verdicts.hpp").empty());
   EXPECT_TRUE(arrow("reports/study_report.hpp", "core/base/accuracy.hpp").empty());
+  EXPECT_TRUE(arrow("app/judge/judgement.cpp", "verification/comparison/comparison.hpp").empty());
+  EXPECT_TRUE(arrow("verification/problems/rock_mass.cpp", "core/scene/scene.hpp").empty());
   EXPECT_TRUE(arrow("core/contact/pair.hpp", "Eigen/Dense").empty());
 
   // a unit test may make its blocks with a neighbour
@@ -43,6 +45,9 @@ TEST(Architecture, RefusesArrowsBackUp) {
 }
 
 TEST(Architecture, RefusesArrowsAcross) {
+  EXPECT_FALSE(arrow("app/judge/judgement.cpp", "verification/verdicts.hpp").empty());
+  EXPECT_FALSE(arrow("verification/verdicts.cpp", "core/scene/scene.hpp").empty());
+  EXPECT_FALSE(arrow("verification/problems/rock_mass.cpp", "app/base/run_scene.hpp").empty());
   EXPECT_FALSE(arrow("core/contact/pair.hpp", "core/slicing/slice.hpp").empty());
   EXPECT_FALSE(arrow("core/scene/prepare.cpp", "core/output/results.hpp").empty());
   EXPECT_FALSE(arrow("core/output/paraview.cpp", "core/scene/scene.hpp").empty());

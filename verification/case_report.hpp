@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "verification/comparison.hpp"
+#include "verification/comparison/comparison.hpp"
 #include "verification/row.hpp"
 
 namespace voussoir::verification {

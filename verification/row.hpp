@@ -2,7 +2,7 @@
 // One line of the verdict table.
 #include <string>
 
-#include "verification/comparison.hpp"
+#include "verification/comparison/comparison.hpp"
 
 namespace voussoir::verification {
 

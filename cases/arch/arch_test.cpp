@@ -256,10 +256,26 @@ constexpr double near = 0.005;  // of the thickness: the distance from the limit
 
 // The limit on soft joints and on the scene's; the arch just above it against its equilibrium; the mechanism just
 // below.
+// the number that the problem files ask, between the thickness that stands and the one that comes down
+void judge_least_thickness(const Bracket& found) {
+  const std::string name = "arch of the problem files: least thickness, 100 GPa/m";
+  CaseReport report("arch", {name});
+  const bool both = found.standing.stands && found.falling.comes_down;
+  report.record({name,
+                 "m",
+                 Kind::limit,
+                 "equilibria of rigid voussoirs on elastic joints, reference/arch",
+                 thinnest_elastic_arch(arch, {stiffness, stiffness}).thickness,
+                 {0, near},
+                 "the bracket: half a percent of the thickness above it stands, half a percent below it comes down"},
+                both ? 0.5 * (found.stands + found.falls) * arch.radius : 0, found.standing.cost);
+}
+
 TEST(Arch, IsStableAboveItsLimitAndFailsBelow) {
   const Bracket soft = bracket(soft_joints, near, 120'000), found = bracket(stiffness, near, 120'000);
   const Trial &standing = found.standing, &falling = found.falling;
   judge_rest(standing, near, {});
+  judge_least_thickness(found);
   const std::vector<Joint> joints = joints_of(standing, shape);
 
   CaseReport report("arch", {"hinges"});

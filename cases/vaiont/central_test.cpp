@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "cases/vaiont/elements.hpp"
-#include "verification/comparison.hpp"
+#include "verification/comparison/comparison.hpp"
 
 namespace voussoir::cases::central_test {
 namespace {

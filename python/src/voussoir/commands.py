@@ -193,6 +193,11 @@ def export(scene: Source, out: str | os.PathLike[str], *, set: Mapping[str, Any]
     return _on_scene("export", scene, set, {"out": out, **options})[0]
 
 
+def judge(*folders: str | os.PathLike[str], out: str | os.PathLike[str], **options: Option) -> Folder:
+    """Judges answers of codes to the problem files: `voussoir judge`; its table is judgement.csv."""
+    return Folder(out, *_call("judge", *map(os.fspath, folders), *_words({"out": out, **options})))
+
+
 def report(folder: str | os.PathLike[str], **options: Option) -> str:
     """Writes one page of a run, a study or joints: `voussoir report`, with its options (out, project, author, …). Returns its
     path."""

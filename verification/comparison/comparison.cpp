@@ -1,4 +1,4 @@
-#include "verification/comparison.hpp"
+#include "verification/comparison/comparison.hpp"
 
 #include <fmt/format.h>
 
