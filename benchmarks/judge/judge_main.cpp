@@ -1,6 +1,7 @@
 // voussoir_judge_kernel PAIRS KERNEL OUT [--no-times]: judges the shared library KERNEL by the file PAIRS (of
 // voussoir_pairs), times it beside our kernel and the libraries that were found, prints the tables and writes them to
-// OUT: kernel.md, kernel_errors.csv, kernel_times.csv. Status 0 whatever the verdict, 2 if nothing could be judged.
+// OUT: one page, and a file of comma-separated values each for errors and times. Status 0 whatever the verdict, 2 if
+// nothing could be judged.
 #include <fmt/format.h>
 
 #include <cstdio>
