@@ -20,6 +20,7 @@ help:
 	@echo "make problems            problems for any code, from the verdicts of make test: $(BUILD)/problems (BLIND=1: without references)"
 	@echo "make benchmark           time the kernels and their peers, and twenty thousand falling blocks, an hour on two cores"
 	@echo "                         (VOUSSOIR_FALL_BLOCKS=2000: minutes; VOUSSOIR_BENCHMARK=quick: the contact kernel, a minute)"
+	@echo "make judge-kernel KERNEL=./mine.so  judge a contact kernel of your own by exact pairs, and time it (benchmarks/judge)"
 	@echo "make deb                 Debian packages: build-packages/*.deb"
 
 # $(call configure,options): keeps the options of an existing build
@@ -65,6 +66,14 @@ benchmark:
 	@$(call configure,-DVOUSSOIR_BUILD_BENCHMARKS=ON $(if $(wildcard $(BUILD)/CMakeCache.txt),,-DVOUSSOIR_BUILD_TESTS=OFF))
 	@cmake --build $(BUILD) --parallel $(JOBS) --target benchmarks
 	@cmake/run_benchmarks.sh $(BUILD)
+
+judge-kernel:
+	@[ -n "$(KERNEL)" ] || { echo "make judge-kernel: KERNEL=./mine.so is missing (benchmarks/judge/README.md)"; exit 2; }
+	@cmake/install_packages.sh program tests benchmarks
+	@$(call configure,-DVOUSSOIR_BUILD_BENCHMARKS=ON -DVOUSSOIR_BUILD_TESTS=ON)
+	@cmake --build $(BUILD) --parallel $(JOBS) --target voussoir_pairs voussoir_judge_kernel
+	@$(BUILD)/benchmarks/judge/voussoir_pairs $(BUILD)/reports/pairs
+	@$(BUILD)/benchmarks/voussoir_judge_kernel $(BUILD)/reports/pairs/pairs.json "$(KERNEL)" $(BUILD)/reports/kernel
 
 deb:
 	@cmake/install_packages.sh program python packaging

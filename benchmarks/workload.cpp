@@ -182,12 +182,12 @@ Pair<3> moved(Pair<3> pair, PairState state, double distance, Random& random) {
   return pair;
 }
 
-Workload make_workload(Shape shape, PairState state) {
+Workload make_workload(Shape shape, PairState state, std::uint64_t seed, std::size_t count) {
   Workload work{shape, state, std::make_shared<const Parts>(make_parts(shape, state)), {}, {}};
-  Random random(20130 + 100 * static_cast<int>(state) + static_cast<int>(shape));
+  Random random(seed + 100 * static_cast<std::uint64_t>(state) + static_cast<std::uint64_t>(shape));
   const double unit = unit_of(shape);
   const int last = static_cast<int>(work.parts->size()) - 1;
-  while (work.pairs.size() < pairs_per_workload) {
+  while (work.pairs.size() < count) {
     Pair<3> pair;
     pair.a = &(*work.parts)[shapes::integer(random, 0, last)];
     pair.b = &(*work.parts)[shapes::integer(random, 0, last)];
@@ -253,7 +253,12 @@ const Workload& workload(Shape shape, PairState state) {
   const std::lock_guard lock(mutex);
   const auto found = made.find({shape, state});
   if (found != made.end()) return found->second;
-  return made.emplace(std::pair(shape, state), make_workload(shape, state)).first->second;
+  return made.emplace(std::pair(shape, state), make_workload(shape, state, workload_seed, pairs_per_workload))
+      .first->second;
+}
+
+Workload seeded_workload(Shape shape, PairState state, std::uint64_t seed, std::size_t pairs) {
+  return make_workload(shape, state, seed, pairs);
 }
 
 double mean_planes(const Workload& work) {

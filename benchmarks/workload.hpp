@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -51,9 +52,13 @@ struct Workload {
 };
 
 inline constexpr std::size_t pairs_per_workload = 1000;
+inline constexpr std::uint64_t workload_seed = 20130;
 
 // Made at the first call and kept. The same numbers on every platform.
 const Workload& workload(Shape shape, PairState state);
+
+// so many pairs of another seed; with workload_seed the first of workload()
+Workload seeded_workload(Shape shape, PairState state, std::uint64_t seed, std::size_t pairs);
 
 // The same pairs of a workload of state `plane`, their parts as polygons.
 struct PlaneWorkload {

@@ -135,11 +135,41 @@ HWY_INLINE double certified_lower_bound(const Batch<OnePair, Dim>& m, const Tigh
   return -(offsets + size_of(residual) * reach) / sum - m.rounding - slack_rounding * reach;
 }
 
+// of a slack seen from x, at most
+template <int Dim>
+HWY_INLINE double rounding_after(const Batch<OnePair, Dim>& m, const Components<double, Dim>& x) {
+  return m.rounding + 4 * slack_rounding * size_of(x);
+}
+
 enum class Decision { unknown, separated, touching };
 
+// Whether the line from A's origin to B's has a part within both blocks whose middle is certainly inside: it has if
+// they meet face on face. `x` is the middle, `worst` its largest violation.
 template <int Dim>
-HWY_INLINE Decision decide(const Batch<OnePair, Dim>& m, TightPlanes<Dim>& t, double reach, Components<double, Dim>& x,
-                           double& worst, double& bound, int& pivots) {
+HWY_INLINE bool meets_on_line(const Batch<OnePair, Dim>& m, Components<double, Dim>& x, double& worst) {
+  using L = OnePair;
+  // planes that are nearly parallel to the line are left to the check of the point
+  const L::Wide shallow = L::wide(nearly_parallel * size_of(m.offset)), far = L::wide(far_away), none = L::wide(0);
+  const Components<L::Wide, Dim> direction = m.wide(m.offset), centre = m.wide(m.point);
+  L::Wide leaves = far, enters = none - far;
+  for (int slot = 0; slot < m.quads; ++slot) {
+    const Components<L::Wide, Dim> n = m.normals(slot);
+    const L::Wide rate = dot(n, direction), slack = m.get(m.slack_at, slot) + dot(n, centre);  // at A's origin
+    const L::Wide at = slack / select(magnitude(rate) > shallow, rate, L::wide(1));
+    leaves = smaller(leaves, select(rate > shallow, at, far));
+    enters = larger(enters, select(none - rate > shallow, at, none - far));
+  }
+  const double first = L::most(enters), last = L::least(leaves);
+  if (!(first < last)) return false;
+  x = scaled(0.5 * (first + last), m.offset) - m.point;  // as all planes are, seen from the smaller part's centre
+  int unused;
+  most_violated(m, x, worst, unused);
+  return -worst > rounding_after(m, x) + m.tolerance;
+}
+
+template <int Dim>
+HWY_INLINE Decision decide(const Batch<OnePair, Dim>& m, TightPlanes<Dim>& t, double reach, double enough,
+                           Components<double, Dim>& x, double& worst, double& bound, int& pivots) {
   for (pivots = 0; pivots < most_exchanges; ++pivots) {
     double s;
     int plane;
@@ -150,9 +180,8 @@ HWY_INLINE Decision decide(const Batch<OnePair, Dim>& m, TightPlanes<Dim>& t, do
     }
     most_violated(m, x, worst, plane);
     const double rounding = m.rounding + 2 * slack_rounding * size_of(x);
-    // well inside, or as far inside as possible
-    if (worst < -(rounding + m.tolerance) && (worst <= well_inside * s || worst - s <= rounding))
-      return Decision::touching;
+    // far enough inside, or as far inside as possible
+    if (worst < -(rounding + m.tolerance) && (worst <= enough * s || worst - s <= rounding)) return Decision::touching;
     if (worst - s <= rounding) return Decision::unknown;
     if (std::find(t.planes, t.planes + Dim + 1, plane) != t.planes + Dim + 1) return Decision::unknown;
     if (!exchange(t, plane, normal_of(m, plane), m.number(m.slack_at, plane))) return Decision::unknown;
@@ -188,12 +217,6 @@ HWY_INLINE Components<double, Dim> nearest_face(const Batch<OnePair, Dim>& m, co
   most_violated(m, x, value, plane);
   const Components<double, Dim> n = normal_of(m, plane);
   return plane < m.quads_a * planes_per_quad ? n : scaled(-1.0, n);
-}
-
-// of a slack seen from x, at most
-template <int Dim>
-HWY_INLINE double rounding_after(const Batch<OnePair, Dim>& m, const Components<double, Dim>& x) {
-  return m.rounding + 4 * slack_rounding * size_of(x);
 }
 
 // The planes in the frame's axes, seen from x: less exact than assembled ones by the growth of `rounding`.

@@ -273,6 +273,26 @@ HWY_NOINLINE void persistent_contacts(std::span<KernelTask<Dim>> tasks, const Ke
     persistent_groups<false>(tasks, options, counters);
 }
 
+// A decision needs no more than some point inside; from the level of points on, the program's own point leads to the
+// centre. Blocks that are nearly as close as their inscribed balls allow mostly meet on the line between the origins of
+// their frames, which are their centroids; parts of a clump, whose origin is elsewhere, go on to the program.
+template <int Dim>
+HWY_INLINE bool decided_on_line(Batch<OnePair, Dim>& m, KernelTask<Dim>& task, KernelCounters& counters) {
+  const Pair<Dim>& pair = *task.pair;
+  const double radii = pair.a->inscribed_radius + pair.b->inscribed_radius;
+  if (pair.offset.squaredNorm() > most_distant * (radii * radii)) return false;
+  Components<double, Dim> x;
+  double worst;
+  if (!meets_on_line(m, x, worst)) return false;
+  m.least = -worst;
+  m.rounding = rounding_after(m, x);
+  m.point = m.point + x;
+  clear(m);
+  SectionList none;
+  deliver<false>(m, QueryLevel::decision, std::span<KernelTask<Dim>>(&task, 1), &none, counters);
+  return true;
+}
+
 template <int Dim>
 HWY_NOINLINE void new_contact(KernelTask<Dim>& task, const KernelOptions& options, KernelCounters& counters) {
   const Pair<Dim>& pair = *task.pair;
@@ -286,6 +306,7 @@ HWY_NOINLINE void new_contact(KernelTask<Dim>& task, const KernelOptions& option
 
   // the LP in A's axes, seen from the centre of the smaller part
   assemble_in_first(m);
+  if (pair.level == QueryLevel::decision && decided_on_line(m, task, counters)) return;
   TightPlanes<Dim> tight;
   for (int k = 0; k <= Dim; ++k) {
     if (a.basis[k] < 0) return;
@@ -297,7 +318,9 @@ HWY_NOINLINE void new_contact(KernelTask<Dim>& task, const KernelOptions& option
   Components<double, Dim> x;
   double worst = 0, bound = 0;
   int pivots = 0;
-  const Decision decision = decide(m, tight, 4 * std::min(a.radius, b.radius), x, worst, bound, pivots);
+  // a decision needs no more than some point inside
+  const double enough = pair.level == QueryLevel::decision ? 0 : well_inside;
+  const Decision decision = decide(m, tight, 4 * std::min(a.radius, b.radius), enough, x, worst, bound, pivots);
   ++counters.lp_solves;
   counters.lp_pivots += pivots;
   if (decision == Decision::unknown) return;

@@ -44,6 +44,11 @@ inline constexpr int most_exchanges = 60;
 // the LP may stop when its point is inside by this fraction of the best that it could still find
 inline constexpr double well_inside = 0.2;
 
+// The line between centroids is tried for a decision if the square of its length is at most this times that of the
+// inscribed radii's sum: longer ones seldom pass through the overlap. Planes that are so nearly parallel to it do not
+// bound its part inside.
+inline constexpr double most_distant = 1.07, nearly_parallel = 1e-6;
+
 // primal-dual steps stop short of the boundary
 inline constexpr double near_boundary = 0.95;
 inline constexpr int most_approaches = 60;
