@@ -7,7 +7,7 @@ JOBS   ?= $(shell nproc)
 # when make began: the last line of each target says how long it took
 export VOUSSOIR_STARTED := $(shell date +%s)
 
-.PHONY: help history build program test test-long coverage reports benchmark deb run format clean
+.PHONY: help history build program test test-long coverage reports benchmark others deb run format clean
 
 help:
 	@echo "make run                 the program alone, and the tutorial's slope: a factor of safety and an interactive page"
@@ -19,6 +19,7 @@ help:
 	@echo "make reports             figures, studies and the verification manual: $(BUILD)/reports/manual-VERSION.html"
 	@echo "make benchmark           time the kernels and their peers, and twenty thousand falling blocks, an hour on two cores"
 	@echo "                         (VOUSSOIR_FALL_BLOCKS=2000: minutes; VOUSSOIR_BENCHMARK=quick: the contact kernel, a minute)"
+	@echo "make others              the problem files in seven other engines beside the program: a table, 20 minutes of two cores"
 	@echo "make deb                 Debian packages: build-packages/*.deb"
 
 # $(call configure,options): keeps the options of an existing build
@@ -60,6 +61,10 @@ benchmark:
 	@$(call configure,-DVOUSSOIR_BUILD_BENCHMARKS=ON $(if $(wildcard $(BUILD)/CMakeCache.txt),,-DVOUSSOIR_BUILD_TESTS=OFF))
 	@cmake --build $(BUILD) --parallel $(JOBS) --target benchmarks
 	@cmake/run_benchmarks.sh $(BUILD)
+
+others: build
+	@cmake/install_packages.sh others
+	@verification/others/compare.sh $(BUILD) $(JOBS)
 
 deb:
 	@cmake/install_packages.sh program python packaging

@@ -1,9 +1,11 @@
-"""Runs problems in engines, each with its settings: OUT/ENGINE/PROBLEM/answer.csv. usage: run.py PROBLEMS BUILD PROGRAM OUT
-[--engine NAME] [--problem NAME] [--settings one|best]"""
+"""Runs problems in engines: OUT/ENGINE/PROBLEM/answer.csv with one setting for everything, and with --settings best
+OUT/ENGINE_best/PROBLEM/answer.csv with the best setting of each problem. usage: run.py PROBLEMS BUILD PROGRAM OUT [--engine NAME]
+[--problem NAME] [--settings best]"""
 import argparse
 import csv
 import json
 import os
+import shutil
 import sys
 
 from answer import answers
@@ -35,6 +37,24 @@ def write_answer(path, engine, settings, found):
             rows.writerow([a.quantity, a.unit, value_text(a.value), seconds, a.note])
 
 
+def run_problem(process, problem, which, out):
+    """the answers of one problem, or the words that they are those of the other setting"""
+    engine = process.engine
+    settings, path = settings_of(engine, which, problem.name), os.path.join(out, engine.name, problem.name, "answer.csv")
+    if which == "best":
+        same, path = path, os.path.join(out, engine.name + "_best", problem.name, "answer.csv")
+        if settings == settings_of(engine, "one", problem.name) and os.path.exists(same):
+            os.makedirs(os.path.dirname(path), exist_ok=True)
+            shutil.copy(same, path)
+            print("%s %s: one setting is the best" % (engine.name, problem.name))
+            return
+    found = answers(problem, process, settings)
+    write_answer(path, engine, settings, found)
+    for a in found:
+        words = (engine.name, problem.name, a.quantity, value_text(a.value), a.unit, a.seconds, a.note)
+        print("%s %s: %s: %s %s (%.3g s) %s" % words)
+
+
 def main():
     parser = argparse.ArgumentParser()
     for name in ("problems", "build", "program", "out"):
@@ -42,20 +62,18 @@ def main():
     parser.add_argument("--engine", action="append")
     parser.add_argument("--problem", action="append")
     parser.add_argument("--settings", default="one", choices=("one", "best"))
+    parser.add_argument("--list", action="store_true", help="print the engines that are there, and run nothing")
     given = parser.parse_args()
     found = engines(given.build, given.program)
+    if given.list:
+        print("\n".join(found))
+        return
     for name in given.engine or found:
-        process = Process(found[name])
+        process = Process(found[name], patience_s=600)
         for folder in given.problem or sorted(os.listdir(given.problems)):
-            if not os.path.exists(os.path.join(given.problems, folder, "blocks.json")):
-                continue
-            problem = Problem.read(os.path.join(given.problems, folder))
-            settings = settings_of(found[name], given.settings, problem.name)
-            result = answers(problem, process, settings)
-            write_answer(os.path.join(given.out, name, folder, "answer.csv"), found[name], settings, result)
-            for a in result:
-                print("%s %s: %s: %s %s (%.3g s) %s" % (name, folder, a.quantity, value_text(a.value), a.unit, a.seconds, a.note))
-            sys.stdout.flush()
+            if os.path.exists(os.path.join(given.problems, folder, "blocks.json")):
+                run_problem(process, Problem.read(os.path.join(given.problems, folder)), given.settings, given.out)
+                sys.stdout.flush()
         process.close()
 
 
