@@ -1,5 +1,7 @@
 """The engines: how each is started, what it is, what it cannot state; and a process that runs scenes."""
+import json
 import os
+import re
 import select
 import subprocess
 import time
@@ -22,26 +24,35 @@ class Engine:
         return next((self.cannot[n] for n in sorted(needs) if n in self.cannot), None)
 
 
+PACKAGES = {"bullet": "libbullet-dev", "ode": "libode-dev", "box2d": "libbox2d-dev", "mujoco": "libmujoco-dev",
+            "siconos": "python3-siconos"}
+MODULES = {"rapier": "@dimforge/rapier3d-deterministic-compat", "jolt": "jolt-physics"}
 RIGID = {"bond": BOND, "several frictions": FRICTIONS, "bolts": BOLTS}
+
+
+def version_of(name):
+    """of the Debian package, or of the lock of npm"""
+    if name in MODULES:
+        with open(os.path.join(HERE, "package.json"), encoding="utf-8") as file:
+            return json.load(file)["dependencies"][MODULES[name]]
+    asked = subprocess.run(["dpkg-query", "-W", "-f=${Version}", PACKAGES[name]], capture_output=True, text=True)
+    return re.split("[+-]", asked.stdout.split(":")[-1])[0] or "of unknown version"
 
 
 def engines(build, program):
     """those that build.sh and the packages brought, by name; program: voussoir"""
-    node = ["node"]
     files = {"bullet": [os.path.join(build, "bullet")], "ode": [os.path.join(build, "ode")],
              "box2d": [os.path.join(build, "box2d")], "mujoco": [os.path.join(build, "mujoco")],
-             "rapier": node + [os.path.join(build, "node", "rapier", "rapier.mjs")],
-             "jolt": node + [os.path.join(build, "node", "jolt", "jolt.mjs")]}
-    versions = {"bullet": "3.24", "ode": "0.16.2", "box2d": "2.4.1", "mujoco": "2.2.2", "rapier": "0.21.0",
-                "jolt": "1.1.0"}
+             "rapier": ["node", os.path.join(build, "node", "rapier", "rapier.mjs")],
+             "jolt": ["node", os.path.join(build, "node", "jolt", "jolt.mjs")]}
     found = {}
     for name, command in files.items():
         if os.path.exists(command[-1]):
             cannot = dict(RIGID, space=PLANE) if name == "box2d" else RIGID
-            found[name] = Engine(name, versions[name], command, "rigid", cannot)
+            found[name] = Engine(name, version_of(name), command, "rigid", cannot)
     python = "/usr/bin/python3"  # the system's own, for which Debian builds the module
     if subprocess.run([python, "-c", "import siconos.kernel"], capture_output=True).returncode == 0:
-        found["siconos"] = Engine("siconos", "4.4.0", [python, os.path.join(HERE, "siconos", "siconos_adapter.py")],
+        found["siconos"] = Engine("siconos", version_of("siconos"), [python, os.path.join(HERE, "siconos", "siconos_adapter.py")],
                                   "rigid", RIGID)
     if program and os.path.exists(program):
         command = [python, os.path.join(HERE, "voussoir", "voussoir_adapter.py"), program]

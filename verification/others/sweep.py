@@ -1,5 +1,5 @@
 """Tries the settings of ENGINE/grid.json on problems and keeps every result in ENGINE/sweep.tsv; a line that is there is not run
-again. usage: sweep.py PROBLEMS BUILD PROGRAM ENGINE [PROBLEM…]"""
+again. The grid has a list for all problems, lists of single problems in its place, and under `more` in addition to it. usage: sweep.py PROBLEMS BUILD PROGRAM ENGINE [PROBLEM…]"""
 import itertools
 import json
 import os
@@ -50,7 +50,7 @@ def main():
             problem, process = Problem.read(os.path.join(problems, folder)), Process(engine, grid.get("patience_s", 60))
             if engine.reason(problem.needs()):
                 continue
-            for settings in settings_in(grid.get(folder, grid["all"])):
+            for settings in settings_in(grid.get(folder, grid["all"]) + grid.get("more", {}).get(folder, [])):
                 if (folder, setting_text(settings)) in done:
                     continue
                 for a in answers(problem, process, {**settings, **engine.extra}):

@@ -12,6 +12,9 @@ from figure import draw
 from sweep import kept_rows
 
 
+HEADS = (("One setting for everything", ""), ("The best setting of each problem", "_best"))
+
+
 class Cell:
     """what one code says about one quantity"""
 
@@ -70,16 +73,20 @@ def cells_of(problems, out, codes):
     return rows, settings
 
 
-def markdown(rows, codes):
-    lines = ["| problem | quantity | " + " | ".join(codes) + " |", "|---|---|" + "---|" * len(codes)]
+def column(code):
+    return code.removesuffix("_best")
+
+
+def markdown(head, rows, codes):
+    lines = ["## " + head, "", "| problem | quantity | " + " | ".join(map(column, codes)) + " |", "|---|---|" + "---|" * len(codes)]
     for problem, name, unit, found in rows:
         cells = [found[c].words() if c in found else "not run" for c in codes]
         lines.append("| %s | %s, %s | %s |" % (problem, name, unit, " | ".join(cells)))
-    return "\n".join(lines) + "\n"
+    return "\n".join(lines) + "\n\n"
 
 
-def page(rows, codes):
-    lines = ["<table class=\"others\">", "<tr><th>problem</th><th>quantity</th>%s</tr>" % "".join("<th>%s</th>" % c for c in codes)]
+def page(head, rows, codes):
+    lines = ["<h3>%s</h3>" % head, "<table class=\"others\">", "<tr><th>problem</th><th>quantity</th>%s</tr>" % "".join("<th>%s</th>" % column(c) for c in codes)]
     for problem, name, unit, found in rows:
         cells = []
         for c in codes:
@@ -117,10 +124,11 @@ def main():
     known = engines(build, program)
     codes = [c + suffix for c in known for suffix in ("", "_best") if os.path.isdir(os.path.join(out, c + suffix))]
     rows, settings = cells_of(problems, out, codes)
-    with open(os.path.join(out, "others.md"), "w", encoding="utf-8") as file:
-        file.write(markdown(rows, codes))
-    with open(os.path.join(out, "others.html"), "w", encoding="utf-8") as file:
-        file.write(page(rows, codes))
+    for name, write in (("others.md", markdown), ("others.html", page)):
+        with open(os.path.join(out, name), "w", encoding="utf-8") as file:
+            for head, suffix in HEADS:
+                shown = [c for c in codes if c.endswith("_best") == bool(suffix)]
+                file.write(write(head, rows, shown) if shown else "")
     with open(os.path.join(out, "others.csv"), "w", encoding="utf-8", newline="") as file:
         table = csv.writer(file, lineterminator="\n")
         table.writerow(["problem", "quantity", "unit", "code", "value", "verdict", "seconds", "setting", "note"])

@@ -1,5 +1,6 @@
 // MuJoCo 2.2. Settings: dt; timeconst (s, of solref; never below two steps) and dmin, dmax (of solimp): softness of
-// contacts; cone (1 elliptic, 0 pyramid); box (1: native boxes); impratio; noslip (iterations); iterations; multiccd
+// contacts; cone (1 elliptic, 0 pyramid); box (1: native boxes); impratio; noslip (iterations); iterations; multiccd;
+// rk4 (1: Runge and Kutta's method instead of Euler's)
 #include <mujoco/mujoco.h>
 
 #include <cstdlib>
@@ -75,8 +76,9 @@ class MujocoWorld {
         << "<compiler inertiafromgeom='false' boundmass='0' boundinertia='0'/><option timestep='"
         << scene_.setting("dt", 0.002) << "' iterations='" << static_cast<int>(scene_.setting("iterations", 100))
         << "' tolerance='1e-10' cone='" << (scene_.setting("cone", 1) != 0 ? "elliptic" : "pyramidal") << "' impratio='"
-        << scene_.setting("impratio", 1) << "' noslip_iterations='" << static_cast<int>(scene_.setting("noslip", 0))
-        << "'><flag multiccd='" << (scene_.setting("multiccd", 1) != 0 ? "enable" : "disable") << "'/></option><asset>";
+        << scene_.setting("impratio", 1) << "' integrator='" << (scene_.setting("rk4", 0) != 0 ? "RK4" : "Euler")
+        << "' noslip_iterations='" << static_cast<int>(scene_.setting("noslip", 0)) << "'><flag multiccd='"
+        << (scene_.setting("multiccd", 1) != 0 ? "enable" : "disable") << "'/></option><asset>";
     for (const SceneBlock& block : scene_.blocks) {
       out << "<mesh name='" << block.name << "' vertex='";
       for (const Triple& vertex : block.vertices)
