@@ -5,7 +5,6 @@ import argparse
 import csv
 import json
 import os
-import shutil
 import sys
 
 from answer import answers
@@ -25,10 +24,10 @@ def value_text(value):
     return "" if value is None else value if isinstance(value, str) else "%.10g" % value
 
 
-def write_answer(path, engine, settings, found):
+def write_answer(path, engine, settings, found, suffix=""):
     os.makedirs(os.path.dirname(path), exist_ok=True)
     with open(path, "w", encoding="utf-8", newline="") as file:
-        file.write("# code: %s %s\n# model: %s\n" % (engine.name, engine.version, engine.model))
+        file.write("# code: %s%s %s\n# model: %s\n" % (engine.name, suffix, engine.version, engine.model))
         file.write("# setting: %s\n" % (" ".join("%s=%g" % s for s in settings.items()) or "as it comes"))
         rows = csv.writer(file, lineterminator="\n")
         rows.writerow(["quantity", "unit", "value", "seconds", "note"])
@@ -45,11 +44,12 @@ def run_problem(process, problem, which, out):
         same, path = path, os.path.join(out, engine.name + "_best", problem.name, "answer.csv")
         if settings == settings_of(engine, "one", problem.name) and os.path.exists(same):
             os.makedirs(os.path.dirname(path), exist_ok=True)
-            shutil.copy(same, path)
+            with open(same, encoding="utf-8", newline="") as file, open(path, "w", encoding="utf-8", newline="") as copy:
+                copy.write(file.read().replace("# code: %s " % engine.name, "# code: %s_best " % engine.name, 1))
             print("%s %s: one setting is the best" % (engine.name, problem.name))
             return
     found = answers(problem, process, settings)
-    write_answer(path, engine, settings, found)
+    write_answer(path, engine, settings, found, "_best" if which == "best" else "")
     for a in found:
         words = (engine.name, problem.name, a.quantity, value_text(a.value), a.unit, a.seconds, a.note)
         print("%s %s: %s: %s %s (%.3g s) %s" % words)
