@@ -117,8 +117,8 @@ def bonded_beam(problem, trial):
 
 
 def rock_mass(problem, trial):
-    """The contact forces on the fixed blocks are, by the balance of momentum, the weight of the free ones less the change of their
-    momentum: so no engine has to report contact forces. The joints are the stated ones, which either answer allows."""
+    """The contact forces on the fixed blocks are, by the balance of momentum, the weight of the free ones less the change of
+    their momentum: so no engine has to report contact forces. The joints are the stated ones, which either answer allows."""
     scene = problem.scene(stiffness="stated")
     paths, begin, end = trial.paths(scene), 3.0, 4.0
     masses = {b["name"]: b["mass"] for b in scene["blocks"] if not b["fixed"]}
@@ -130,7 +130,8 @@ def rock_mass(problem, trial):
             "thrust on the walls, northward": (float(force[1]), note), "blocks that left their place": (float(away), "")}
 
 
-MEASURED = {"rock_mass": rock_mass, "sliding_cube": sliding_cube, "free_rotation": free_rotation, "rocking": rocking, "bonded_beam": bonded_beam}
+MEASURED = {"rock_mass": rock_mass, "sliding_cube": sliding_cube, "free_rotation": free_rotation, "rocking": rocking,
+            "bonded_beam": bonded_beam}
 
 
 def whole(problem, trial):

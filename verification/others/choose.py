@@ -1,5 +1,5 @@
-"""Chooses the settings of ENGINE/settings.json from ENGINE/sweep.tsv, by the rule in README.md. usage: choose.py PROBLEMS BUILD PROGRAM
-ENGINE…"""
+"""Chooses the settings of ENGINE/settings.json from ENGINE/sweep.tsv, by the rule in README.md. usage: choose.py PROBLEMS BUILD
+PROGRAM ENGINE…"""
 import json
 import os
 import sys
@@ -13,8 +13,25 @@ def settings_of_text(text):
     return {key: float(value) for key, value in (word.split("=") for word in text.split())}
 
 
+class Tally:
+    """of a problem's quantities: the sum of errors in tolerances, in which one within its tolerance counts nothing; the largest error;
+    seconds"""
+
+    def __init__(self):
+        self.sum, self.largest, self.runs = 0.0, 0.0, set()
+
+    def add(self, error, seconds):
+        self.sum += error if error > 1 else 0.0
+        self.largest = max(self.largest, error)
+        self.runs.add(seconds)  # quantities of one run have its seconds
+
+    @property
+    def seconds(self):
+        return sum(self.runs)
+
+
 def judged(rows, problems, model):
-    """{problem: {setting: (sum of errors in tolerances, seconds)}}"""
+    """{problem: {setting: Tally}}"""
     found, references = {}, {}
     for row in rows:
         problem = row["problem"]
@@ -22,29 +39,22 @@ def judged(rows, problems, model):
             references[problem] = read_reference(os.path.join(problems, problem))
         quantity = references[problem].get(row["quantity"])
         bounds = target(quantity, model) if quantity else None
-        if not bounds:
-            continue
-        value = float(row["value"]) if row["value"] else None
-        total, seconds = found.setdefault(problem, {}).get(row["setting"], (0.0, 0.0))
-        found[problem][row["setting"]] = (total + tolerances(value, bounds), seconds + float(row["seconds"] or 0))
+        if bounds:
+            error = tolerances(float(row["value"]) if row["value"] else None, bounds)
+            found.setdefault(problem, {}).setdefault(row["setting"], Tally()).add(error, float(row["seconds"] or 0))
     return found
-
-
-def counted(error):
-    """errors within the tolerance are right answers: none is better than another"""
-    return 0.0 if error <= 1 else error
 
 
 def choose(found):
     """(setting for everything, {problem: best setting}); of equals the quickest"""
-    best = {problem: min(tried, key=lambda s: (counted(tried[s][0]), tried[s][1])) for problem, tried in found.items()}
+    best = {problem: min(tried, key=lambda s: (tried[s].sum, tried[s].seconds)) for problem, tried in found.items()}
     everywhere = {s for tried in found.values() for s in tried}
     most = max(sum(s in tried for tried in found.values()) for s in everywhere)
     common = [s for s in everywhere if sum(s in tried for tried in found.values()) == most]
 
     def cost(setting):
         tried = [t[setting] for t in found.values() if setting in t]
-        return sum(counted(e) for e, _ in tried), sum(s for _, s in tried)
+        return sum(t.sum for t in tried), sum(t.seconds for t in tried)
 
     return min(sorted(common), key=cost), best
 
@@ -60,8 +70,8 @@ def main():
             json.dump({"one": settings_of_text(one), "best": {p: settings_of_text(s) for p, s in sorted(best.items())}}, file,
                       indent=1)
             file.write("\n")
-        sums = ", ".join("%s %.3g" % (p, t[one][0]) for p, t in sorted(found.items()) if one in t)
-        print("%s: one setting: %s (errors in tolerances, at most %g: %s)" % (name, one, MOST, sums))
+        largest = ", ".join("%s %.3g" % (p, t[one].largest) for p, t in sorted(found.items()) if one in t)
+        print("%s: one setting: %s (largest error in tolerances, at most %g: %s)" % (name, one, MOST, largest))
 
 
 if __name__ == "__main__":

@@ -16,18 +16,18 @@ def panel(problem, engines, x, y):
     low, high = 10**math.floor(math.log10(min(seconds))), 10**math.ceil(math.log10(max(seconds) * 1.001))
     across = lambda s: x + WIDTH * math.log(max(s, 1e-4) / low) / math.log(high / low)
     up = lambda e: y + HEIGHT * (1 - math.log(min(max(e, LEAST), MOST) / LEAST) / math.log(MOST / LEAST))
-    lines = ['<rect x="%.1f" y="%.1f" width="%d" height="%d" class="frame"/>' % (x, y, WIDTH, HEIGHT),
-             '<rect x="%.1f" y="%.1f" width="%d" height="%.1f" class="right"/>' % (x, up(1), WIDTH, y + HEIGHT - up(1)),
-             '<text x="%.1f" y="%.1f" class="title">%s</text>' % (x, y - 7, problem.replace("_", " "))]
+    lines = ['<rect x="%.1f" y="%.1f" width="%d" height="%d" fill="#fff" stroke="#444"/>' % (x, y, WIDTH, HEIGHT),
+             '<rect x="%.1f" y="%.1f" width="%d" height="%.1f" fill="#dcf1e9"/>' % (x, up(1), WIDTH, y + HEIGHT - up(1)),
+             '<text x="%.1f" y="%.1f" font-size="13" font-weight="bold">%s</text>' % (x, y - 7, problem.replace("_", " "))]
     for mark in decade_marks(low, high):
-        lines.append('<path d="M%.1f %.1fv5"/><text x="%.1f" y="%.1f" class="mid">%g</text>' % (
+        lines.append('<path d="M%.1f %.1fv5" stroke="#444"/><text x="%.1f" y="%.1f" text-anchor="middle">%g</text>' % (
             across(mark), y + HEIGHT, across(mark), y + HEIGHT + 17, mark))
     for mark in decade_marks(LEAST, MOST):
-        lines.append('<path d="M%.1f %.1fh-5"/><text x="%.1f" y="%.1f" class="end">%s%g</text>' % (
+        lines.append('<path d="M%.1f %.1fh-5" stroke="#444"/><text x="%.1f" y="%.1f" text-anchor="end">%s%g</text>' % (
             x, up(mark), x - 8, up(mark) + 4, "≤ " if mark == LEAST else "", mark))
     for name, points in engines.items():
         for s, e in sorted(set(points)):
-            lines.append('<circle cx="%.1f" cy="%.1f" r="3.2" fill="%s"/>' % (across(s), up(e), COLOURS.get(name, "#888")))
+            lines.append('<circle cx="%.1f" cy="%.1f" r="3.2" fill="%s" fill-opacity="0.75"/>' % (across(s), up(e), COLOURS.get(name, "#888")))
     return lines
 
 
@@ -39,14 +39,12 @@ def draw(problems, columns=3):
     used = [e for e in COLOURS if any(e in found for found in problems.values())]
     lines = ['<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 %d %d" width="%d" height="%d" font-family="sans-serif" '
              'font-size="11">' % (width, height, width, height),
-             '<style>.frame{fill:#fff;stroke:#444}.right{fill:#009e73;fill-opacity:.12}.title{font-size:13px;font-weight:bold}'
-             '.mid{text-anchor:middle}.end{text-anchor:end}path{stroke:#444}circle{fill-opacity:.75}</style>',
              '<rect width="%d" height="%d" fill="#fff"/>' % (width, height)]
     for k, engine in enumerate(used):
         lines.append('<circle cx="%d" cy="18" r="5" fill="%s"/><text x="%d" y="22">%s</text>' % (
             LEFT + 90 * k, COLOURS[engine], LEFT + 90 * k + 9, engine))
     for k, name in enumerate(names):
         lines += panel(name, problems[name], LEFT + (k % columns) * (WIDTH + LEFT), TOP + (k // columns) * (HEIGHT + GAP))
-    lines.append('<text x="%d" y="%d" class="mid">processor seconds of the steps of all trials</text>' % (width // 2, height - 8))
-    lines.append('<text transform="translate(13 %d) rotate(-90)" class="mid">sum of errors, in tolerances</text>' % (height // 2))
+    lines.append('<text x="%d" y="%d" text-anchor="middle">processor seconds of the steps of all trials</text>' % (width // 2, height - 8))
+    lines.append('<text transform="translate(13 %d) rotate(-90)" text-anchor="middle">largest error of a problem, in tolerances</text>' % (height // 2))
     return "\n".join(lines + ["</svg>", ""])

@@ -43,7 +43,8 @@ def block(name, low, high, fixed=False, density=2000.0):
 
 
 def incline():
-    return dict(name="incline", dimension=3, blocks=[block("the slab", (-6, -3, -1), (6, 3, 0), True), block("cube", (-1, -.5, 0), (1, .5, 1))],
+    blocks = [block("the slab", (-6, -3, -1), (6, 3, 0), True), block("cube", (-1, -.5, 0), (1, .5, 1))]
+    return dict(name="incline", dimension=3, blocks=blocks,
                 joints=[dict(blocks="all others", friction_deg=30.0, cohesion_Pa=0.0, tension_Pa=0.0,
                              stiff=dict(kn_Pa_per_m=1e11, ks_Pa_per_m=1e11), stated=dict(kn_Pa_per_m=1e9, ks_Pa_per_m=2e8))],
                 gravity=[dict(time_s=0.0, g_m_s2=[0, 0, 0]), dict(time_s=1.0, g_m_s2=[0, 0, -G])], duration_s=3.5, output_s=0.05,
@@ -92,7 +93,7 @@ class Expansion(unittest.TestCase):
         mass, centre, inertia = mass_properties(corners, [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]], 6.0)
         self.assertAlmostEqual(mass, 1.0)
         np.testing.assert_allclose(centre, [0.25] * 3)
-        np.testing.assert_allclose(inertia, np.full((3, 3), 1 / 80) + np.eye(3) * (3 / 40 - 1 / 80))  # tetrahedron: x2 1/10, xy 1/20
+        np.testing.assert_allclose(inertia, np.full((3, 3), 1 / 80) + np.eye(3) * (3 / 40 - 1 / 80))
 
     def test_a_turned_problem_is_the_same_problem(self):
         stated = incline()
@@ -248,14 +249,28 @@ class Choice(unittest.TestCase):
         self.assertEqual(score.tolerances(None, self.bounds), score.MOST)
         self.assertEqual(score.tolerances(float("nan"), self.bounds), score.MOST)
 
+    @staticmethod
+    def tally(*rows):
+        found = choose.Tally()
+        for error, seconds in rows:
+            found.add(error, seconds)
+        return found
+
+    def test_an_error_within_its_tolerance_counts_nothing(self):
+        found = self.tally((0.9, 2.0), (0.8, 2.0), (3.0, 5.0))
+        self.assertEqual((found.sum, found.largest, found.seconds), (3.0, 3.0, 7.0))  # two of one run
+
     def test_least_errors_then_seconds(self):
-        found = {"a": {"x": (0.5, 9.0), "y": (0.9, 1.0), "z": (30.0, 0.1)}, "b": {"x": (50.0, 1.0), "y": (4.0, 1.0), "z": (2.0, 1.0)}}
+        t = self.tally
+        found = {"a": {"x": t((0.5, 9.0)), "y": t((0.9, 1.0)), "z": t((30.0, 0.1))},
+                 "b": {"x": t((50.0, 1.0)), "y": t((4.0, 1.0)), "z": t((2.0, 1.0))}}
         one, best = choose.choose(found)
         self.assertEqual(one, "y")  # 0 + 4, against 0 + 50 and 30 + 2
         self.assertEqual(best, {"a": "y", "b": "z"})  # within the tolerance the quicker one
 
-    def test_settings_that_were_tried_on_fewer_problems_are_no_candidates_for_all(self):
-        one, _ = choose.choose({"a": {"x": (0, 1), "y": (9, 1)}, "b": {"y": (9, 1)}})
+    def test_settings_tried_on_fewer_problems_are_no_candidates_for_all(self):
+        t = self.tally
+        one, _ = choose.choose({"a": {"x": t((0, 1)), "y": t((9, 1))}, "b": {"y": t((9, 1))}})
         self.assertEqual(one, "y")
 
 

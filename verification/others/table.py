@@ -109,13 +109,13 @@ def counts(rows, codes):
 
 
 def points_of_sweeps(problems, known):
-    """{problem: {engine: [(seconds, sum of errors in tolerances)]}}"""
+    """{problem: {engine: [(seconds, largest error in tolerances)]}}"""
     points = {}
     for name, engine in known.items():
         if engine.extra:
             continue  # the same sweep with other joints
         for problem, tried in judged(kept_rows(os.path.join(HERE, engine.folder, "sweep.tsv")), problems, engine.model).items():
-            points.setdefault(problem, {})[name] = [(seconds, total) for total, seconds in tried.values()]
+            points.setdefault(problem, {})[name] = [(t.seconds, t.largest) for t in tried.values()]
     return points
 
 
