@@ -25,6 +25,10 @@ for settings in one best; do
 done
 
 # exit code 1: a quantity fails, which is what the table is for
-"$program" judge "$out" --references "$problems" --out "$folder/judged" >"$folder/judge.log" 2>&1 || [ $? -eq 1 ] || { tail -n 20 "$folder/judge.log" >&2; exit 1; }
-"$python" "$here/table.py" "$problems" "$folder/adapters" "$program" "$out"
-echo "make others: $others engines and voussoir answered $(find "$problems" -name blocks.json | wc -l) problems; table: $out/others.html; $("$here/../../cmake/seconds.sh" $SECONDS)"
+"$program" judge "$out" --references "$problems" --out "$folder/judged" >"$folder/judge.log" 2>&1 || [ $? -eq 1 ] || {
+  tail -n 20 "$folder/judge.log" >&2
+  exit 1
+}
+"$python" "$here/table.py" "$folder/judged/judgement.csv" "$problems" "$folder/adapters" "$program" "$out"
+count=$(find "$problems" -name blocks.json | wc -l)
+echo "make others: $others engines and voussoir answered $count problems; table: $out/others.html; $("$here/../../cmake/seconds.sh" $SECONDS)"

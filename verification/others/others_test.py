@@ -224,18 +224,26 @@ class Answers(unittest.TestCase):
         (found,) = answer.answers(Problem(stated), ExactSlide(self.rigid), {})
         self.assertEqual((found.value, found.note), ("cannot state", engines.BOND))
 
-    def test_an_answer_file_is_judged_as_it_was_meant(self):
+    def test_an_answer_file_is_what_the_judge_reads(self):
         with tempfile.TemporaryDirectory() as folder:
             path_of = os.path.join(folder, "answer.csv")
             run.write_answer(path_of, self.rigid, dict(dt=0.002), [answer.Answer("critical tilt", "deg", 30.02, 1.5),
-                                                                     answer.Answer("other", "m", None, 0, "the engine stopped")])
-            model, setting, rows = table.read_answers(path_of)
-        self.assertEqual((model, setting), ("rigid", "dt=0.002"))
-        quantity = dict(quantity="critical tilt", unit="deg", rigid=dict(lower=29.0, upper=30.0, absolute=0.01, relative=0), joints=None)
-        self.assertEqual(table.cell(rows["critical tilt"], quantity, model).verdict, "FAIL +0.02")
-        self.assertEqual(table.cell(rows["critical tilt"], quantity, "joint stiffness").verdict, "not judged")
-        self.assertEqual(table.cell(rows["other"], quantity, model).verdict, "stopped")
-        self.assertEqual(table.cell(None, quantity, model).verdict, "not run")
+                                                                   answer.Answer("other", "m", None, 0, "the engine stopped")], "_best")
+            with open(path_of, encoding="utf-8") as file:
+                self.assertEqual(file.read().splitlines(), [
+                    "# code: exact_best 1", "# model: rigid", "# setting: dt=0.002", "quantity,unit,value,seconds,note",
+                    "critical tilt,deg,30.02,1.5,", "other,m,,,the engine stopped"])
+
+    def test_the_table_shows_what_the_judge_says(self):
+        head = "problem,quantity,unit,code,verdict,value,lower,upper,error,tolerance,seconds,note"
+        lines = [head, "incline,tilt,deg,bullet 3.24,FAILED,30.5,30,30,0.5,0.01,0.2,", "incline,tilt,deg,jolt 1.1,passed,30,30,30,0,0.01,1,",
+                 "incline,tilt,deg,ode 1,not run,,,,,,,the engine stopped", "incline,tilt,deg,rapier 1,not run,,,,,,,",
+                 "incline,tilt,deg,box2d 1,cannot state,,,,,,,plane"]
+        ((problem, name, unit, found),) = table.judged_rows(lines)
+        self.assertEqual((problem, name, unit), ("incline", "tilt", "deg"))
+        self.assertEqual({c: one.words() for c, one in found.items()},
+                         {"bullet": "30.5, FAIL +0.5, 0.2 s", "jolt": "30, pass, 1 s", "ode": "stopped", "rapier": "not run",
+                          "box2d": "cannot state"})
 
 
 class Choice(unittest.TestCase):

@@ -1,5 +1,5 @@
-"""The table of engines and problems: OUT/others.md, others.html, others.csv, and error_against_cost.svg from the sweeps. Judges by
-reference.json of PROBLEMS. usage: table.py PROBLEMS BUILD PROGRAM OUT"""
+"""The table of engines and problems from `voussoir judge`: OUT/others.md, others.html; and error_against_cost.svg from the sweeps.
+usage: table.py JUDGEMENT.csv PROBLEMS BUILD PROGRAM OUT"""
 import csv
 import html
 import os
@@ -7,7 +7,6 @@ import sys
 
 from choose import judged
 from engines import HERE, engines
-from score import error, read_reference, target
 from figure import draw
 from sweep import kept_rows
 
@@ -22,55 +21,29 @@ class Cell:
         self.text, self.verdict, self.seconds, self.note = text, verdict, seconds, note
 
     def words(self):
-        if self.verdict in ("cannot state", "not run"):
+        if self.verdict in ("cannot state", "not run", "stopped"):
             return self.verdict
         return "%s, %s%s" % (self.text, self.verdict, ", %s s" % self.seconds if self.seconds else "")
 
 
-def read_answers(path):
-    """(model, setting, {quantity: row}) of an answer.csv"""
-    if not os.path.exists(path):
-        return None
-    head, lines = {}, []
-    with open(path, encoding="utf-8", newline="") as file:
-        for line in file:
-            if line.startswith("# "):
-                key, _, value = line[2:].strip().partition(": ")
-                head[key] = value
-            else:
-                lines.append(line)
-    return head["model"], head.get("setting", ""), {row["quantity"]: row for row in csv.DictReader(lines)}
+def cell(row):
+    """of a line of judgement.csv"""
+    if row["verdict"] == "FAILED":
+        verdict = "FAIL %+.3g" % float(row["error"])
+    elif row["verdict"] == "not run" and row["note"]:
+        verdict = "stopped"  # the engine, with the reason in the note
+    else:
+        verdict = {"passed": "pass", "not asked": "not judged"}.get(row["verdict"], row["verdict"])
+    return Cell("%.6g" % float(row["value"]) if row["value"] else "", verdict, row["seconds"], row["note"])
 
 
-def cell(row, quantity, model):
-    if row is None or row["value"] == "":
-        note = row["note"] if row else ""
-        return Cell("", "stopped" if note else "not run", "", note)
-    if row["value"] == "cannot state":
-        return Cell("", "cannot state", "", row["note"])
-    value, bounds = float(row["value"]), target(quantity, model) if quantity else None
-    if bounds is None:
-        return Cell("%.6g" % value, "not judged", row["seconds"], row["note"])
-    distance, tolerance = error(value, bounds)
-    verdict = "pass" if abs(distance) <= tolerance else "FAIL %+.3g" % distance
-    return Cell("%.6g" % value, verdict, row["seconds"], row["note"])
-
-
-def cells_of(problems, out, codes):
-    """[(problem, quantity, unit, {code: Cell})], and the codes' settings {code: {problem: text}}"""
-    rows, settings = [], {}
-    for problem in sorted(os.listdir(problems)):
-        references = read_reference(os.path.join(problems, problem))
-        answers = {code: read_answers(os.path.join(out, code, problem, "answer.csv")) for code in codes}
-        names = {}
-        for code, answer in answers.items():
-            if answer:
-                settings.setdefault(code, {})[problem] = answer[1]
-                names.update({name: row["unit"] for name, row in answer[2].items()})
-        for name, unit in names.items():
-            found = {code: cell(a[2].get(name), references.get(name), a[0]) for code, a in answers.items() if a}
-            rows.append((problem, name, unit, found))
-    return rows, settings
+def judged_rows(file):
+    """of judgement.csv: [(problem, quantity, unit, {code: Cell})], the codes without their versions"""
+    rows = {}
+    for row in csv.DictReader(file):
+        found = rows.setdefault((row["problem"], row["quantity"], row["unit"]), {})
+        found[row["code"].split()[0]] = cell(row)
+    return [(*key, found) for key, found in rows.items()]
 
 
 def column(code):
@@ -120,21 +93,16 @@ def points_of_sweeps(problems, known):
 
 
 def main():
-    problems, build, program, out = sys.argv[1:]
+    judgement, problems, build, program, out = sys.argv[1:]
     known = engines(build, program)
-    codes = [c + suffix for c in known for suffix in ("", "_best") if os.path.isdir(os.path.join(out, c + suffix))]
-    rows, settings = cells_of(problems, out, codes)
+    with open(judgement, encoding="utf-8", newline="") as file:
+        rows = judged_rows(file)
+    codes = [c + suffix for c in known for suffix in ("", "_best") if any(c + suffix in row[3] for row in rows)]
     for name, write in (("others.md", markdown), ("others.html", page)):
         with open(os.path.join(out, name), "w", encoding="utf-8") as file:
             for head, suffix in HEADS:
                 shown = [c for c in codes if c.endswith("_best") == bool(suffix)]
                 file.write(write(head, rows, shown) if shown else "")
-    with open(os.path.join(out, "others.csv"), "w", encoding="utf-8", newline="") as file:
-        table = csv.writer(file, lineterminator="\n")
-        table.writerow(["problem", "quantity", "unit", "code", "value", "verdict", "seconds", "setting", "note"])
-        for problem, name, unit, found in rows:
-            for code, one in found.items():
-                table.writerow([problem, name, unit, code, one.text, one.verdict, one.seconds, settings[code][problem], one.note])
     with open(os.path.join(out, "error_against_cost.svg"), "w", encoding="utf-8") as file:
         file.write(draw(points_of_sweeps(problems, known)))
     print("\n".join(counts(rows, codes)))
