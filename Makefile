@@ -7,7 +7,7 @@ JOBS   ?= $(shell nproc)
 # when make began: the last line of each target says how long it took
 export VOUSSOIR_STARTED := $(shell date +%s)
 
-.PHONY: help history build program test test-long coverage reports problems benchmark deb run format clean
+.PHONY: help history build program test test-long coverage reports problems benchmark judge-kernel others deb run format clean
 
 help:
 	@echo "make run                 the program alone, and the tutorial's slope: a factor of safety and an interactive page"
@@ -21,6 +21,7 @@ help:
 	@echo "make benchmark           time the kernels and their peers, and twenty thousand falling blocks, an hour on two cores"
 	@echo "                         (VOUSSOIR_FALL_BLOCKS=2000: minutes; VOUSSOIR_BENCHMARK=quick: the contact kernel, a minute)"
 	@echo "make judge-kernel KERNEL=./mine.so  judge a contact kernel of your own by exact pairs, and time it (benchmarks/judge)"
+	@echo "make others              the problem files in seven other engines beside the program: a table, 20 minutes of two cores"
 	@echo "make deb                 Debian packages: build-packages/*.deb"
 
 # $(call configure,options): keeps the options of an existing build
@@ -74,6 +75,10 @@ judge-kernel:
 	@cmake --build $(BUILD) --parallel $(JOBS) --target voussoir_pairs voussoir_judge_kernel
 	@$(BUILD)/benchmarks/judge/voussoir_pairs $(BUILD)/reports/pairs
 	@$(BUILD)/benchmarks/voussoir_judge_kernel $(BUILD)/reports/pairs/pairs.json "$(KERNEL)" $(BUILD)/reports/kernel
+
+others: build
+	@cmake/install_packages.sh others
+	@verification/others/compare.sh $(BUILD) $(JOBS)
 
 deb:
 	@cmake/install_packages.sh program python packaging
