@@ -12,7 +12,7 @@ mkdir -p "$folder"
 
 "$here/build.sh" "$folder/adapters"
 rm -rf "$problems" "$out" "$folder/judged"
-"$build/verification/problems/voussoir_problems" "$problems" >"$folder/problems.log"
+"$build/verification/voussoir_problems" "$problems" >"$folder/problems.log"
 mapfile -t engines < <("$python" "$here/run.py" "$problems" "$folder/adapters" "$program" "$out" --list)
 others=$(printf '%s\n' "${engines[@]}" | grep -vc '^voussoir' || true)
 if [ "$others" -lt 5 ]; then
