@@ -110,7 +110,9 @@ void print_end(const GroundMotion& motion, const RecordMeasures& m) {
 }
 
 void print_response(const GroundMotion& motion) {
-  const std::vector<ResponseOrdinate> spectrum = response_spectrum(motion, {0.1, 0.2, 0.5, 1, 2});
+  std::vector<double> periods{0.1, 0.2, 0.5, 1, 2};
+  std::erase_if(periods, [&](double period) { return period < 2 * motion.interval; });
+  const std::vector<ResponseOrdinate> spectrum = response_spectrum(motion, periods);
   if (spectrum.empty()) return;
   std::vector<std::string> parts;
   for (const ResponseOrdinate& r : spectrum)

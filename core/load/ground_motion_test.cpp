@@ -45,7 +45,7 @@ std::vector<double> noise(int count) {
 }
 
 // Of values linear in between every measure has a closed form in θ = ωh: v of the trapezoid is (A h/2) cot(θ/2)
-// (1 - cos ωt) at the values, ∫a² is A² D/2 (2 + cos θ)/3 (Eq. of B4.2 in the notes on dynamics).
+// (1 - cos ωt) at the values, and ∫a² is A² D/2 (2 + cos θ)/3.
 TEST(RecordMeasures, OfASampledSineAreThoseOfItsStraightLines) {
   for (const double h : {0.001, 0.002, 0.005, 0.01, 0.02}) {
     SCOPED_TRACE(h);

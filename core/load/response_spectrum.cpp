@@ -92,11 +92,12 @@ OscillatorState oscillator_after(const LinearPiece& piece, double time, double a
   return oscillator.after(piece, oscillator.factors(time), before);
 }
 
-std::vector<double> usual_periods() {
+std::vector<double> usual_periods(double interval) {
   constexpr int decades = 3, each = 20;
   std::vector<double> periods;
   for (int k = 0; k <= decades * each; ++k)
-    periods.push_back(0.01 * std::pow(10.0, static_cast<double>(k) / each));
+    if (const double period = 0.01 * std::pow(10.0, static_cast<double>(k) / each); period >= 2 * interval)
+      periods.push_back(period);
   return periods;
 }
 

@@ -33,8 +33,8 @@ struct ResponseOrdinate {
 
 inline constexpr double usual_damping = 0.05;
 
-// s: twenty a decade, from 0.01 to 10
-std::vector<double> usual_periods();
+// s: twenty a decade, from 0.01 to 10, but for those below two intervals of the values, of which these say nothing
+std::vector<double> usual_periods(double interval);
 
 // The largest displacement is that of the motion in time, not of its values: it is found within the steps.
 std::vector<ResponseOrdinate> response_spectrum(const GroundMotion& motion, const std::vector<double>& periods,
