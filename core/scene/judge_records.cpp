@@ -34,7 +34,7 @@ void judge_motion(const RecordSpec& record, const GroundMotion& motion, std::vec
   }
   if (measures.peak_velocity && std::abs(measures.end_velocity) > of_peak * *measures.peak_velocity)
     warn("record",
-         fmt::format("ends with a velocity of {:.3g} m/s, {:.2g} % of its peak, which the ground keeps; {}",
+         fmt::format("ends with a velocity of {:.3g} m/s, {:.3g} % of its peak, which the ground keeps; {}",
                      measures.end_velocity, 100 * std::abs(measures.end_velocity) / *measures.peak_velocity,
                      motion.quantity == MotionQuantity::acceleration ? "is baseline = \"mean\" or \"end\" meant?"
                                                                      : "is the record cut?"));

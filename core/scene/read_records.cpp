@@ -118,7 +118,7 @@ const RecordUnit& unit_of_record(RecordSpec& record) {
   record.resolved = record.quantity ? *record.quantity : samples.quantity.value_or(stated->quantity);
   if (stated->quantity != record.resolved)
     refuse(record.subject, "unit",
-           fmt::format("{} is a unit of {}, and the values are {}s; state the unit of these, or the other quantity",
+           fmt::format("{} is a unit of {}, and quantity = \"{}\"; state the unit of that, or the other quantity",
                        stated->word, word_of(stated->quantity), word_of(record.resolved)));
   return *stated;
 }
@@ -127,7 +127,7 @@ void check_baseline(const RecordSpec& record) {
   const Baseline baseline = record.treatment.baseline;
   if (baseline == Baseline::end && record.resolved != MotionQuantity::acceleration)
     refuse(record.subject, "baseline",
-           fmt::format("\"end\" corrects accelerations, and the values are {}s; write \"none\"{}",
+           fmt::format("\"end\" corrects accelerations, and quantity = \"{}\"; write \"none\"{}",
                        word_of(record.resolved), record.resolved == MotionQuantity::velocity ? " or \"mean\"" : ""));
   if (baseline == Baseline::mean && record.resolved == MotionQuantity::displacement)
     refuse(record.subject, "baseline", "\"mean\" corrects accelerations or velocities; write \"none\"");
@@ -139,7 +139,10 @@ std::vector<double> direction_of(const RecordSpec& record, int dimension) {
   if (record.azimuth) {
     if (dimension == 2)
       refuse(record.subject, "azimuth_deg", "needs dimension = 3; in 2-D write for example direction = [1, 0]");
-    return {std::sin(*record.azimuth), std::cos(*record.azimuth), 0};
+    // 90 degrees are exactly x: its cosine in radians is rounding
+    constexpr double rounding = 1e-15;
+    const auto exact = [](double x) { return std::abs(x) < rounding ? 0 : x; };
+    return {exact(std::sin(*record.azimuth)), exact(std::cos(*record.azimuth)), 0};
   }
   if (!record.direction)
     refuse(record.subject, "direction",

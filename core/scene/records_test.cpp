@@ -85,8 +85,7 @@ TEST_F(Records, AreReadBesideTheSceneInTheirUnit) {
   EXPECT_EQ(record.motion->name, "a.at2");
   EXPECT_EQ(record.motion->quantity, MotionQuantity::acceleration);
   EXPECT_DOUBLE_EQ(record.motion->acceleration[2], -0.2 * 2 * 9.80665);
-  EXPECT_NEAR(record.direction[0], -1, 1e-15);
-  EXPECT_NEAR(record.direction[1], 0, 1e-15);
+  EXPECT_EQ(record.direction, (std::vector<double>{-1, 0, 0}));
   ASSERT_EQ(scene.files.size(), 1u);
   EXPECT_EQ(scene.files.front().filename(), "a.at2");
   // its blocks move so
@@ -163,7 +162,7 @@ TEST_F(Records, AreRefusedInOneLine) {
   expect_refused(
       "factor = { record = \"b.txt\", direction = [1, 0, 0], interval_s = 0.1, unit = \"cm\", quantity = "
       "\"velocity\" }",
-      "cm is a unit of displacement, and the values are velocitys");
+      "cm is a unit of displacement, and quantity = \"velocity\"");
   expect_refused("factor = { record = \"b.txt\", direction = [1, 0, 0], interval_s = -1, unit = \"cm\" }",
                  key + "interval_s = -1");
   expect_refused(
