@@ -57,7 +57,7 @@ std::string record_spectra_csv(const std::vector<RecordRow>& rows) {
   std::string text;
   for (const RecordRow& row : rows)
     for (const ResponseOrdinate& r : response_spectrum(*row.motion, usual_periods(row.motion->interval)))
-      text += csv_line({csv_cell(static_cast<double>(row.number)), csv_cell(row.motion->name), csv_cell(r.period),
+      text += csv_line({csv_cell(static_cast<double>(row.number)), row.motion->name, csv_cell(r.period),
                         csv_cell(1 / r.period), csv_cell(r.displacement), csv_cell(r.pseudo_velocity),
                         csv_cell(r.pseudo_acceleration)}) +
               "\n";
