@@ -93,7 +93,7 @@ void print_measures(const RecordMeasures& m) {
 }
 
 // rounding of sums leaves no true zero
-double rounded(double value, double scale) {
+double zero_if_negligible(double value, double scale) {
   constexpr double negligible = 1e-12;
   return std::abs(value) < negligible * scale ? 0 : value;
 }
@@ -101,8 +101,8 @@ double rounded(double value, double scale) {
 void print_end(const GroundMotion& motion, const RecordMeasures& m) {
   const double fastest = m.peak_velocity.value_or(0), farthest = m.peak_displacement;
   std::string text = "at its end ";
-  if (m.peak_velocity) text += fmt::format("{:.3g} m/s and ", rounded(m.end_velocity, fastest));
-  text += fmt::format("{:.3g} m", rounded(m.end_displacement, farthest));
+  if (m.peak_velocity) text += fmt::format("{:.3g} m/s and ", zero_if_negligible(m.end_velocity, fastest));
+  text += fmt::format("{:.3g} m", zero_if_negligible(m.end_displacement, farthest));
   if (m.taken_off > 0)
     text += fmt::format("; without the correction {:.3g} m/s and {:.3g} m: it took off up to {:.2g} % of the peak",
                         motion.stated_end_velocity, motion.stated_end_displacement, 100 * m.taken_off);
@@ -130,7 +130,7 @@ void print_records(const Prepared<Dim>& prepared) {
   for (const RecordRow& row : rows) {
     std::vector<std::string> direction;
     for (const double x : row.direction)
-      direction.push_back(fmt::format("{:.4g}", rounded(x, 1)));
+      direction.push_back(fmt::format("{:.4g}", zero_if_negligible(x, 1)));
     const std::string begins = row.motion->begins > 0 ? fmt::format(", from {:g} s on", row.motion->begins) : "";
     print_line(row.number == 1 ? "records" : "",
                fmt::format("{} {}: {} values at {:g} s, {:g} s along ({}) in stage {}{}", row.number, row.motion->name,

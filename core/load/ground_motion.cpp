@@ -8,7 +8,7 @@ namespace voussoir {
 namespace {
 
 // from rest, exact for values that are linear in between
-void integrate(GroundMotion& motion) {
+void integrate_from_rest(GroundMotion& motion) {
   const double h = motion.interval;
   if (motion.quantity == MotionQuantity::displacement) return;
   const std::size_t count = std::max(motion.acceleration.size(), motion.velocity.size());
@@ -44,7 +44,7 @@ void take_off(GroundMotion& motion, double p, double q) {
   for (std::size_t i = 0; i < values.size(); ++i)
     values[i] -= p + q * (motion.interval * static_cast<double>(i));
   motion.taken_off = std::max(std::abs(p), std::abs(p + q * motion.duration()));
-  integrate(motion);
+  integrate_from_rest(motion);
 }
 
 void correct(GroundMotion& motion, Baseline baseline) {
@@ -92,7 +92,7 @@ GroundMotion make_ground_motion(MotionQuantity quantity, double interval, const 
   const double origin = quantity == MotionQuantity::displacement ? own.front() : 0;
   for (double& value : own)
     value = treatment.scale * (value - origin);
-  integrate(motion);
+  integrate_from_rest(motion);
   motion.stated_peak = largest_magnitude(own);
   motion.stated_end_velocity = motion.velocity.empty() ? 0 : motion.velocity.back();
   motion.stated_end_displacement = motion.displacement.back();
