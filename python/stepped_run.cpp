@@ -199,6 +199,7 @@ class SteppedRunOf : public SteppedRun {
     record.features = features();
     record.warnings = scene_->warnings;
     record.threads = prepared_.settings.threads;
+    record.records = record_rows(prepared_.stages);
     return record;
   }
 

@@ -12,6 +12,7 @@
 #include "app/check/assess.hpp"
 #include "app/check/check_blocks.hpp"
 #include "app/check/check_line.hpp"
+#include "app/check/check_records.hpp"
 #include "app/check/check_rough_joints.hpp"
 #include "app/check/check_stages.hpp"
 #include "app/check/check_support.hpp"
@@ -316,6 +317,7 @@ void print_active(const Scene& stated, const Prepared<Dim>& prepared) {
   print_line("damping", damping_text(settings.damping));
   print_line("solvers", solvers_text(settings.contact));
   print_stages(prepared.stages, prepared.model.waters);
+  print_records(prepared);
   print_set_aside(prepared);
   print_left_to_relaxation(prepared);
   print_support(prepared);

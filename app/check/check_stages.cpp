@@ -77,6 +77,9 @@ std::string factor_text(const TimeFactor& factor) {
 
 std::string move_text(const MovePlan& move) {
   std::string text;
+  if (!move.records.empty())
+    return fmt::format("as {} record{} move{} the ground", move.records.size(), move.records.size() == 1 ? "" : "s",
+                       move.records.size() == 1 ? "s" : "");
   if (!move.velocity.empty()) {
     std::string axes;
     for (std::size_t k = 0; k < move.velocity.size(); ++k)

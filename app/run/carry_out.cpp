@@ -31,6 +31,7 @@ RunRecord record_of(const LoadedScene& scene, const RunOptions& options) {
   record.threads = options.threads;
   record.rounds = options.rounds;
   record.origins = options.origins;
+  record.records = std::visit([](const auto& prepared) { return record_rows(prepared.stages); }, scene.prepared);
   return record;
 }
 
@@ -119,6 +120,7 @@ std::optional<ExitCode> carry_out_prepared(const LoadedScene& stated, const Load
   Progress<Dim> progress = last_progress(job.folder, prepared, scene.hash, remarks);
   tell_warnings(remarks);
   WrittenSeries written = cut_back_to(prepared, progress, job.folder);
+  write_record_spectra(job.folder, prepared.stages);
 
   note_interruptions();
   if (!continue_run(prepared, scene.hash, job, progress, written)) {

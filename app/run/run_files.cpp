@@ -10,6 +10,7 @@
 #include "app/view/page.hpp"
 #include "core/output/atomic_file.hpp"
 #include "core/output/history_csv.hpp"
+#include "core/output/record_output.hpp"
 #include "core/output/support_table.hpp"
 
 namespace voussoir {
@@ -66,6 +67,11 @@ void write_frames(WrittenSeries& written, const Progress<Dim>& progress, Watcher
       add_view_frame(*written.view, model, state,
                      {ViewMoment::Kind::trial, state.schedule.time, progress.stage, trial});
   };
+}
+
+void write_record_spectra(const fs::path& folder, const std::vector<StagePlan>& stages) {
+  if (const std::string table = record_spectra_csv(record_rows(stages)); !table.empty())
+    write_file(folder / record_spectra_file, table);
 }
 
 void write_page(const fs::path& folder) {

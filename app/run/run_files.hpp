@@ -29,6 +29,9 @@ WrittenSeries cut_back_to(const Prepared<Dim>& prepared, const Progress<Dim>& pr
 template <int Dim>
 void write_frames(WrittenSeries& written, const Progress<Dim>& progress, Watcher<Dim>& watcher);
 
+// response spectra of the records that the stages prescribe, if there are any
+void write_record_spectra(const std::filesystem::path& folder, const std::vector<StagePlan>& stages);
+
 // a program without the viewer leaves the page to one that has it
 void write_page(const std::filesystem::path& folder);
 

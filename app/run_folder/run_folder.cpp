@@ -10,6 +10,7 @@
 #include "app/run_folder/search_files.hpp"
 #include "core/base/preset.hpp"
 #include "core/output/atomic_file.hpp"
+#include "core/output/record_output.hpp"
 #include "core/output/support_table.hpp"
 #include "core/run/simulate.hpp"
 #include "core/scene/scene.hpp"
@@ -124,7 +125,7 @@ Outputs run_outputs() {
       true};
   for (const std::string& table : support_table_files())
     outputs.files.push_back(table);
-  outputs.files.insert(outputs.files.end(), {search_table, report_file});
+  outputs.files.insert(outputs.files.end(), {search_table, report_file, record_spectra_file});
   return outputs;
 }
 

@@ -8,6 +8,8 @@
 #include <variant>
 #include <vector>
 
+#include "core/base/ground_motion.hpp"
+
 namespace voussoir {
 
 // the point of the overlap at which a contact acts. chebyshev: at the point of the program min s (Eq. 3.27);
@@ -202,6 +204,7 @@ struct MovePlan {
   std::array<bool, 3> translation{true, true, true};  // the axes along which it is forced
   std::vector<double> angular_velocity;               // rad/s, world axes, 2-D one entry; empty: rotation is not forced
   TimeFactor factor;
+  std::vector<RecordedMotion> records{};  // the sum of these motions instead; then the velocity is zero
 };
 
 // stress of the rock's own weight, which begins at a surface

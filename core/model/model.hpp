@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,13 @@ struct Body {
   bool immobile() const { return fixed && !prescribed; }
 };
 
+// a record that moves a body along a direction
+template <int Dim>
+struct RecordedAxis {
+  Vector<Dim> direction = Vector<Dim>::Zero();  // unit vector
+  std::shared_ptr<const GroundMotion> motion;
+};
+
 // a motion forced upon a body: its forced degrees of freedom are not free while it lasts
 template <int Dim>
 struct PrescribedMotion {
@@ -46,6 +54,7 @@ struct PrescribedMotion {
   Vector<Dim> velocity = Vector<Dim>::Zero();      // m/s, at a factor of 1
   Spin<Dim> angular_velocity = Spin<Dim>::Zero();  // rad/s, world axes
   TimeFactor factor;                               // of the time since the stage began
+  std::vector<RecordedAxis<Dim>> records{};        // velocities that are added, without the factor
   std::array<bool, Dim> free_translation{};        // of the body when the motion ends
   std::array<bool, spin_freedoms<Dim>> free_rotation{};
 };

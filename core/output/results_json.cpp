@@ -339,6 +339,7 @@ std::string results_json(const Results& results, const RunRecord& record) {
   json["counters"] = counters_json(results.counters);
   if (results.budget_evaluations > 0) json["budget"] = {{"contact_evaluations", results.budget_evaluations}};
   if (!record.rounds.empty()) json["accuracy"] = rounds_json(record.rounds);
+  if (!record.records.empty()) json["records"] = records_json(record.records);
   if (results.bonds) json["bonds"] = bonds_json(*results.bonds);
   if (!results.cohesion.empty()) json["cohesion"] = results.cohesion;
   if (!results.moved.empty()) json["moved"] = moved;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/output/origin.hpp"
+#include "core/output/record_output.hpp"
 #include "core/output/results.hpp"
 
 namespace voussoir {
@@ -34,6 +35,7 @@ struct RunRecord {
   int threads = 1;
   std::vector<AccuracyRound> rounds = {};
   std::vector<Origin> origins = {};  // of all programs that contributed
+  std::vector<RecordRow> records = {};
 };
 
 // "done", "incomplete", "failed"

@@ -11,6 +11,7 @@
 #include "core/potential/valid_shape.hpp"
 #include "core/scene/bodies.hpp"
 #include "core/scene/judge_bonds.hpp"
+#include "core/scene/judge_records.hpp"
 #include "core/scene/keys.hpp"
 #include "core/scene/keys/ranges.hpp"
 #include "text/angle.hpp"
@@ -444,6 +445,8 @@ std::vector<std::string> judge_values(const Scene& scene, const Prepared<Dim>& p
   std::ranges::move(judge_bonds(scene), std::back_inserter(warnings));
   for (const StageSpec& stage : scene.stages)
     judge_factors(stage, warnings);
+  for (const StageSpec& stage : scene.stages)
+    judge_records(stage, warnings);
   judge_water<Dim>(scene, prepared, warnings);
   judge_domain<Dim>(scene, prepared.model, warnings);
   judge_joints<Dim>(scene, prepared.model, warnings);

@@ -33,8 +33,9 @@ std::vector<KeyRow> all_rows() {
     tables.push_back(std::move(table));
   for (KeyTable& table : support_keys())
     tables.push_back(std::move(table));
-  for (KeyTable& table : std::vector<KeyTable>{excavation_forces_keys(), stage_friction_keys(), move_keys(),
-                                               monitor_keys(), output_keys(), joint_set_keys()})
+  for (KeyTable& table :
+       std::vector<KeyTable>{excavation_forces_keys(), stage_friction_keys(), move_keys(), record_keys(),
+                             samples_keys(), monitor_keys(), output_keys(), joint_set_keys()})
     tables.push_back(std::move(table));
   std::vector<KeyRow> all;
   for (const KeyTable& table : tables)

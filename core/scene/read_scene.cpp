@@ -16,6 +16,7 @@
 #include "core/scene/particles.hpp"
 #include "core/scene/preset.hpp"
 #include "core/scene/read_joint_sets.hpp"
+#include "core/scene/read_records.hpp"
 #include "core/scene/read_slicing.hpp"
 #include "core/scene/read_stages.hpp"
 #include "core/scene/read_water.hpp"
@@ -240,7 +241,10 @@ Scene read_tree(Node stated, const std::string& name, const std::vector<std::str
   FilesRead read;
   const auto tree =
       std::make_shared<Node>(with_base(std::move(stated), std::filesystem::path(name).parent_path(), read));
+  list_records(*tree);
   override_and_repeat(*tree, overrides, file, read.renamed);
+  list_records(*tree);  // those of overrides
+  read_record_files(*tree, name, read);
   const std::vector<std::string> from_level = apply_accuracy_level(*tree);
   check_keys(*tree);
   accuracy_target(*tree);

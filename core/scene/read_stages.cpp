@@ -7,6 +7,7 @@
 
 #include "core/load/time_factor.hpp"
 #include "core/scene/keys.hpp"
+#include "core/scene/read_records.hpp"
 #include "core/scene/read_slicing.hpp"
 
 namespace voussoir {
@@ -131,11 +132,34 @@ TimeFactor read_factor(const Subject& table) {
   return factor;
 }
 
+// a prescribed motion that follows records, which are appended to those of the stage
+MovePlan read_recorded_move(const Subject& table, const Selector& bodies, int dimension,
+                            std::vector<RecordSpec>& records) {
+  for (const char* key : {"velocity", "angular_velocity", "times_s", "factors", "frequency_hz", "phase_deg"})
+    if (table.node->find(key))
+      refuse(table, key, "is stated together with factor, records that give the velocity; remove one of the two");
+  MovePlan plan;
+  plan.bodies = bodies;
+  plan.velocity.assign(dimension, 0);
+  read_keys(*table.node, "move", plan);
+  for (RecordSpec& record : read_records(table)) {
+    plan.records.push_back(recorded_motion(record, dimension));
+    for (int k = 0; k < dimension; ++k)
+      if (plan.records.back().direction[k] != 0 && !plan.translation[k])
+        refuse(record.subject, record.azimuth ? "azimuth_deg" : "direction",
+               fmt::format("has a component along {}, which the move's translation does not name; name it there",
+                           "xyz"[k]));
+    records.push_back(std::move(record));
+  }
+  return plan;
+}
+
 // the velocity of a prescribed motion and its directions
-MovePlan read_move(const Subject& table, const Selector& bodies) {
+MovePlan read_move(const Subject& table, const Selector& bodies, int dimension, std::vector<RecordSpec>& records) {
+  if (table.node->find("factor")) return read_recorded_move(table, bodies, dimension, records);
   const MotionSpec motion = read_motion(table);
   if (!motion.velocity && !motion.angular_velocity)
-    refuse(table, "velocity", "nothing moves; state velocity, angular_velocity or both");
+    refuse(table, "velocity", "nothing moves; state velocity, angular_velocity or both, or a record (factor)");
   MovePlan plan;
   plan.bodies = bodies;
   plan.velocity = motion.velocity.value_or(std::vector<double>());
@@ -272,7 +296,9 @@ StageSpec read_stage(const Subject& table, const Settings& settings, int dimensi
     if (!angle && !plan.as_stated)
       refuse(item, "friction_deg", "is missing; write for example friction_deg = 30, or as_stated = true");
   }
-  read_chosen("move", [&](const Subject& at, const Selector& bodies) { change.move.push_back(read_move(at, bodies)); });
+  read_chosen("move", [&](const Subject& at, const Selector& bodies) {
+    change.move.push_back(read_move(at, bodies, dimension, stage.records));
+  });
   read_chosen("boundary", [&](const Subject& at, const Selector& bodies) {
     change.boundary.push_back(read_boundary(at, bodies, dimension, rock_weight));
   });

@@ -13,6 +13,7 @@
 #include "core/base/settings.hpp"
 #include "core/joint_laws/joint_properties.hpp"
 #include "core/joint_sets/joint_set.hpp"
+#include "core/load/ground_motion.hpp"
 #include "core/model/prepared.hpp"
 #include "core/scene/node.hpp"
 #include "core/slicing/slice.hpp"
@@ -219,9 +220,35 @@ struct InitialVelocitySpec {
   MotionSpec motion;
 };
 
+// What a file of a record contains, as the scene may state it too.
+struct SamplesSpec {
+  std::vector<double> values;   // in its unit
+  double interval = 0;          // s
+  std::string unit, component;  // may be empty
+  std::optional<MotionQuantity> quantity;
+};
+
+// an earthquake record that prescribes a motion along a direction
+struct RecordSpec {
+  Subject subject;
+  std::string file;
+  SamplesSpec samples;
+  std::optional<MotionQuantity> quantity;
+  MotionQuantity resolved = MotionQuantity::acceleration;  // that, or what the file or the unit says
+  std::optional<std::string> unit;
+  std::optional<double> interval;  // s
+  std::optional<int> column;
+  double scale = 1;
+  bool reversed = false;
+  RecordTreatment treatment;                     // its scale is that of the unit, `scale` and the polarity
+  std::optional<std::vector<double>> direction;  // any length
+  std::optional<double> azimuth;                 // rad, clockwise from north
+};
+
 struct StageSpec {
   Subject subject;
   StagePlan plan;
+  std::vector<RecordSpec> records;     // by move, those of plan.change.move
   std::vector<WaterChangeSpec> water;  // their numbers are in plan.water
   std::map<std::string, std::vector<SelectorSpec>, std::less<>>
       chosen;  // the selectors of plan.change by key, in its order, with their places

@@ -35,6 +35,8 @@ void prescribe(Model<Dim>& model, const MovePlan& plan) {
       p.velocity[k] = plan.velocity[k];
       if (p.translation[k]) body.free_translation[k] = false;
     }
+    for (const RecordedMotion& record : plan.records)
+      p.records.push_back({Eigen::Map<const Vector<Dim>>(record.direction.data()), record.motion});
     p.rotation = !plan.angular_velocity.empty();
     if (p.rotation) {
       p.angular_velocity = Eigen::Map<const Spin<Dim>>(plan.angular_velocity.data());

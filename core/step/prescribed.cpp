@@ -2,18 +2,33 @@
 
 #include <algorithm>
 
+#include "core/load/ground_motion.hpp"
 #include "core/load/time_factor.hpp"
 
 namespace voussoir {
+namespace {
+
+// Mean velocity of the records over a step, m/s: their displacement is right at the end of every step, however long.
+template <int Dim>
+Vector<Dim> recorded_velocity(const PrescribedMotion<Dim>& prescribed, double middle, double step) {
+  Vector<Dim> velocity = Vector<Dim>::Zero();
+  for (const RecordedAxis<Dim>& record : prescribed.records)
+    velocity += path_between(*record.motion, middle - 0.5 * step, middle + 0.5 * step) / step * record.direction;
+  return velocity;
+}
+
+}  // namespace
+
 template <int Dim>
 Load<Dim> apply_prescribed_motion(const Body<Dim>& body, const PrescribedMotion<Dim>& prescribed, const Load<Dim>& load,
                                   double middle, StepTimes times, Motion<Dim>& motion, Kick<Dim>& kick) {
   Load<Dim> reaction;
   const double factor = value_at(prescribed.factor, middle);
+  const Vector<Dim> velocity = factor * prescribed.velocity + recorded_velocity(prescribed, middle, times.drift);
   // at the start there is no earlier velocity: the present one is used
   for (int k = 0; k < Dim; ++k) {
     if (!prescribed.translation[k]) continue;
-    const double after = factor * prescribed.velocity[k], before = times.at_start() ? after : motion.velocity[k];
+    const double after = velocity[k], before = times.at_start() ? after : motion.velocity[k];
     reaction.force[k] = -load.force[k];
     kick.path_before[k] = 0.5 * times.worked() * before;
     kick.path_after[k] = 0.5 * times.worked() * after;

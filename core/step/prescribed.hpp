@@ -9,9 +9,9 @@
 namespace voussoir {
 
 // Moves a body along its prescribed directions by one step at the velocity of the middle of the step, `middle` seconds
-// after the motion began. Returns the force that balances the load along them, N and N m: its work is that of the
-// prescribed motion. The body's inertia along these directions is left out, with its kinetic energy, because the mass
-// of a shaken base does not matter.
+// after the motion began, or at the mean velocity of a record over the step. Returns the force that balances the load
+// along them, N and N m: its work is that of the prescribed motion. The body's inertia along these directions is left
+// out, with its kinetic energy, because the mass of a shaken base does not matter.
 template <int Dim>
 Load<Dim> apply_prescribed_motion(const Body<Dim>& body, const PrescribedMotion<Dim>& prescribed, const Load<Dim>& load,
                                   double middle, StepTimes times, Motion<Dim>& motion, Kick<Dim>& kick);

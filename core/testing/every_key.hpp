@@ -385,6 +385,16 @@ centre = [15, 0, 1]
 [[stage]]
 name = "settle"
 kind = "settle"
+[[stage]]
+name = "shake"
+kind = "run"
+duration_s = 50
+[[stage.move]]
+bodies = ["ball"]
+[[stage.move.factor]]
+record = "record.at2"
+direction = [0, 1, 0]
+samples = { values = [0, 0.1, 0, -0.1, 0], interval_s = 10, unit = "g", quantity = "acceleration", component = "UP" }
 )";
 
 // a table of a scene, with the groups of keys that it may have

@@ -46,6 +46,8 @@ KeyTable stage_statics_keys();
 KeyTable excavation_forces_keys();
 KeyTable stage_friction_keys();
 KeyTable move_keys();
+KeyTable record_keys();
+KeyTable samples_keys();
 std::vector<KeyTable> stage_load_keys();
 std::vector<KeyTable> water_keys();
 std::vector<KeyTable> bolt_keys();

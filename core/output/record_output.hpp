@@ -1,0 +1,35 @@
+// Records as results show them: their measures, and their response spectra.
+#pragma once
+
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "core/base/settings.hpp"
+#include "core/load/record_measures.hpp"
+
+namespace voussoir {
+
+inline constexpr const char* record_spectra_file = "record_spectra.csv";
+
+struct RecordRow {
+  int number = 1;  // by stage, then by move
+  std::string stage;
+  std::vector<double> direction;
+  std::shared_ptr<const GroundMotion> motion;
+  RecordMeasures measures;
+};
+
+// every record that the stages prescribe
+std::vector<RecordRow> record_rows(const std::vector<StagePlan>& stages);
+
+// `records` of results.json: SI units in the keys
+nlohmann::ordered_json records_json(const std::vector<RecordRow>& rows);
+
+// The response at 5 % of critical damping, a row for each record and period; empty if no record has accelerations.
+// Columns: record, file, period_s, frequency_hz, displacement_m (largest relative to the ground),
+// pseudo_velocity_m_per_s, pseudo_acceleration_m_per_s2.
+std::string record_spectra_csv(const std::vector<RecordRow>& rows);
+
+}  // namespace voussoir
