@@ -96,6 +96,18 @@ std::string toml_block(const Solid& b, int dimension) {
   return text + "\n";
 }
 
+// Joints are bonded when they are first in compression: the free block is pressed against the fixed one by a thousandth
+// of its weight, which ends with the stage.
+std::string pressing_stage(const Problem& p) {
+  const auto free = std::ranges::find_if(p.blocks, [](const Solid& b) { return !b.fixed; });
+  const auto fixed = std::ranges::find_if(p.blocks, [](const Solid& b) { return b.fixed; });
+  const Point push = 1e-3 * free->mass * p.gravity.back().gravity.norm() * (fixed->centre - free->centre).normalized();
+  return fmt::format(
+      "[[stage]]\nname = \"press\"\nkind = \"settle\"\ngravity_to = 0\nbond = true\n"
+      "force = [{{ name = \"push\", bodies = [\"{}\"], force = {} }}]\n\n",
+      free->name, toml_vector(push, p.dimension));
+}
+
 }  // namespace
 
 std::string udec_text(const Problem& p) {
@@ -146,6 +158,7 @@ std::string scene_text(const Problem& p) {
       "# A problem for any code, as a scene with its stiff joints: one trial of its search.\n"
       "title = \"{}\"\ndimension = {}\n",
       p.title, p.dimension);
+  if (joint && joint->tension > 0) text += "contact = { face = \"point\" }\n";
   if (full.gravity.norm() > 0) text += "gravity = " + toml_vector(full.gravity, p.dimension) + "\n";
   text += "\n";
   for (const Solid& b : p.blocks)
@@ -156,18 +169,19 @@ std::string scene_text(const Problem& p) {
         "friction_deg = {:.17g}\n",
         joint->stiff.normal, joint->stiff.shear, joint->friction_deg);
     if (joint->tension > 0)
-      text +=
-          fmt::format("tension = {:.17g}\ncohesion = {:.17g}\nbonds = \"by_stage\"\n", joint->tension, joint->cohesion);
+      text += fmt::format("tension = {:.17g}\ncohesion = {:.17g}\nbonds = \"by_stage\"\nsub_contacts = 32\n",
+                          joint->tension, joint->cohesion);
     text += "\n";
   }
   for (const Bolt& b : p.bolts)
     text +=
         fmt::format("[[bolts]]\nname = \"{}\"\nfrom = {}\nto = {}\nstiffness = {:.17g}\nyield = {:.17g}\n\n", b.name,
                     toml_vector(b.from, p.dimension), toml_vector(b.to, p.dimension), b.stiffness, b.yield_force);
+  if (joint && joint->tension > 0) text += pressing_stage(p);
   text += fmt::format("[[stage]]\nname = \"trial\"\nkind = \"run\"\nduration_s = {:g}\n", p.duration);
   if (full.time > 0) text += fmt::format("gravity_ramp_s = {:g}\n", full.time);
   if (!p.bolts.empty()) text += "install = [\"" + p.bolts.front().name + "\"]\n";
-  if (joint && joint->tension > 0) text += "bond = true\n";
+  if (joint && joint->tension > 0) text += "gravity_to = 1\n";
   for (const Solid& b : p.blocks)
     if (!b.fixed && p.blocks.size() < 50)
       text += fmt::format(

@@ -50,6 +50,16 @@ def growth(table):
     return last, table[-1][0]
 
 
+def pressed(scene, plane):
+    """joints are bonded when they are first in compression: a stage that presses the free block by a thousandth of its weight"""
+    free = next(b for b in scene["blocks"] if not b["fixed"])
+    fixed = next(b for b in scene["blocks"] if b["fixed"])
+    way = fixed["centre"] - free["centre"]
+    push = 1e-2 * free["mass"] * way / np.linalg.norm(way)
+    return ["[[stage]]", 'name = "press"', 'kind = "settle"', "gravity_to = 0", "bond = true",
+            'force = [{ name = "push", bodies = ["%s"], force = %s }]' % (free["name"], numbers(push[[0, 2]] if plane else push))]
+
+
 def scene_toml(scene, setting):
     plane = scene["plane"] and not setting("space", 0)
     gravity, ramp = growth(scene["gravity"])
@@ -61,7 +71,8 @@ def scene_toml(scene, setting):
     lines += ["[[joint_properties]]", 'name = "joint"', "normal_stiffness = %.17g" % kn, "shear_stiffness = %.17g" % ks,
               "friction_deg = %.17g" % math.degrees(math.atan(scene["friction"]))]
     bonded = cohesion > 0 or tension > 0
-    lines += ["cohesion = %.17g" % cohesion, "tension = %.17g" % tension, 'bonds = "by_stage"'] if bonded else []
+    lines += ["cohesion = %.17g" % cohesion, "tension = %.17g" % tension, 'bonds = "by_stage"',
+              "sub_contacts = 32"] if bonded else []
     for b in scene["blocks"]:
         lines += block_lines(b, plane)
         if not b["fixed"]:
@@ -73,10 +84,12 @@ def scene_toml(scene, setting):
                   "stiffness = %.17g" % v[6], "yield = %.17g" % v[7]]
     lines += [] if setting("points", 0) or bonded else ["[contact]", 'face = "integrated"']
     lines += ["[time]", "fraction = %g" % setting("fraction", 0.1), "[output]", "frames = false",
-              "history_interval_s = %.17g" % scene["output"], "[[stage]]", 'name = "run"', 'kind = "run"',
+              "history_interval_s = %.17g" % scene["output"]]
+    lines += pressed(scene, plane) if bonded else []
+    lines += ["[[stage]]", 'name = "run"', 'kind = "run"',
               "duration_s = %.17g" % scene["duration"], "damping = { local = 0, viscous_ratio = %g }" % setting("damp", 0.1)]
     lines += ["gravity_ramp_s = %.17g" % ramp] if ramp > 0 else []
-    lines += ["bond = true"] if bonded else []
+    lines += ["gravity_to = 1"] if bonded and ramp > 0 else []
     lines += ["install = [%s]" % ", ".join('"%s"' % name for name, _ in scene["bolts"])] if scene["bolts"] else []
     return "\n".join(lines) + "\n", plane
 
@@ -115,6 +128,8 @@ def run(scene, setting):
             raise ValueError((done.stderr + done.stdout).strip()[-250:])
         with open(history, encoding="utf-8") as file:
             lines = list(csv.DictReader(file))
+    began = float(lines[-1]["time_s"]) - scene["duration"]  # after a stage that presses
+    lines = [dict(line, time_s=float(line["time_s"]) - began) for line in lines if float(line["time_s"]) >= began - 1e-12]
     free = [b for b in scene["blocks"] if not b["fixed"]]
     return [motion(line, b, plane) for line in lines for b in free] + ["cpu %.6f steps %d" % (spent, len(lines))]
 
