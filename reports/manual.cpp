@@ -13,6 +13,7 @@
 #include "reports/html.hpp"
 #include "reports/kernel_page.hpp"
 #include "reports/matrix_page.hpp"
+#include "reports/others_page.hpp"
 #include "reports/text_page.hpp"
 #include "reports/trade_page.hpp"
 #include "reports/verdict_tables.hpp"
@@ -145,6 +146,7 @@ std::vector<Part> all_parts(const Sources& sources) {
   parts.push_back({"Speed", "what-equilibrium-costs", "Cost of equilibrium",
                    text_page(folders, "rest_cost", "what-equilibrium-costs", sources.missing)});
   parts.push_back({"Speed", "contact-kernel", "The contact kernel", kernel_page(folders, sources.missing)});
+  parts.push_back({"Speed", "other-engines", "Other engines", others_page(folders)});
   parts.push_back({"Reference", "what-water-means", "Water in the model",
                    text_page(folders, "water", "what-water-means", sources.missing)});
   parts.push_back({"Reference", "scene-keys", "Scene keys", scene_keys(sources)});
