@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "reports/html.hpp"
 #include "verification/verdict_file.hpp"
 
 namespace voussoir::reports {
