@@ -15,10 +15,10 @@ namespace {
 struct Real {
   double value = 0;
   constexpr Real() = default;
-  constexpr Real(double v) : value(v) {}                            // NOLINT: as the libraries convert
-  constexpr Real(long v) : value(static_cast<double>(v)) {}          // NOLINT
+  constexpr Real(double v) : value(v) {}                              // NOLINT: as the libraries convert
+  constexpr Real(long v) : value(static_cast<double>(v)) {}           // NOLINT
   constexpr Real(unsigned long v) : value(static_cast<double>(v)) {}  // NOLINT
-  constexpr Real(int v) : value(v) {}                               // NOLINT
+  constexpr Real(int v) : value(v) {}                                 // NOLINT
   constexpr Real& operator+=(Real b) { return value += b.value, *this; }
   constexpr Real& operator-=(Real b) { return value -= b.value, *this; }
   constexpr Real& operator*=(Real b) { return value *= b.value, *this; }
@@ -49,7 +49,15 @@ struct std::numeric_limits<Real> : std::numeric_limits<double> {
 
 template <>
 struct Eigen::NumTraits<Real> : Eigen::GenericNumTraits<Real> {
-  enum { IsComplex = 0, IsInteger = 0, IsSigned = 1, RequireInitialization = 0, ReadCost = 1, AddCost = 1, MulCost = 1 };
+  enum {
+    IsComplex = 0,
+    IsInteger = 0,
+    IsSigned = 1,
+    RequireInitialization = 0,
+    ReadCost = 1,
+    AddCost = 1,
+    MulCost = 1
+  };
   static constexpr Real dummy_precision() { return 1e-12; }
   static constexpr int digits10() { return std::numeric_limits<double>::digits10; }
 };
@@ -72,8 +80,8 @@ Eigen::VectorXd start_vector(Eigen::Index size, int start) {
   return x;
 }
 
-// The operator over its size, as Spectra's thresholds are absolute, with one further row and column of zeros, as Spectra
-// finds fewer eigenvalues than there are rows.
+// The operator over its size, as Spectra's thresholds are absolute, with one further row and column of zeros, as
+// Spectra finds fewer eigenvalues than there are rows.
 struct PaddedOperator {
   using Scalar = Real;
   const SymmetricOperator* a;

@@ -1,5 +1,5 @@
-// The largest eigenvalues of a symmetric operator: implicitly restarted Lanczos iteration by Spectra, whose headers only
-// this interface's source includes.
+// The largest eigenvalues of a symmetric operator: implicitly restarted Lanczos iteration by Spectra, whose headers
+// only this interface's source includes.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,10 +15,10 @@ struct SymmetricOperator {
 };
 
 struct LargestEigenvalues {
-  std::vector<double> values;           // descending
+  std::vector<double> values;            // descending
   std::vector<Eigen::VectorXd> vectors;  // orthonormal
-  bool converged = true;                // else fewer than were asked for
-  long long products = 0;               // with the operator
+  bool converged = true;                 // else fewer than were asked for
+  long long products = 0;                // with the operator
 };
 
 // The `count` largest, 1 <= count <= size, each to `tolerance` of itself. `start`, from 1, chooses one of fixed start

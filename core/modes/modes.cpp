@@ -53,8 +53,9 @@ Mode<Dim> mode_of(const PencilAtRest<Dim>& rest, const State<Dim>& state, Eigenp
       mode.body_share = all;
       mode.body = b;
     }
-    mode.largest = std::max(mode.largest, largest_of<Dim>(rest.model.bodies[b], matrix(state.bodies.motions[b].rotation),
-                                                          mode.displacement[b], mode.rotation[b]));
+    mode.largest =
+        std::max(mode.largest, largest_of<Dim>(rest.model.bodies[b], matrix(state.bodies.motions[b].rotation),
+                                               mode.displacement[b], mode.rotation[b]));
   }
   for (int d = 0; d < Dim; ++d)
     if (free_mass[d] > 0) mode.mass_share[d] = mode.participation[d] * mode.participation[d] / free_mass[d];
@@ -129,10 +130,10 @@ State<Dim> swung(const State<Dim>& rest, const Model<Dim>& model, const Mode<Dim
   return state;
 }
 
-#define VOUSSOIR_INSTANTIATE(Dim)                                                                          \
-  template struct Mode<Dim>;                                                                               \
-  template Modes<Dim> find_modes<Dim>(const Prepared<Dim>&, const Progress<Dim>&, int, int);                \
-  template double extent_of_free<Dim>(const Model<Dim>&);                                                  \
+#define VOUSSOIR_INSTANTIATE(Dim)                                                            \
+  template struct Mode<Dim>;                                                                 \
+  template Modes<Dim> find_modes<Dim>(const Prepared<Dim>&, const Progress<Dim>&, int, int); \
+  template double extent_of_free<Dim>(const Model<Dim>&);                                    \
   template State<Dim> swung<Dim>(const State<Dim>&, const Model<Dim>&, const Mode<Dim>&, double, double);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)

@@ -15,11 +15,12 @@ namespace voussoir {
 
 template <int Dim>
 struct Mode {
-  double omega_squared = 0;  // rad²/s²; negative: the state at rest is unstable, and this is how it leaves it
+  double omega_squared = 0;   // rad²/s²; negative: the state at rest is unstable, and this is how it leaves it
   bool no_stiffness = false;  // not told from 0
   std::vector<Vector<Dim>> displacement;  // by body, of its centroid; φᵀ M φ = 1
   std::vector<Spin<Dim>> rotation;        // by body, world axes
-  // φᵀ M r for the shift r of all free bodies along each axis by 1: its square over φᵀ M φ = 1 is the effective mass, kg
+  // φᵀ M r for the shift r of all free bodies along each axis by 1: its square over φᵀ M φ = 1 is the effective mass,
+  // kg
   Vector<Dim> participation = Vector<Dim>::Zero();
   Vector<Dim> mass_share = Vector<Dim>::Zero();  // effective mass over the mass that is free along the axis
   double translation_share = 0;                  // of φᵀ M φ; the rest is rotation
@@ -41,17 +42,17 @@ struct TangentAtRest {
   double unbalanced = 0;  // the equilibrium measure
   // |K - Kᵀ| / |K|, Frobenius; its symmetric part is used
   double asymmetry = 0;
-  int contacts = 0;                           // that touch a free body
-  int one_point = 0;                          // of them: faces that act at one point, which rock too stiffly
+  int contacts = 0;                            // that touch a free body
+  int one_point = 0;                           // of them: faces that act at one point, which rock too stiffly
   std::vector<JointAtStrength> at_strength{};  // by joint, those with any
-  std::vector<int> hanging{};                 // free bodies without stiffness
+  std::vector<int> hanging{};                  // free bodies without stiffness
 };
 
 template <int Dim>
 struct Modes {
-  std::string stage;            // at whose end
-  std::string reason{};         // why there are none, one line
-  std::vector<Mode<Dim>> list{};  // ascending ω²
+  std::string stage;                            // at whose end
+  std::string reason{};                         // why there are none, one line
+  std::vector<Mode<Dim>> list{};                // ascending ω²
   Vector<Dim> free_mass = Vector<Dim>::Zero();  // kg, by axis
   int free_bodies = 0, available = 0;           // available: number of all modes
   TangentAtRest tangent{};

@@ -139,7 +139,8 @@ Spectrum lowest_eigenvalues(const Pencil<Size>& pencil, int number) {
   }
   spectrum.missing = std::max(sought, 0);
   for (std::size_t k = 0; k < known.values.size() && static_cast<int>(k) < number; ++k)
-    spectrum.pairs.push_back({value(known.values[k]), shifted.solve(pencil.times_root(known.vectors[k])) / known.values[k]});
+    spectrum.pairs.push_back(
+        {value(known.values[k]), shifted.solve(pencil.times_root(known.vectors[k])) / known.values[k]});
   spectrum.solutions += static_cast<long long>(spectrum.pairs.size());
   spectrum.factorisations = shifted.factorisations + counter.factorisations;
   return spectrum;

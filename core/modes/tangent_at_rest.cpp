@@ -28,6 +28,9 @@ constexpr double sticking_friction = 1e6, sticking_cohesion = 1e20;
 // of the mean unbalanced force: forces of joints that stick are those of the state
 constexpr double same_forces = 1e-6;
 
+// of |K|: beyond this the symmetric part is another system
+constexpr double most_asymmetry = 1e-2;
+
 // the shear force over the strength at a point; `pressed`, N
 template <int Dim>
 double use_of_strength(const JointProperties& p, const Schedule& schedule, std::size_t of, double pressed, double area,
@@ -53,8 +56,8 @@ double use_of_contact(const Model<Dim>& model, const State<Dim>& state, std::siz
   double most = 0;
   for (const SubContact<Dim>& s : subs_of(state.contacts, place))
     if (s.area > 0)
-      most = std::max(most, use_of_strength<Dim>(p, state.schedule, c.properties, s.force.dot(normal), s.history.area,
-                                                 s.history));
+      most = std::max(
+          most, use_of_strength<Dim>(p, state.schedule, c.properties, s.force.dot(normal), s.history.area, s.history));
   return most;
 }
 
@@ -171,7 +174,8 @@ PencilAtRest<Dim> pencil_at_rest(const Prepared<Dim>& scene, const State<Dim>& r
   const double limit = may_be_unbalanced * twin.settings.equilibrium.unbalanced;
   if (!(found.tangent.unbalanced <= limit)) {
     found.reason = fmt::format(
-        "stage {} does not end in equilibrium: unbalanced ratio {:.2g}, at most {:.2g} is asked; settle before, or name "
+        "stage {} does not end in equilibrium: unbalanced ratio {:.2g}, at most {:.2g} is asked; settle before, or "
+        "name "
         "another stage with --stage",
         scene.stages[stage].name, found.tangent.unbalanced, limit);
     return found;
@@ -190,6 +194,13 @@ PencilAtRest<Dim> pencil_at_rest(const Prepared<Dim>& scene, const State<Dim>& r
   }
   found.pencil.stiffness = twin.tangent(twin.base);
   found.tangent.asymmetry = make_symmetric(found.pencil.stiffness);
+  if (found.tangent.asymmetry > most_asymmetry) {
+    found.reason = fmt::format(
+        "the tangent is not symmetric, by {:.1e} of itself: forces that turn with the blocks, water or closure that is "
+        "lost have no modes of a symmetric system",
+        found.tangent.asymmetry);
+    return found;
+  }
   found.bodies = twin.unknowns.bodies;
   found.free = twin.unknowns.free;
   for (std::size_t i = 0; i < found.bodies.size(); ++i) {

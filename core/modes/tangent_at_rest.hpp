@@ -10,8 +10,8 @@ namespace voussoir {
 
 template <int Dim>
 struct PencilAtRest {
-  std::string reason{};  // why there is none
-  Model<Dim> model;      // of the stage
+  std::string reason{};       // why there is none
+  Model<Dim> model;           // of the stage
   std::vector<int> bodies{};  // of the pencil's rows
   Eigen::VectorXd free{};     // by degree of freedom: 1, or 0 if it is restrained
   Pencil<freedoms<Dim>> pencil{};
