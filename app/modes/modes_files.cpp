@@ -119,7 +119,7 @@ std::vector<std::string> doubts_of(const Modes<Dim>& modes, const Model<Dim>& mo
   if (!joints.empty())
     lines.push_back(
         fmt::format("joints within 1 % of their strength may slip in the mode, which takes them as sticking: "
-                    "{} contacts",
+                    "contacts {}",
                     named(joints)));
   for (const int b : t.hanging)
     hanging.push_back(label_of(model, b));

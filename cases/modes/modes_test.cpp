@@ -132,7 +132,7 @@ TEST(Modes, StackThatBends) {
   const std::pair<int, const char*> stacks[] = {{2, "1e-2"}, {5, "1e-3"}, {10, "1e-3"}, {20, "1e-4"}};
   for (const auto& [blocks, gravity] : stacks) {
     const ModesRun run = modes_of(
-        "stack.toml", 3, {fmt::format("repeat.stack.count={}", blocks), fmt::format("gravity=[0,-{}]", gravity)});
+        "stack.toml", 6, {fmt::format("repeat.stack.count={}", blocks), fmt::format("gravity=[0,-{}]", gravity)});
     const std::vector<double> expected = reference::bending_modes(cube, blocks, 3), found = bending_of(run.modes);
     ASSERT_GE(found.size(), 3U);
     for (int k = 0; k < 3; ++k)

@@ -25,6 +25,9 @@ constexpr double may_be_unbalanced = 10;
 // The friction coefficient and cohesion, Pa, of joints that stick.
 constexpr double sticking_friction = 1e6, sticking_cohesion = 1e20;
 
+// of its area, by which a joint may lose area without losing shear force; differences change it by a hundredth of this
+constexpr double spare_area = 1e-4;
+
 // of the mean unbalanced force: forces of joints that stick are those of the state
 constexpr double same_forces = 1e-6;
 
@@ -95,6 +98,19 @@ void make_joints_stick(Model<Dim>& model, Schedule& schedule) {
   std::ranges::fill(schedule.friction, std::atan(sticking_friction));
 }
 
+// A joint that is partly open loses the shear force of area that opens, and area that closes brings none: two slopes.
+// In between is that of a joint whose shear force stays, whichever way its area changes.
+template <int Dim>
+void keep_shear_forces(JointHistories<Dim>& histories) {
+  const auto keep = [](JointState<Dim>& history) {
+    history.area *= 1 - spare_area;
+    history.polar *= 1 - spare_area;
+  };
+  for (ContactHistory<Dim>& contact : histories.contacts)
+    keep(contact.history);
+  std::ranges::for_each(histories.subs, keep);
+}
+
 template <int Dim>
 typename Pencil<freedoms<Dim>>::Block root_of_mass(const Body<Dim>& body, const CachedPose<Dim>& pose,
                                                    const Eigen::VectorXd& free, Eigen::Index at) {
@@ -163,6 +179,7 @@ PencilAtRest<Dim> pencil_at_rest(const Prepared<Dim>& scene, const State<Dim>& r
   state.relaxation = {};
   state.relaxation.under_way = true;  // joints have no dashpots
   state.increment = {};
+  state.time_step.frequency.clear();  // of the measure of equilibrium; no body moves
   stop(state.bodies.motions);
   cache_poses(twin.model, twin.settings.threads, state.bodies);
   twin.unknowns = Unknowns<Dim>(twin.model);
@@ -183,6 +200,7 @@ PencilAtRest<Dim> pencil_at_rest(const Prepared<Dim>& scene, const State<Dim>& r
   count_contacts(twin.model, twin.settings, state, found.tangent);
 
   make_joints_stick(twin.model, state.schedule);
+  keep_shear_forces(twin.base.histories);
   const Schedule sticking = state.schedule;
   const Eigen::VectorXd then = twin.residual(sticking, twin.base, still);
   double mean = 0;
