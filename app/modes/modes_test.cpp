@@ -104,7 +104,7 @@ TEST_F(ModesCommand, RefusesInOneLine) {
   expect_refused(head + base + block + shake, "no stage of the scene ends at rest: add one of kind = \"settle\"");
   expect_refused(head + base + block + settle, "--stage setle: no stage of the scene has this name; did you mean",
                  "--stage setle");
-  expect_refused(head + base + settle, "every block is fixed");
+  expect_refused(head + base + settle, "no block is free to move");
   // free fall is no rest
   expect_refused(head + base + far + settle, "no modes, as the run to stage settle is not done", "", 1);
 }

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "core/modes/tangent_at_rest.hpp"
+#include "core/modes/spectrum.hpp"
 #include "core/run/stage_in_force.hpp"
 
 namespace voussoir {

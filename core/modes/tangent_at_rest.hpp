@@ -2,11 +2,29 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
-#include "core/modes/modes.hpp"
+#include "core/model/prepared.hpp"
 #include "core/modes/spectrum.hpp"
 
 namespace voussoir {
+
+// contacts of a joint whose shear force is within a hundredth of their strength
+struct JointAtStrength {
+  std::string joint;  // its name; empty: faces that no joint made
+  int at_strength = 0, closed = 0;
+};
+
+// how K was found
+struct TangentAtRest {
+  double unbalanced = 0;  // the equilibrium measure
+  // |K - Kᵀ| / |K|, Frobenius; its symmetric part is used
+  double asymmetry = 0;
+  int contacts = 0;                            // that touch a free body
+  int one_point = 0;                           // of them: faces that act at one point, which rock too stiffly
+  std::vector<JointAtStrength> at_strength{};  // by joint, those with any
+  std::vector<int> hanging{};                  // free bodies without stiffness
+};
 
 template <int Dim>
 struct PencilAtRest {
