@@ -21,11 +21,13 @@ const reference::SwayingBlock tall{1, 2, 2600, 1e10, 5e9, 9.81}, cube{1, 1, 2600
 const double axial_unit = std::sqrt(1e10 / 2600);  // rad/s, √(k/m)
 constexpr double full_turn = 2 * std::numbers::pi;
 
-// Differences of forces leave some 1e-10 of a joint's stiffness. Stacks are lowered by their weight as a cantilever by
-// its own: by W L²/(7.84 EI)/2, EI = kn I H, below 3e-7 for the gravities chosen.
+// Differences of forces leave some 1e-10 of a joint's stiffness on faces, 5e-7 on points that the kernel finds again.
+// Stacks are lowered by their weight as a cantilever by its own: by W L²/(7.84 EI)/2, EI = kn I H, below 3e-7 for the
+// gravities chosen.
 constexpr double differences = 1e-6;
 const std::string because_differences =
-    "differences of the joints' forces leave 1e-10 of their stiffness, the weight of a light stack up to 3e-7";
+    "differences of the joints' forces leave 1e-10 of their stiffness on faces, 5e-7 on points; the weight of a light "
+    "stack lowers it by up to 3e-7";
 
 struct ModesRun {
   Modes<2> modes;
