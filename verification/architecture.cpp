@@ -36,6 +36,7 @@ const std::vector<std::vector<std::string_view>> floors{
     {"limit/", "output/", "scene/", "step/"},
     {"step"},  // step.hpp and step.cpp: one screen
     {"run/"},
+    {"modes/"},
 };
 
 // the files and folders that another folder of the repository may include besides itself: top folders, folders within

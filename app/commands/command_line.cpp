@@ -23,6 +23,7 @@
 #include "app/joint_test/joint_test_command.hpp"
 #include "app/judge/judge_command.hpp"
 #include "app/limit/limit_command.hpp"
+#include "app/modes/modes_command.hpp"
 #include "app/report/report_command.hpp"
 #include "app/run/memory_needed.hpp"
 #include "app/run/resume_command.hpp"
@@ -42,8 +43,9 @@ namespace voussoir {
 namespace {
 
 // in the order of the help text
-constexpr AddCommand* commands[] = {add_run,   add_resume,     add_view,   add_report, add_check, add_slice, add_blocks,
-                                    add_limit, add_joint_test, add_import, add_export, add_study, add_judge, add_docs};
+constexpr AddCommand* commands[] = {add_run,    add_resume, add_view,  add_report, add_check,
+                                    add_slice,  add_blocks, add_limit, add_modes,  add_joint_test,
+                                    add_import, add_export, add_study, add_judge,  add_docs};
 
 // an allocation has failed: this must not allocate again
 int not_enough_memory() {

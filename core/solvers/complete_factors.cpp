@@ -164,6 +164,18 @@ bool CompleteFactors<Size>::eliminate(int columns, int all, std::vector<int>& sw
 }
 
 template <int Size>
+int CompleteFactors<Size>::negative_pivots() const {
+  int count = 0;
+  for (std::size_t at = 0; at < panels.size(); ++at) {
+    const Supernode& node = plan.supernodes[at];
+    const long columns = Size * node.columns, all = columns + Size * static_cast<long>(node.below.size());
+    for (long k = 0; k < columns; ++k)
+      count += panels[at].lower[k * all + k] < 0;
+  }
+  return count;
+}
+
+template <int Size>
 Eigen::VectorXd CompleteFactors<Size>::ordered(const Eigen::VectorXd& b) const {
   Eigen::VectorXd x(b.size());
   for (std::size_t i = 0; i < plan.order.size(); ++i)

@@ -19,6 +19,9 @@ class CompleteFactors {
   // Of a matrix with the plan's pattern. False: a pivot is zero or not finite, and there are no factors.
   bool factorise(const BlockMatrix<Size>& matrix);
 
+  // of D in L D Lᵀ of a symmetric matrix: as many as it has negative eigenvalues (Sylvester's law of inertia)
+  int negative_pivots() const;
+
   Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
   Eigen::VectorXd solve_transposed(const Eigen::VectorXd& b) const;
 
