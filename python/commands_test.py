@@ -95,6 +95,10 @@ class Commands(unittest.TestCase):
             self.skipTest(str(error))
         self.assertTrue(found.files)
 
+    def test_modes(self):
+        found = voussoir.modes(SOURCE / "examples/gate.toml", scratch / "modes", number=2)
+        self.assertIn("modes.json", found.files)
+
     def test_a_study_in_one_and_in_parts(self):
         (scratch / "study.toml").write_text(textwrap.dedent(f"""
             scene = "{PLANE}"

@@ -162,6 +162,12 @@ def limit(scene: Source, out: str | os.PathLike[str] | None = None, *, set: Mapp
     return _results("limit", scene, out, "_limit", set, options)
 
 
+def modes(scene: Source, out: str | os.PathLike[str] | None = None, *, set: Mapping[str, Any] | None = None,
+          **options: Option) -> Folder:
+    """Lowest natural frequencies of a state at rest: `voussoir modes`, with its options (stage, number, view)."""
+    return _results("modes", scene, out, "_modes", set, options)
+
+
 def joint_test(scene: Source, out: str | os.PathLike[str] | None = None, *, set: Mapping[str, Any] | None = None,
                **options: Option) -> Folder:
     """Laboratory tests of a scene's joints: `voussoir joint-test`; its table is joint_test.csv."""
