@@ -22,7 +22,7 @@ using ModesJson = nlohmann::ordered_json;
 
 constexpr double drawn_reach = 0.05;  // of the model's size: the drawn displacement of a mode
 constexpr int swing_frames = 16;      // of one swing
-constexpr const char* axis_names[] = {"x", "y", "z"};
+constexpr const char* mode_axes[] = {"x", "y", "z"};
 
 // Beyond this it is reported: differences of the forces of joints that hardly close leave some 1e-9.
 constexpr double symmetric = 1e-8;
@@ -39,7 +39,7 @@ std::string frequency_text(const Mode<Dim>& mode) {
 }
 
 template <class List>
-std::string named(const List& list, std::size_t most = 5) {
+std::string first_names(const List& list, std::size_t most = 5) {
   std::string text;
   for (std::size_t k = 0; k < list.size() && k < most; ++k)
     text += (k > 0 ? ", " : "") + list[k];
@@ -113,21 +113,21 @@ std::vector<std::string> doubts_of(const Modes<Dim>& modes, const Model<Dim>& mo
       unstable.push_back(fmt::format("mode {} (grows by e in {:.3g} s; {} moves most)", k + 1,
                                      1 / std::sqrt(-modes.list[k].omega_squared), label_of(model, modes.list[k].body)));
   if (!unstable.empty())
-    lines.push_back(fmt::format("the state is unstable: it buckles or rocks over along {}", named(unstable)));
+    lines.push_back(fmt::format("the state is unstable: it buckles or rocks over along {}", first_names(unstable)));
   for (const JointAtStrength& row : t.at_strength)
     joints.push_back(fmt::format("{} of {} on {}", row.at_strength, row.closed, joint_name(row.joint)));
   if (!joints.empty())
     lines.push_back(
         fmt::format("joints within 1 % of their strength may slip in the mode, which takes them as sticking: "
                     "contacts {}",
-                    named(joints)));
+                    first_names(joints)));
   for (const int b : t.hanging)
     hanging.push_back(label_of(model, b));
   int loose = 0;
   for (const Mode<Dim>& mode : modes.list)
     loose += mode.no_stiffness;
   if (!hanging.empty())
-    lines.push_back(fmt::format("nothing touches {}: free, with modes of frequency 0", named(hanging)));
+    lines.push_back(fmt::format("nothing touches {}: free, with modes of frequency 0", first_names(hanging)));
   else if (loose > 0)
     lines.push_back(fmt::format("{} mode{} meet{} no resistance (frequency 0): blocks hang free together", loose,
                                 loose == 1 ? "" : "s", loose == 1 ? "s" : ""));
@@ -151,7 +151,7 @@ template <int Dim>
 std::string modes_text(const Modes<Dim>& modes, const Model<Dim>& model) {
   std::string text = fmt::format("  {:>4} {:>12} {:>12}", "mode", "frequency Hz", "period s");
   for (int d = 0; d < Dim; ++d)
-    text += fmt::format(" {:>8}", fmt::format("mass {}", axis_names[d]));
+    text += fmt::format(" {:>8}", fmt::format("mass {}", mode_axes[d]));
   text += "  moves most\n";
   for (std::size_t k = 0; k < modes.list.size(); ++k) {
     const Mode<Dim>& mode = modes.list[k];

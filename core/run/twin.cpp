@@ -115,6 +115,7 @@ BlockMatrix<freedoms<Dim>> Twin<Dim>::tangent(const StaticBase<Dim>& from) {
   const BodiesOfStep<Dim> bodies(unknowns, {});
   find_pair_stiffness(model, settings, state.schedule, joint_step(settings, state.time_step, state.relaxation),
                       state.bodies, state.contacts, begin.histories, bodies.place, state.counters, stiffness);
+  state.increment.base = begin;  // which the pairs of linings read
   for (const StepSupport<Dim>& row : step_supports<Dim>)
     row.add_pairs(model, settings, state, stiffness);
   std::vector<typename PairStiffness<Dim>::Block> of_water, own = load_stiffness(model, state);
