@@ -47,7 +47,7 @@ void add_export(CLI::App& program, Action& action) {
   add_scene(command, arguments.scene);
   command
       ->add_option("--as", arguments.format,
-                   "3dec: a data file of 3DEC 7, polyhedra by their faces; yade: a script for YADE with PotentialBlock")
+                   "3dec: a data file of 3DEC 7, polyhedra by their faces; yade: a script for YADE with its Polyhedra")
       ->required()
       ->check(CLI::IsMember({"3dec", "yade"}));
   command->add_option("--out", arguments.out, "the file, e.g. scene.dat or scene.py")->required()->check(plain_text());

@@ -113,11 +113,12 @@ ExportedScene exported(const Scene& scene, const Prepared<3>& prepared, std::str
   return found;
 }
 
-std::string export_head(const ExportedScene& scene, std::string_view program, std::string_view comment) {
+std::string export_head(const ExportedScene& scene, std::string_view program, std::string_view comment,
+                        std::string_view run) {
   std::vector<std::string> lines{
       fmt::format("{}", scene.title),
       fmt::format("Text for {}, written by voussoir {} ({}).", program, version(), commit()),
-      fmt::format("It was NOT run in {}: neither its syntax nor its results were checked by that program.", program),
+      std::string(run),
       "Units: m, kg, s, N, Pa, angles in degrees where they are named so; x east, y north, z up.",
       fmt::format("{} blocks as they are before the first stage, {} joints between them.", scene.model->bodies.size(),
                   scene.joints.size()),

@@ -24,9 +24,10 @@ struct ExportedScene {
 // water, bolts, potential particles, joint laws other than linear with constant friction.
 ExportedScene exported(const Scene& scene, const Prepared<3>& prepared, std::string_view program);
 
-// first lines of the text, each after `comment`: the program that wrote it, that it was not run, units, features left
+// first lines of the text, each after `comment`: the program that wrote it, whether it was run, units, features left
 // out
-std::string export_head(const ExportedScene& scene, std::string_view program, std::string_view comment);
+std::string export_head(const ExportedScene& scene, std::string_view program, std::string_view comment,
+                        std::string_view run);
 
 // a data file of 3DEC 7; blocks are polyhedra by their faces
 std::string three_dec_text(const ExportedScene& scene);

@@ -143,7 +143,9 @@ std::string three_dec_text(const ExportedScene& stated) {
   add_restraints(scene);
   const Model<3>& model = *scene.model;
   const double within = nearness * smallest_block(model);
-  std::string text = export_head(scene, "3DEC 7", ";");
+  std::string text =
+      export_head(scene, "3DEC 7", ";",
+                  "It was NOT run in 3DEC 7: neither its syntax nor its results were checked by that program.");
   text += "model new\nmodel large-strain on\n";
   text += blocks_text(model, within);
   text += fmt::format("model gravity {} {} {}\n", model.gravity[0], model.gravity[1], model.gravity[2]);

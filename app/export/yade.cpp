@@ -12,8 +12,6 @@
 namespace voussoir {
 namespace {
 
-constexpr double rounding_radius = 0.1;  // r, of a block's inscribed radius: far from its corners
-
 // of the critical step of a block on its largest face: as in YADE's examples
 constexpr double step_fraction = 0.1;
 
@@ -72,7 +70,7 @@ std::string blocked(const Body<3>& body) {
   return text;
 }
 
-// name, material, centroid, planes relative to it, r, whether it is fixed, blocked degrees of freedom
+// name, material, vertices, whether it is fixed, blocked degrees of freedom
 std::string block_text(const Body<3>& body, std::size_t b, const Vector<3>& origin, const std::string& material) {
   const std::string name = body.name.empty() ? fmt::format("block-{}", b) : body.name;
   if (body.parts.size() > 1)
@@ -81,28 +79,18 @@ std::string block_text(const Body<3>& body, std::size_t b, const Vector<3>& orig
                     "connection "
                     "(part_of, construction joints, outlines, slicing.ends = \"healed\")",
                     name, body.parts.size()));
-  const Vector<3> place = origin + body.reference;
-  std::string planes;
-  for (const HalfSpace<3>& face : body.parts[0].faces)
-    planes += fmt::format("{}({}, {}, {}, {})", planes.empty() ? "" : ", ", face.normal[0] + 0.0, face.normal[1] + 0.0,
-                          face.normal[2] + 0.0, face.offset);  // of two zeros the positive one
-  return fmt::format("block({}, '{}', ({}, {}, {}), [{}], {}, {}, '{}')\n", python_text(name), material, place[0],
-                     place[1], place[2], planes, rounding_radius * body.size, body.fixed ? "True" : "False",
-                     blocked(body));
+  std::string vertices;
+  for (const Vector<3>& v : body.parts[0].vertices) {
+    const Vector<3> at = origin + (body.reference + v);
+    vertices += fmt::format("{}({}, {}, {})", vertices.empty() ? "" : ", ", at[0] + 0.0, at[1] + 0.0, at[2] + 0.0);
+  }
+  return fmt::format("block({}, {}, [{}], {}, '{}')\n", python_text(name), material, vertices,
+                     body.fixed ? "True" : "False", blocked(body));
 }
 
 constexpr const char* functions = R"(
-def block(name, material, centroid, planes, r, fixed, blocked):
-    """A block of half-spaces n x <= d about its centroid; PotentialBlock takes d less its radius r."""
-    body = Body()
-    body.mask = 1
-    body.aspherical = True
-    body.shape = PotentialBlock(
-        k=0.0, r=r, R=0.0, a=[p[0] for p in planes], b=[p[1] for p in planes], c=[p[2] for p in planes],
-        d=[p[3] - r for p in planes], isBoundary=fixed, AabbMinMax=True, fixedNormal=False, id=len(O.bodies))
-    utils._commonBodySetup(body, body.shape.volume, body.shape.inertia, material=material, pos=centroid, fixed=fixed)
-    body.state.pos = centroid
-    body.state.ori = body.shape.orientation
+def block(name, material, vertices, fixed, blocked):
+    body = polyhedra_utils.polyhedra(material, v=vertices, fixed=fixed)
     if not fixed:
         body.state.blockedDOFs = blocked
     names[O.bodies.append(body)] = name
@@ -111,6 +99,8 @@ def block(name, material, centroid, planes, r, fixed, blocked):
 
 }  // namespace
 
+// YADE's volumetric law: the overlap's volume times kn is the area integral of kn times the overlap, moment included. A
+// contact of two bodies has half of their `young`, and ks = poisson kn for any area.
 std::string yade_text(const ExportedScene& scene) {
   const Model<3>& model = *scene.model;
   const JointProperties& p = only_properties(scene);
@@ -123,20 +113,26 @@ std::string yade_text(const ExportedScene& scene) {
     const auto [at, first] = materials.try_emplace(std::stod(density), fmt::format("rock{}", materials.size() + 1));
     if (first)
       materials_text += fmt::format(
-          "O.materials.append(FrictMat(young=-1, poisson=-1, frictionAngle=radians({}), density={}, label='{}'))\n",
-          to_degrees(p.friction), density, at->second);
+          "{0} = PolyhedraMat(young={1}, poisson={2}, frictionAngle=radians({3}), density={4}, label='{0}')\n"
+          "O.materials.append({0})\n",
+          at->second, 2 * p.normal_stiffness, p.shear_stiffness / p.normal_stiffness, to_degrees(p.friction), density);
     blocks += block_text(body, b, model.origin, at->second);
   }
 
-  std::string text = "# -*- encoding=utf-8 -*-\n" + export_head(scene, "YADE with PotentialBlock", "#");
-  text += "from math import radians\nfrom yade import utils\n\n";
-  text += fmt::format("# {}: stiffness in Pa/m times the contact's area\n", p.name);
+  std::string text =
+      "# -*- encoding=utf-8 -*-\n" + export_head(scene, "YADE with Polyhedra, which Debian's package has", "#",
+                                                 "Texts of this form were run in YADE 2023.02a; this one was not.");
+  text += "from math import radians\nfrom yade import polyhedra_utils\n\n";
   text += fmt::format(
-      "O.engines = [\n    ForceResetter(),\n    InsertionSortCollider([PotentialBlock2AABB()], verletDist=0),\n"
-      "    InteractionLoop(\n        [Ig2_PB_PB_ScGeom()],\n        [Ip2_FrictMat_FrictMat_KnKsPBPhys(kn_i={0}, "
-      "ks_i={1}, Knormal={0}, Kshear={1}, viscousDamping=0)],\n        [Law2_SCG_KnKsPBPhys_KnKsPBLaw(label='law')]),\n"
-      "    NewtonIntegrator(damping=0, exactAsphericalRot=True, gravity=[{2}, {3}, {4}]),\n]\n",
-      p.normal_stiffness, p.shear_stiffness, model.gravity[0], model.gravity[1], model.gravity[2]);
+      "# {}: normal stiffness in Pa/m over each contact; the shear stiffness of each contact is that of 1 m2\n",
+      p.name);
+  text += fmt::format(
+      "O.engines = [\n    ForceResetter(),\n    InsertionSortCollider([Bo1_Polyhedra_Aabb()]),\n"
+      "    InteractionLoop(\n        [Ig2_Polyhedra_Polyhedra_PolyhedraGeom()],\n"
+      "        [Ip2_PolyhedraMat_PolyhedraMat_PolyhedraPhys()],\n"
+      "        [Law2_PolyhedraGeom_PolyhedraPhys_Volumetric()]),\n"
+      "    NewtonIntegrator(damping=0, exactAsphericalRot=True, gravity=[{}, {}, {}]),\n]\n",
+      model.gravity[0], model.gravity[1], model.gravity[2]);
   text += materials_text + "names = {}\n" + functions + blocks;
   return text +
          fmt::format("\n# a tenth of the step that the lightest block on its largest face would allow\nO.dt = {}\n",
