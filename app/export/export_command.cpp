@@ -31,9 +31,8 @@ ExitCode export_command(const ExportArguments& arguments) {
   const std::string text = three_dec ? three_dec_text(scene) : yade_text(scene);
   claim_file(arguments.out, "export", loaded.files, arguments.overwrite);
   write_file(arguments.out, text);
-  fmt::print(
-      "{} blocks, {} joints: {}\nneither run nor verified in {}; its head lists the features that were left out\n",
-      scene.model->bodies.size(), scene.joints.size(), arguments.out.string(), three_dec ? "3DEC" : "YADE");
+  fmt::print("{} blocks, {} joints: {}\nthis text was not run in {}; its head lists the features that were left out\n",
+             scene.model->bodies.size(), scene.joints.size(), arguments.out.string(), three_dec ? "3DEC" : "YADE");
   return ExitCode::done;
 }
 
