@@ -236,6 +236,7 @@ TEST_F(StudyReliability, RunsOfAnAnalysisAreKept) {
 
 // the factor of the cube is sought by a run
 const std::string searched = std::string(cube) + R"(statics = "newton"
+restrain = [{ bodies = ["cube"], rotation = true }]
 [[stage]]
 name = "settle"
 kind = "settle"

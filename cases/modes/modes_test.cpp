@@ -21,12 +21,12 @@ const reference::SwayingBlock tall{1, 2, 2600, 1e10, 5e9, 9.81}, cube{1, 1, 2600
 const double axial_unit = std::sqrt(1e10 / 2600);  // rad/s, √(k/m)
 constexpr double full_turn = 2 * std::numbers::pi;
 
-// Differences of forces leave some 1e-10 of a joint's stiffness on faces, 5e-7 on points that the kernel finds again.
+// Differences of forces leave some 1e-10 of a joint's stiffness on faces.
 // Stacks are lowered by their weight as a cantilever by its own: by W L²/(7.84 EI)/2, EI = kn I H, below 3e-7 for the
 // gravities chosen.
 constexpr double differences = 1e-6;
 const std::string because_differences =
-    "differences of the joints' forces leave 1e-10 of their stiffness on faces, 5e-7 on points; the weight of a light "
+    "differences of the joints' forces leave 1e-10 of their stiffness on faces; the weight of a light "
     "stack lowers it by up to 3e-7";
 
 struct ModesRun {
@@ -62,6 +62,21 @@ void check(CaseReport& report, const std::string& quantity, const std::string& s
   report.record({quantity, "Hz", Kind::exact, source, expected, {0, differences}, because_differences}, found, cost);
 }
 
+// along the normal of points the tangent is a difference over a millionth of the overlap
+void check_normal_of_points(CaseReport& report, const std::string& quantity, const std::string& source, double expected,
+                            double found, const verification::Cost& cost) {
+  report.record(
+      {quantity,
+       "Hz",
+       Kind::exact,
+       source,
+       expected,
+       {0, 2e-4},
+       "the kernel finds an overlap to 1e-15 of the block's 2 m; the difference is over a millionth of the overlap, "
+       "5e-12 m: 4e-4 of the stiffness at most, half of it of the frequency, mostly a tenth of that"},
+      found, cost);
+}
+
 void check_axial(CaseReport& report, int blocks) {
   const int number = std::min(blocks, 3);
   const ModesRun run = modes_of("axial.toml", number, {fmt::format("repeat.stack.count={}", blocks)});
@@ -95,8 +110,9 @@ TEST(Modes, OneBlockOnAJoint) {
                                      : "reference/modes: matrix of sway and rocking";
     check(report, on + ", sway 1", source, std::sqrt(expected.lower) / full_turn, run.modes.list[0].frequency(),
           run.cost);
-    check(report, on + ", vertical", "reference/modes: √(kn A/m)", std::sqrt(expected.vertical) / full_turn,
-          run.modes.list[1].frequency(), run.cost);
+    (whole ? check : check_normal_of_points)(report, on + ", vertical", "reference/modes: √(kn A/m)",
+                                             std::sqrt(expected.vertical) / full_turn, run.modes.list[1].frequency(),
+                                             run.cost);
     check(report, on + ", sway 2", source, std::sqrt(expected.upper) / full_turn, run.modes.list[2].frequency(),
           run.cost);
     // all three modes are asked for: their effective masses are all of the mass
