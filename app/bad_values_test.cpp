@@ -269,6 +269,8 @@ TEST(BadValues, AreReportedForEveryKeyOfTheTable) {
     const auto tree = file.tree();
     if (!is_numeric(row)) continue;
     if (row.table == "bolts" && row.key == "spacing") continue;  // for plane scenes; this scene is in space
+    // with an override of these the record's file is read again: core/scene/read_records_test.cpp
+    if (row.table == "record" && (row.key == "interval_s" || row.key == "column")) continue;
     const std::string address = every_key::address(row);
 
     // the good value: the scene's, or the table's example if the scene states none

@@ -53,7 +53,7 @@ voussoir_test(unit.law_and_motion OPTIMISED LABEL unit
   SOURCES joint_laws/*_test.cpp step/motion_test.cpp support/bolt_test.cpp
   LIBS voussoir_core voussoir_oracle_algebra Boost::headers)
 
-voussoir_test(unit.blocks LABEL unit SOURCES base/*_test.cpp geometry/*_test.cpp solvers/*_test.cpp slicing/*_test.cpp
+voussoir_test(unit.blocks LABEL unit SOURCES base/*_test.cpp geometry/*_test.cpp solvers/*_test.cpp slicing/*_test.cpp modes/*_test.cpp
   LIBS voussoir_core voussoir_oracle_algebra Boost::headers)
 voussoir_test(unit.joint_sets LABEL unit SOURCES joint_sets/*_test.cpp exchange/*_test.cpp
   LIBS voussoir_core Boost::headers fmt::fmt)

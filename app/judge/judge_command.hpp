@@ -5,7 +5,7 @@
 
 namespace voussoir {
 
-// judges the answers of codes to the problem files: judgement.md, .html, .csv and error_against_cost.svg
+// judges the answers of codes to the problem files: a table as Markdown, HTML and CSV, and a figure of errors against cost
 void add_judge(CLI::App& program, Action& action);
 
 }  // namespace voussoir

@@ -126,7 +126,7 @@ struct Dimension {
   std::string label;
 };
 
-// words of task.md, a paragraph each
+// words of the task, a paragraph each
 struct Words {
   std::string model, measured, protocol, two_answers, tolerance;
 };

@@ -1,5 +1,5 @@
 // voussoir_problems OUT [--blind] [--verdicts FOLDER] [--program FILE] [--only NAME]
-// Writes the problems for any code: OUT/<name>/ with task.md, sketch.svg, blocks.json, blocks.obj, scene.toml, a data
+// Writes the problems for any code: OUT/<name>/ with the task, sketch.svg, blocks.json, blocks.obj, scene.toml, a data
 // file for UDEC (plane) or 3DEC (space), answer.csv and, unless --blind, reference.json; and OUT/blocks.schema.json.
 #include <fmt/format.h>
 

@@ -7,7 +7,7 @@
 
 namespace voussoir::problems {
 
-// task.md: what to model, what is given, what is asked and how it is measured, the protocol of a search
+// The task: what to model, what is given, what is asked and how it is measured, the protocol of a search
 std::string task_text(const Problem& problem);
 
 // answer.csv with empty values, and how to fill it in as comments
