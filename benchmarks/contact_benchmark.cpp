@@ -98,15 +98,7 @@ std::vector<Method> all_methods() {
 #ifdef VOUSSOIR_PEER_IPOPT
   add(ipopt_methods());
 #endif
-#ifdef VOUSSOIR_PEER_CCD
-  add(ccd_methods());
-#endif
-#ifdef VOUSSOIR_PEER_FCL
-  add(fcl_methods());
-#endif
-#ifdef VOUSSOIR_PEER_BULLET
-  add(bullet_methods());
-#endif
+  add(library_methods());
   add(clip_methods());
   return list;
 }

@@ -225,6 +225,22 @@ ContactErrors contact_errors(const ExactPair& pair, const Polytope<3>& a, const 
   return errors;
 }
 
+Verdict sum_of(const std::vector<Verdict>& verdicts, const std::string& state) {
+  Verdict sum;
+  for (const Verdict& v : verdicts) {
+    if (!state.empty() && v.state != state) continue;
+    sum.pairs += v.pairs;
+    sum.contacts += v.contacts;
+    sum.decisions += v.decisions;
+    sum.unusable += v.unusable;
+    sum.points += v.points;
+    sum.normals += v.normals;
+    sum.overlaps += v.overlaps;
+    if (sum.first_error.empty()) sum.first_error = v.first_error;
+  }
+  return sum;
+}
+
 std::vector<Verdict> judge_kernel(const Kernel& kernel, const PairFile& file) {
   std::vector<Verdict> verdicts;
   for (const ExactPair& pair : file.pairs) {

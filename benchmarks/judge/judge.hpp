@@ -28,6 +28,9 @@ struct Verdict {
   int errors() const { return decisions + unusable + points + normals + overlaps; }
 };
 
+// of all of a state, or of every one; the first error of them
+Verdict sum_of(const std::vector<Verdict>& verdicts, const std::string& state = "");
+
 // How one contact of a touching pair differs from the exact answer; of quantities that are not given, zero.
 struct ContactErrors {
   double point = 0;        // m beyond a plane

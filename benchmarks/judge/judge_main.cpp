@@ -24,16 +24,8 @@ std::vector<Method> peers_beside() {
     const bool stage = method.stage == "decision" || method.stage == "overlap";
     if (stage && (method.name == single_cold || method.name == single_warm)) list.push_back(method);
   }
-  const auto add = [&](const std::vector<Method>& more) { list.insert(list.end(), more.begin(), more.end()); };
-#ifdef VOUSSOIR_PEER_CCD
-  add(ccd_methods());
-#endif
-#ifdef VOUSSOIR_PEER_FCL
-  add(fcl_methods());
-#endif
-#ifdef VOUSSOIR_PEER_BULLET
-  add(bullet_methods());
-#endif
+  const std::vector<Method> libraries = library_methods();
+  list.insert(list.end(), libraries.begin(), libraries.end());
   return list;
 }
 

@@ -48,16 +48,7 @@ std::string quoted(std::string text) {
 }  // namespace
 
 std::string verdict_sentence(const std::string& kernel, const std::vector<Verdict>& verdicts) {
-  Verdict sum;
-  for (const Verdict& v : verdicts) {
-    sum.pairs += v.pairs;
-    sum.decisions += v.decisions;
-    sum.unusable += v.unusable;
-    sum.points += v.points;
-    sum.normals += v.normals;
-    sum.overlaps += v.overlaps;
-    if (sum.first_error.empty()) sum.first_error = v.first_error;
-  }
+  const Verdict sum = sum_of(verdicts);
   if (sum.errors() == 0) return fmt::format("{}: no error in {} pairs\n", kernel, sum.pairs);
   return fmt::format(
       "{}: {} pairs, wrong: {} decisions, {} points, {} normals, {} overlaps; {} answers unusable. The first: {}\n",

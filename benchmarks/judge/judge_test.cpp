@@ -25,22 +25,6 @@ const PairFile& two_of_each() {
   return file;
 }
 
-Verdict sum_of(const std::vector<Verdict>& verdicts, const std::string& state = "") {
-  Verdict sum;
-  for (const Verdict& v : verdicts) {
-    if (!state.empty() && v.state != state) continue;
-    sum.pairs += v.pairs;
-    sum.contacts += v.contacts;
-    sum.decisions += v.decisions;
-    sum.unusable += v.unusable;
-    sum.points += v.points;
-    sum.normals += v.normals;
-    sum.overlaps += v.overlaps;
-    if (sum.first_error.empty()) sum.first_error = v.first_error;
-  }
-  return sum;
-}
-
 // ---- exact answers --------------------------------------------------------------------------------------------------
 
 TEST(ExactPairs, CubesSideBySideMatchTheClosedForm) {

@@ -211,7 +211,6 @@ PencilAtRest<Dim> pencil_at_rest(const Prepared<Dim>& scene, const State<Dim>& r
     found.reason = "the forces of joints that stick are not those at rest: their laws have no elastic tangent";
     return found;
   }
-  state.increment.base = twin.base;  // from which linings take their interfaces
   found.pencil.stiffness = twin.tangent(twin.base);
   found.tangent.asymmetry = make_symmetric(found.pencil.stiffness);
   if (found.tangent.asymmetry > most_asymmetry) {

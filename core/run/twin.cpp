@@ -109,13 +109,13 @@ void Twin<Dim>::begin_increment(const Schedule& schedule) {
 template <int Dim>
 BlockMatrix<freedoms<Dim>> Twin<Dim>::tangent(const StaticBase<Dim>& from) {
   State<Dim>& state = progress.state;
-  StaticBase<Dim> begin = from;
+  StaticBase<Dim>& begin = state.increment.base;  // which the pairs of linings read
+  begin = from;
   std::vector<PairStiffness<Dim>> none, stiffness;
   follow_list(state.contacts, state.counters.neighbour_builds, begin, none);
   const BodiesOfStep<Dim> bodies(unknowns, {});
   find_pair_stiffness(model, settings, state.schedule, joint_step(settings, state.time_step, state.relaxation),
                       state.bodies, state.contacts, begin.histories, bodies.place, state.counters, stiffness);
-  state.increment.base = begin;  // which the pairs of linings read
   for (const StepSupport<Dim>& row : step_supports<Dim>)
     row.add_pairs(model, settings, state, stiffness);
   std::vector<typename PairStiffness<Dim>::Block> of_water, own = load_stiffness(model, state);
