@@ -176,9 +176,9 @@ ReferenceFile read_reference(const fs::path& file) {
     }
     return reference;
   } catch (const Json::exception& fault) {
-    throw BadInput(fmt::format("{}: {}; write the problem anew", file.string(), fault.what()));
+    throw BadInput(fmt::format("{}: {}; write the problem files again", file.string(), fault.what()));
   } catch (const std::invalid_argument& fault) {
-    throw BadInput(fmt::format("{}: {}; write the problem anew", file.string(), fault.what()));
+    throw BadInput(fmt::format("{}: {}; write the problem files again", file.string(), fault.what()));
   }
 }
 

@@ -1,5 +1,5 @@
 // pairs.json: pairs of the kernel benchmark as planes, each with the answer of exact arithmetic, so that any contact
-// kernel can be judged by them. What every key means stands in the file itself, under "definitions".
+// kernel can be judged by them. What every key means is in the file itself, under "definitions".
 #pragma once
 
 #include <cstdint>

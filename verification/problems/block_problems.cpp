@@ -211,7 +211,8 @@ Problem wedge() {
   p.words.protocol =
       "Kinetic: full gravity from the start. At rest: gravity grows in its own direction from nothing to full within 1 "
       "s "
-      "and is held. Bisection of the friction angle between 15 and 40 deg to 0.005 deg; each trial starts anew at one "
+      "and is held. Bisection of the friction angle between 15 and 40 deg to 0.005 deg; each trial starts from the "
+      "beginning at one "
       "friction angle. Stiff joints, no damping in the kinetic trial.";
   p.words.two_answers =
       "Kinetic and at rest. Rigid blocks at rest have an equilibrium at every friction angle between two closed forms: "

@@ -7,7 +7,8 @@
 namespace voussoir::problems {
 
 const std::string tilt_protocol =
-    "Each trial starts anew, at rest, with one tilt. Gravity has its direction from the start; it grows from nothing "
+    "Each trial starts from the beginning, at rest, with one tilt. Gravity has its direction from the start; it grows "
+    "from nothing "
     "to "
     "9.81 m/s2 within 1 s, linearly, and is held until 3.5 s. Bisection of the tilt to 0.005 deg between the ends of "
     "`search`. Damping of the code's own choice, stated in answer.csv as `# setting`.";

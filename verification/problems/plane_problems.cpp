@@ -133,7 +133,7 @@ Problem arch() {
   p.words.protocol =
       "Gravity grows from nothing to 9.81 m/s2 within 1 s and is held until 6 s. Bisection of the thickness between "
       "0.25 "
-      "and 1.5 m to 2.5 mm, each trial anew. Friction angle 45 deg: no sliding.";
+      "and 1.5 m to 2.5 mm, each trial from the beginning. Friction angle 45 deg: no sliding.";
   p.words.two_answers =
       "One answer. With joint stiffness use the stiff joints (100 GPa/m): the hinges then turn about a pressed length, "
       "and the arch must be thicker.";
@@ -196,7 +196,7 @@ Problem bonded_beam() {
   p.words.protocol =
       "Gravity grows from nothing to 9.81 m/s2 within 1 s, and is held. Bisection of T between 50 and 300 kPa to 500 "
       "Pa, "
-      "each trial anew with a whole bond. Damping of the code's own choice, stated.";
+      "each trial from the beginning with a whole bond. Damping of the code's own choice, stated.";
   p.words.two_answers =
       "Only the stated joints: rotation and displacement are those of the joint's springs. A code without stiffness "
       "per area "
@@ -248,7 +248,7 @@ Problem bolted_block() {
   p.words.protocol =
       "Gravity grows from nothing to 9.81 m/s2 within 1 s and is held until 3.5 s; the bolt's force as given load "
       "grows "
-      "with it. Bisection of the friction angle between 20 and 40 deg to 0.01 deg, each trial anew.";
+      "with it. Bisection of the friction angle between 20 and 40 deg to 0.01 deg, each trial from the beginning.";
   p.words.two_answers = "One answer: force balance of a block that slides does not know the joint's stiffness.";
   p.words.tolerance = because + ".";
   return p;

@@ -16,7 +16,7 @@ std::string trial_text(const Problem& p, const std::string& comment) {
   const Search& s = *p.search;
   std::string text = fmt::format(
       "{} SEARCH {}: bisect between {:g} and {:g} to {:g}, fails at the {} end; each trial runs "
-      "this file anew with\n",
+      "this file from the beginning with\n",
       comment, s.parameter, s.lower, s.upper, s.tolerance, s.fails_at_upper ? "upper" : "lower");
   switch (s.kind) {
     case SearchKind::friction:
