@@ -34,6 +34,7 @@ const std::vector<std::vector<std::string_view>> floors{
     {"model/"},
     {"key_blocks/", "stage/"},
     {"limit/", "output/", "scene/", "step/"},
+    {"implicit/"},
     {"step"},  // step.hpp and step.cpp: one screen
     {"run/"},
     {"modes/"},

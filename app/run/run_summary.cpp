@@ -131,6 +131,13 @@ void print_cost(const Results& results, const std::vector<AccuracyRound>& rounds
   if (counters.static_fallbacks > 0)
     fmt::print("  Newton's method left {} of its increments to relaxation{}\n", counters.static_fallbacks,
                reasons_of_fallbacks(counters));
+  if (counters.implicit_solutions > 0)
+    fmt::print(
+        "  implicit steps: {} systems, {:.2g} iterations each; {} held by the load, {} by their error; {} "
+        "refused, {} halved\n",
+        counters.implicit_solutions,
+        static_cast<double>(counters.implicit_iterations) / static_cast<double>(counters.implicit_solutions),
+        counters.implicit_by_load, counters.implicit_by_error, counters.implicit_refused, counters.implicit_halved);
   for (std::size_t k = 0; k + 1 < rounds.size(); ++k)
     fmt::print("  round {}: {} contact evaluations; {}\n", k + 1, rounds[k].contact_evaluations, rounds[k].told);
   if (results.budget_evaluations > 0)

@@ -29,6 +29,7 @@ enum class Source {
   prescribed_motion,
   local_damping,
   relaxation,
+  unresolved_motion,
   // no loads from here on
   friction,
   lost_area,
@@ -36,6 +37,7 @@ enum class Source {
   stiffening,
   dilation,
   irrecoverable_closure,
+  unresolved_springs,
   bolt_yield,
   lining_slip,
   gravity_ramp,
@@ -70,13 +72,15 @@ inline constexpr std::array<SourceRow, source_count> source_table{{
     {Source::prescribed_motion, "prescribed_motion", "", 1, 0, 0, 0, 1},
     {Source::local_damping, "local_damping", "", -1, 0, 0, 1, 0},
     {Source::relaxation, "relaxation", "", -1, 0, 0, 1, 0},
-    {Source::friction, "friction", "", 0, 1, 0, 0, 0},      // lost to slip
+    {Source::unresolved_motion, "unresolved_motion", "", -1, 0, 0, 1, 0},  // implicit steps: swings too fast for them
+    {Source::friction, "friction", "", 0, 1, 0, 0, 0},                     // lost to slip
     {Source::lost_area, "lost_area", "", 0, 1, 0, 0, 0},    // lost when a joint under shear loses or gains area
     {Source::dashpots, "dashpots", "", 0, 1, 0, 1, 0},      // lost to viscous damping
     {Source::stiffening, "stiffening", "", 0, 1, 0, 0, 0},  // lost by shear springs that stiffened with stress under
                                                             // their force; negative: gained
     {Source::dilation, "dilation", "", 0, 1, 0, 0, 0},      // lost by normal springs as joints rise; negative: gained
     {Source::irrecoverable_closure, "irrecoverable_closure", "", 0, 1, 0, 0, 0},  // lost by joints that stay closed
+    {Source::unresolved_springs, "unresolved_springs", "", 0, 1, 0, 1, 0},        // the same, taken off the springs
     {Source::bolt_yield, "bolt_yield", "", 0, 1, 0, 0, 0},      // lost by bolts that yield, slip or break
     {Source::lining_slip, "lining_slip", "", 0, 1, 0, 0, 0},    // lost when a lining slips on rock, or its bond breaks
     {Source::gravity_ramp, "gravity_ramp", "", 0, 0, 1, 0, 1},  // put in by gravity that grows

@@ -84,7 +84,15 @@ struct DampingSettings {
 
   // ratio to critical of the dashpot in every contact's normal direction; 0..; lowers the stable time step
   double viscous_ratio = 0;
+
+  // dashpots of implicit steps in proportion to the joints' stiffness, normal and shear: this ratio to critical of a
+  // swing of that frequency, Hz, and in proportion to the frequency of others; 0..
+  double joint_ratio = 0, joint_frequency = 1;
 };
+
+// of true motion: leapfrog, whose step follows the stiffest joint; or the implicit midpoint rule, whose step follows
+// the motion
+enum class Integration { explicit_steps, implicit_steps };
 
 struct TimeSettings {
   // time step as a fraction of the limit 2/sqrt(lambda); one-sided contacts gain energy above 0.2 (0.1 without damping,
@@ -94,6 +102,9 @@ struct TimeSettings {
 
   // s; replaces the estimate, for scenes whose step no contact determines
   std::optional<double> step;
+
+  Integration integration = Integration::explicit_steps;
+  double error = 0;  // m: of an implicit step; 0: 1e-5 of the smallest free block
 };
 
 struct EquilibriumSettings {
@@ -272,14 +283,16 @@ struct StagePlan {
   std::optional<ExcavationForcesPlan> excavation_forces{};  // likewise; without it they are removed at once
   std::optional<StaticsSettings> statics;                   // replaces the scene's within this stage
   std::optional<DampingSettings> damping;                   // likewise
-  std::optional<double> time_fraction;                      // the same of TimeSettings::fraction
+  std::optional<TimeSettings> time;                         // likewise; of kind run
 };
 
 // the settings within a stage
 inline Settings settings_of(const StagePlan& stage, Settings scene) {
   scene.statics = stage.statics.value_or(scene.statics);
   scene.damping = stage.damping.value_or(scene.damping);
-  scene.time.fraction = stage.time_fraction.value_or(scene.time.fraction);
+  scene.time = stage.time.value_or(scene.time);
+  // rest is sought by relaxation or Newton's method
+  if (!std::holds_alternative<RunPlan>(stage.plan)) scene.time.integration = Integration::explicit_steps;
   return scene;
 }
 

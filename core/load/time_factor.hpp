@@ -8,4 +8,7 @@ namespace voussoir {
 // at a time since the stage began, s
 double value_at(const TimeFactor& factor, double time);
 
+// its mean between two times, `to` after `from`: exact
+double mean_of(const TimeFactor& factor, double from, double to);
+
 }  // namespace voussoir

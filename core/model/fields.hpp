@@ -228,8 +228,8 @@ void visit_fields(Just<Counters> auto& c, auto&& visit) {
 // ---- solvers -------------------------------------------------------------------------------------------------------
 
 void visit_fields(Just<TimeStep> auto& t, auto&& visit) {
-  auto& [length, allowed, frequency] = t;
-  visit(Saved{}, length, allowed, frequency);
+  auto& [length, allowed, frequency, shortest, longest] = t;
+  visit(Saved{}, length, allowed, frequency, shortest, longest);
 }
 
 void visit_fields(Either<Relaxation> auto& r, auto&& visit) {

@@ -46,6 +46,9 @@ struct Counters {
   long long linear_iterations = 0;                                  // of these: products with their matrices
   long long static_fallbacks = 0;                                   // increments that it left to relaxation
   long long broken_bonds_fallbacks = 0, unconverged_fallbacks = 0;  // because bonds broke; without equilibrium
+  long long implicit_solutions = 0, implicit_iterations = 0;        // implicit steps: systems and their iterations
+  long long implicit_refused = 0, implicit_halved = 0;              // whose error was too large; that were not solved
+  long long implicit_by_load = 0, implicit_by_error = 0;            // what held the length of a step that was taken
 };
 
 // their names in results
@@ -78,6 +81,12 @@ inline constexpr CounterRow counter_table[] = {
     {"static_fallbacks", &Counters::static_fallbacks},
     {"broken_bonds_fallbacks", &Counters::broken_bonds_fallbacks},
     {"unconverged_fallbacks", &Counters::unconverged_fallbacks},
+    {"implicit_solutions", &Counters::implicit_solutions},
+    {"implicit_iterations", &Counters::implicit_iterations},
+    {"implicit_refused", &Counters::implicit_refused},
+    {"implicit_halved", &Counters::implicit_halved},
+    {"implicit_by_load", &Counters::implicit_by_load},
+    {"implicit_by_error", &Counters::implicit_by_error},
 };
 static_assert(std::size(counter_table) * sizeof(long long) == sizeof(Counters), "every counter has a row");
 

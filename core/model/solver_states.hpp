@@ -15,9 +15,10 @@
 namespace voussoir {
 
 struct TimeStep {
-  double length = 0;              // s: of the last step; 0 at the start
-  double allowed = 0;             // s: of the next; 0: to be estimated
-  std::vector<double> frequency;  // rad/s, by body: stiffest mode of the last estimate
+  double length = 0;                 // s: of the last step; 0 at the start
+  double allowed = 0;                // s: of the next; 0: to be estimated
+  std::vector<double> frequency;     // rad/s, by body: stiffest mode of the last estimate
+  double shortest = 0, longest = 0;  // s: of the implicit steps of this stage; 0: none
 };
 
 // Adaptive dynamic relaxation (step/relaxation.hpp): the data that it keeps from step to step.

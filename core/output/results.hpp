@@ -58,8 +58,9 @@ struct StageResult {
   std::string ended;       // why it stopped, e.g. "equilibrium", "end time", "bracket closed"
   bool relaxed = false;    // ended by relaxation: its time and velocities are fictitious (ends_relaxed)
   long long steps = 0;
-  double time = 0;       // s simulated within the stage
-  double time_step = 0;  // s at its end
+  double time = 0;           // s simulated within the stage
+  double time_step = 0;      // s at its end; the longest of implicit steps
+  double shortest_step = 0;  // s: of implicit steps; 0: there was none
   // the equilibrium measure of the state at its end, which after a search is the last stable one; infinite if there is
   // no contact force as a reference, negative if equilibrium was not sought
   double unbalanced = 0;

@@ -181,6 +181,7 @@ Json stages_json(const Results& results, NumberWriter& number) {
              {"steps", stage.steps},
              {"time_s", number(stage.time, prefix + "time_s")},
              {"time_step_s", number(stage.time_step, prefix + "time_step_s")}};
+    if (stage.shortest_step > 0) entry["shortest_step_s"] = number(stage.shortest_step, prefix + "shortest_step_s");
     add_unbalanced(entry, stage.unbalanced, number, prefix + "unbalanced");
     if (stage.mechanism.known()) entry["mechanism"] = mechanism_json(stage.mechanism, number);
     add_supports(entry, supports_carry(results, static_cast<int>(stages.size())), prefix, number);

@@ -16,7 +16,7 @@
 namespace voussoir {
 
 // incremented with every change of Progress
-inline constexpr int checkpoint_format = 25;
+inline constexpr int checkpoint_format = 26;
 
 // the error of the bytes, e.g. "is damaged: …"; the caller adds the file's name
 struct CheckpointError : std::runtime_error {

@@ -7,6 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "core/implicit/implicit_step.hpp"
 #include "core/run/bonds_as_sliced.hpp"
 #include "core/run/failure_watch.hpp"
 #include "core/run/record.hpp"
@@ -105,6 +106,11 @@ template <int Dim>
 std::optional<StageOutcome> execute(const RunPlan& timed, const StageInForce<Dim>& stage, const Watcher<Dim>& watcher,
                                     Progress<Dim>& progress) {
   if (!progress.run.under_way) note_begin(stage, with_forces(stage, progress.state, false), progress);
+  if (stage.settings.time.integration == Integration::implicit_steps)
+    if (const std::string why = not_followed_implicitly(stage.model, stage.settings); !why.empty()) {
+      fail(stage.plan(), Outcome::incomplete, why, progress.results);
+      return StageOutcome{"a motion that implicit steps do not follow"};
+    }
   RunGoal goal;
   goal.end_time = progress.stage_began + timed.duration;
   return run_to(stage, goal, timed.gravity, StopReason::end_time, watcher, progress);

@@ -132,8 +132,8 @@ void visit_fields(Just<Value> auto& v, auto&& visit) {
 }
 
 void visit_fields(Just<StageResult> auto& s, auto&& visit) {
-  auto& [name, kind, ended, relaxed, steps, time, time_step, unbalanced, mechanism] = s;
-  visit(Saved{}, name, kind, ended, relaxed, steps, time, time_step, unbalanced, mechanism);
+  auto& [name, kind, ended, relaxed, steps, time, time_step, shortest_step, unbalanced, mechanism] = s;
+  visit(Saved{}, name, kind, ended, relaxed, steps, time, time_step, shortest_step, unbalanced, mechanism);
 }
 
 void visit_fields(Just<History> auto& h, auto&& visit) {

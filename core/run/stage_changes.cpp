@@ -43,7 +43,7 @@ template <int Dim>
 void renew_for_stage(const Model<Dim>& model, State<Dim>& state) {
   state.bodies.listed_at.clear();
   state.time_step.frequency.clear();
-  state.time_step.allowed = 0;
+  state.time_step.allowed = state.time_step.shortest = state.time_step.longest = 0;
   state.schedule.started = state.schedule.time;
   std::vector<ReliefLoad<Dim>>& relief = state.loads.relief;
   for (ReliefLoad<Dim>& load : relief)
@@ -98,7 +98,8 @@ StageResult result_of(const StageInForce<Dim>& stage, const StageOutcome& done, 
   r.relaxed = ends_relaxed(stage.plan(), stage.settings.statics);
   r.steps = state.counters.steps - progress.steps_before;
   r.time = state.schedule.time - progress.stage_began;
-  r.time_step = state.time_step.length;
+  r.time_step = state.time_step.longest > 0 ? state.time_step.longest : state.time_step.length;
+  r.shortest_step = state.time_step.shortest;
   r.unbalanced = done.unbalanced;
   return r;
 }

@@ -83,14 +83,16 @@ bool states(const Subject& subject, std::string_view table, std::string_view key
 
 // A stage of kind run computes the true motion: without local damping and with the time step of undamped motion, unless
 // these are stated.
-void free_runs(const Subject& scene, const DampingSettings& damping, std::vector<StageSpec>& stages) {
+void free_runs(const Subject& scene, const Settings& settings, std::vector<StageSpec>& stages) {
   for (StageSpec& stage : stages) {
     if (!std::holds_alternative<RunPlan>(stage.plan.plan)) continue;
     if (!states(scene, "damping", "local") && !states(stage.subject, "damping", "local")) {
-      if (!stage.plan.damping) stage.plan.damping = damping;
+      if (!stage.plan.damping) stage.plan.damping = settings.damping;
       stage.plan.damping->local = 0;
     }
-    if (!states(scene, "time", "fraction")) stage.plan.time_fraction = TimeSettings::most_undamped;
+    if (states(scene, "time", "fraction") || states(stage.subject, "time", "fraction")) continue;
+    if (!stage.plan.time) stage.plan.time = settings.time;
+    stage.plan.time->fraction = TimeSettings::most_undamped;
   }
 }
 
@@ -260,6 +262,17 @@ StageSpec read_stage(const Subject& table, const Settings& settings, int dimensi
     stage.plan.damping = settings.damping;
     read_keys(*own->node, "damping", *stage.plan.damping);
   }
+  if (const auto own = child(table, "time")) {
+    stage.plan.time = settings.time;
+    read_keys(*own->node, "time", *stage.plan.time);
+  }
+  const TimeSettings& time = stage.plan.time ? *stage.plan.time : settings.time;
+  const double joint_ratio = (stage.plan.damping ? *stage.plan.damping : settings.damping).joint_ratio;
+  if (std::holds_alternative<RunPlan>(stage.plan.plan) && joint_ratio > 0 &&
+      time.integration == Integration::explicit_steps)
+    refuse(table, "damping",
+           "joint_ratio is above zero: explicit steps would shrink with such dashpots; write time = { integration = "
+           "\"implicit\" } in this stage, or damping = { joint_ratio = 0, viscous_ratio = 0.05 }");
   if (table.node->find("statics") || table.node->find("static_increments")) {
     stage.plan.statics = settings.statics;
     read_keys(*table.node, "stage", *stage.plan.statics);
@@ -429,7 +442,7 @@ std::vector<StageSpec> read_stages(const Subject& scene, int dimension, const Se
   for (const Subject& item : children(scene, "stage"))
     stages.push_back(read_stage(item, settings, dimension, rock_weight));
   chain_gravity(stages);
-  free_runs(scene, settings.damping, stages);
+  free_runs(scene, settings, stages);
   return stages;
 }
 

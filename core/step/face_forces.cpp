@@ -6,23 +6,6 @@
 #include "core/joint_laws/elastic_coulomb.hpp"
 
 namespace voussoir {
-namespace {
-
-double about_normal(const Vector<3>& normal, const Spin<3>& spin) {
-  return normal.dot(spin);
-}
-double about_normal(const Vector<2>&, const Spin<2>&) {
-  return 0;
-}
-
-Spin<3> twist_moment(double twist, const Vector<3>& normal) {
-  return twist * normal;
-}
-Spin<2> twist_moment(double, const Vector<2>&) {
-  return Spin<2>::Zero();
-}
-
-// energy of the springs
 template <int Dim>
 double held(const JointState<Dim>& h, double shear_stiffness) {
   if (!(shear_stiffness > 0)) return 0;
@@ -32,7 +15,6 @@ double held(const JointState<Dim>& h, double shear_stiffness) {
   return energy;
 }
 
-// transfers the springs to another area, whose centre is `apart` from the previous one
 template <int Dim>
 void change_area(const Vector<Dim>& normal, const Vector<Dim>& apart, double area, double polar, JointState<Dim>& h) {
   if constexpr (Dim == 3) {
@@ -52,6 +34,22 @@ void change_area(const Vector<Dim>& normal, const Vector<Dim>& apart, double are
   }
   h.area = area;
   h.polar = polar;
+}
+
+namespace {
+
+double about_normal(const Vector<3>& normal, const Spin<3>& spin) {
+  return normal.dot(spin);
+}
+double about_normal(const Vector<2>&, const Spin<2>&) {
+  return 0;
+}
+
+Spin<3> twist_moment(double twist, const Vector<3>& normal) {
+  return twist * normal;
+}
+Spin<2> twist_moment(double, const Vector<2>&) {
+  return Spin<2>::Zero();
 }
 
 // limits shear and twist by Coulomb friction, and returns the energy of slip
@@ -148,6 +146,10 @@ FaceForce<Dim> face_force(const JointProperties& properties, double friction, do
   return answer;
 }
 
+template double held<2>(const JointState<2>&, double);
+template double held<3>(const JointState<3>&, double);
+template void change_area<2>(const Vector<2>&, const Vector<2>&, double, double, JointState<2>&);
+template void change_area<3>(const Vector<3>&, const Vector<3>&, double, double, JointState<3>&);
 template FaceForce<2> face_force<2>(const JointProperties&, double, double, double, const PairMotion<2>&,
                                     const ContactGeometry<2>&, const IntegratedContact<2>&, JointState<2>&, Vector<3>*);
 template FaceForce<3> face_force<3>(const JointProperties&, double, double, double, const PairMotion<3>&,

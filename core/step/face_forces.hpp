@@ -21,6 +21,15 @@ struct FaceForce {
   double elastic = 0, friction = 0, lost_area = 0, dashpots = 0;  // J, of this step; `elastic`: stored now
 };
 
+// J: energy of the springs of a history
+template <int Dim>
+double held(const JointState<Dim>& history, double shear_stiffness);
+
+// transfers the springs to another area, m² and m⁴, whose centre is `apart` from the previous one
+template <int Dim>
+void change_area(const Vector<Dim>& normal, const Vector<Dim>& apart, double area, double polar,
+                 JointState<Dim>& history);
+
 // `dashpot`, N s/m, along the normal at the centre, which never makes the contact pull. The history is updated.
 // `slip_normal`: FaceSlip::normal; zero: it is found and returned, else the slip is found near it.
 template <int Dim>

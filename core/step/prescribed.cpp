@@ -8,6 +8,9 @@
 namespace voussoir {
 namespace {
 
+// s, of the interval of a record: around a time at which its velocity is asked for
+constexpr double instant = 1e-6;
+
 // Mean velocity of the records over a step, m/s: their displacement is right at the end of every step, however long.
 template <int Dim>
 Vector<Dim> recorded_velocity(const PrescribedMotion<Dim>& prescribed, double middle, double step) {
@@ -18,6 +21,24 @@ Vector<Dim> recorded_velocity(const PrescribedMotion<Dim>& prescribed, double mi
 }
 
 }  // namespace
+
+template <int Dim>
+Vector<Dim> path_of(const PrescribedMotion<Dim>& prescribed, double from, double to) {
+  Vector<Dim> path = (to - from) * mean_of(prescribed.factor, from, to) * prescribed.velocity;
+  for (const RecordedAxis<Dim>& record : prescribed.records)
+    path += path_between(*record.motion, from, to) * record.direction;
+  return path;
+}
+
+template <int Dim>
+Vector<Dim> velocity_at(const PrescribedMotion<Dim>& prescribed, double time) {
+  Vector<Dim> velocity = value_at(prescribed.factor, time) * prescribed.velocity;
+  for (const RecordedAxis<Dim>& record : prescribed.records) {
+    const double around = instant * record.motion->interval;
+    velocity += path_between(*record.motion, time - around, time + around) / (2 * around) * record.direction;
+  }
+  return velocity;
+}
 
 template <int Dim>
 Load<Dim> apply_prescribed_motion(const Body<Dim>& body, const PrescribedMotion<Dim>& prescribed, const Load<Dim>& load,
@@ -62,6 +83,8 @@ void stop_held(const Model<Dim>& model, std::vector<Motion<Dim>>& motions) {
 }
 
 #define VOUSSOIR_INSTANTIATE(Dim)                                                                                   \
+  template Vector<Dim> path_of<Dim>(const PrescribedMotion<Dim>&, double, double);                                  \
+  template Vector<Dim> velocity_at<Dim>(const PrescribedMotion<Dim>&, double);                                      \
   template Load<Dim> apply_prescribed_motion<Dim>(const Body<Dim>&, const PrescribedMotion<Dim>&, const Load<Dim>&, \
                                                   double, StepTimes, Motion<Dim>&, Kick<Dim>&);                     \
   template void stop_held<Dim>(const Model<Dim>&, std::vector<Motion<Dim>>&);

@@ -16,6 +16,14 @@ template <int Dim>
 Load<Dim> apply_prescribed_motion(const Body<Dim>& body, const PrescribedMotion<Dim>& prescribed, const Load<Dim>& load,
                                   double middle, StepTimes times, Motion<Dim>& motion, Kick<Dim>& kick);
 
+// m: between two times, in s since the stage began; exact
+template <int Dim>
+Vector<Dim> path_of(const PrescribedMotion<Dim>& prescribed, double from, double to);
+
+// m/s, at a time since the stage began
+template <int Dim>
+Vector<Dim> velocity_at(const PrescribedMotion<Dim>& prescribed, double time);
+
 // When a run begins: stops everything that is held and not prescribed, also bodies left moving by a prescribed motion
 // that has ended.
 template <int Dim>

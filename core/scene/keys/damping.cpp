@@ -63,6 +63,12 @@ KeyTable damping_keys() {
      .plausible = {.low = 1e-3, .high = 1, .or_zero = true}, .example = "0.1",
      .meaning = "normal dashpot of every contact, as a fraction of critical damping",
      .breaks = "large values shorten the time step"},
+    {.key = "joint_ratio", .members = {in(&DampingSettings::joint_ratio)}, .unit = "1", .range = {0, 1},
+     .plausible = {.low = 1e-3, .high = 0.2, .or_zero = true}, .example = "0.02",
+     .meaning = "implicit time steps: dashpots in proportion to the joints' normal and shear stiffness, as a fraction of critical damping at "
+         "joint_frequency_hz; half of it at half the frequency", .mistake = "was it given in percent?"},
+    {.key = "joint_frequency_hz", .members = {in(&DampingSettings::joint_frequency)}, .unit = "Hz", .range = {0, 1e6, true},
+     .plausible = {0.1, 1e3}, .example = "5", .meaning = "the frequency at which joint_ratio is stated"},
   }};
 }
 // clang-format on

@@ -9,6 +9,8 @@ KeyTable stage_change_keys() {
   return {"stage", {
     {.key = "damping", .type = table, .holds = {"damping"},
      .meaning = "replaces the scene's damping within this stage"},
+    {.key = "time", .type = table, .when = {"kind", "run"}, .holds = {"time"},
+     .meaning = "replaces the scene's time steps within this stage: explicit or implicit ones, and how long they are"},
     {.key = "fix", .type = tables, .holds = {"label", "selector"},
      .meaning = "blocks fixed before the stage begins"},
     {.key = "release", .type = tables, .holds = {"label", "selector"},

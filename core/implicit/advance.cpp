@@ -1,0 +1,280 @@
+#include "core/implicit/advance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/implicit/load_bounds.hpp"
+#include "core/implicit/step_system.hpp"
+#include "core/load/time_factor.hpp"
+#include "core/step/contacts.hpp"
+#include "core/step/face_forces.hpp"
+#include "core/step/loads.hpp"
+#include "core/step/neighbours.hpp"
+#include "core/step/prescribed.hpp"
+
+namespace voussoir {
+namespace {
+
+// Geometry of the points at half of the motion is found again so often at most.
+constexpr int most_geometries = 12;
+
+// A body turns by no more than this in a step, rad, and moves by no more than this part of the smallest block: so far
+// away are neighbours looked for.
+constexpr double most_turn = 1, most_way_of_size = 0.1;
+
+template <int Dim>
+class Advance {
+  static constexpr int F = freedoms<Dim>, S = spin_freedoms<Dim>;
+
+ public:
+  Advance(const Model<Dim>& m, const Settings& s, State<Dim>& now, double step, double geometry_within)
+      : model(m), settings(s), state(now), h(step), within(geometry_within), unknowns(m), mean(m.bodies.size()) {}
+
+  // false: the equations were not solved, or a body goes too far; the state is spoilt
+  bool carry_out() {
+    begin();
+    for (int k = 0; k < most_geometries; ++k) {
+      const std::vector<MeanMotion<Dim>> last = mean;
+      place_at_half();
+      const StepSolution solution = solve_step(model, unknowns, h, before, loads_at_half(), found.points, mean);
+      ++state.counters.implicit_solutions;
+      state.counters.implicit_iterations += solution.iterations;
+      if (!solution.solved || goes_too_far()) return false;
+      if (k == 0 || change_since(last) > within) continue;
+      end();
+      return true;
+    }
+    return false;
+  }
+
+ private:
+  void begin() {
+    before = state.bodies.motions;
+    histories = histories_of(state.contacts);
+    listed = state.counters.neighbour_builds;
+    for (std::size_t b = 0; b < before.size(); ++b) {
+      const Body<Dim>& body = model.bodies[b];
+      if (body.fixed || !body.present) continue;
+      mean[b].velocity = before[b].velocity;
+      mean[b].spin = angular_velocity(body, before[b]);
+    }
+    const double from = state.schedule.time - state.schedule.started;
+    for (const PrescribedMotion<Dim>& p : model.prescribed) {
+      const Vector<Dim> velocity = path_of(p, from, from + h) / h;
+      for (int k = 0; k < Dim; ++k)
+        if (p.translation[k]) mean[p.body].velocity[k] = velocity[k];
+      if (p.rotation) mean[p.body].spin = mean_of(p.factor, from, from + h) * p.angular_velocity;
+    }
+  }
+
+  void place_at_half() {
+    for (std::size_t b = 0; b < before.size(); ++b)
+      state.bodies.motions[b] = motion_at_half(before[b], mean[b], h);
+    JointHistories<Dim> now = histories;
+    if (listed != state.counters.neighbour_builds) follow_list(state.contacts, now);
+    state.contacts.kept.clear();
+    set_histories(now, state.contacts);
+    const long long builds = state.counters.neighbour_builds;
+    cache_poses(model, settings.threads, state.bodies);
+    find_neighbours(model, settings, state.bodies, state.contacts, state.counters);
+    if (builds != state.counters.neighbour_builds) {
+      histories = now;
+      follow_list(state.contacts, histories);
+      listed = state.counters.neighbour_builds;
+      now = histories;
+      set_histories(now, state.contacts);
+    }
+    find_contacts(model, settings, 0, state.bodies, state.contacts, state.counters);
+    found = find_step_points<Dim>(model, settings, state.schedule, state.bodies, state.contacts, now, {mean, h},
+                                  state.counters);
+  }
+
+  // without the contacts' forces
+  const std::vector<Load<Dim>>& loads_at_half() {
+    state.contacts.loads.assign(state.contacts.list.size(), {});
+    Schedule at_half = state.schedule;
+    at_half.time += 0.5 * h;
+    sum_loads(model, settings, at_half, state.bodies, state.contacts, state.supports, state.loads);
+    return state.loads.total;
+  }
+
+  bool goes_too_far() const {
+    const double most = most_way_of_size * smallest_free(model);
+    for (const int b : unknowns.bodies)
+      if (h * mean[b].spin.norm() > most_turn || h * (mean[b].velocity.norm()) > std::max(most, model.bodies[b].size))
+        return true;
+    return false;
+  }
+
+  double change_since(const std::vector<MeanMotion<Dim>>& last) const {
+    double most = 0;
+    for (const int b : unknowns.bodies)
+      most = std::max(most, h * ((mean[b].velocity - last[b].velocity).norm() +
+                                 model.bodies[b].radius * (mean[b].spin - last[b].spin).norm()));
+    return most;
+  }
+
+  // ---- the end of the step ------------------------------------------------------------------------------------------
+
+  void end() {
+    for (std::size_t b = 0; b < before.size(); ++b) {
+      const Body<Dim>& body = model.bodies[b];
+      if (!body.present || (body.fixed && !body.prescribed)) {
+        state.bodies.motions[b] = before[b];
+        continue;
+      }
+      state.bodies.motions[b] = motion_after(body, before[b], mean[b], h);
+      if (body.fixed) state.bodies.motions[b].velocity = mean[b].velocity;
+    }
+    set_prescribed_velocities();
+    add_works();
+    keep_histories();
+    calm();
+    state.schedule.time += h;
+    state.time_step.length = 0;
+    cache_poses(model, settings.threads, state.bodies);
+  }
+
+  // Of a prescribed motion: the mean velocity and half of the change of the velocity. With the velocity itself the
+  // impulse of a body that follows would be left out of the joints' forces by a sixth of the change of the acceleration
+  // times h, to first order in h.
+  void set_prescribed_velocities() {
+    const double from = state.schedule.time - state.schedule.started;
+    for (const PrescribedMotion<Dim>& p : model.prescribed) {
+      const Vector<Dim> half = 0.5 * (velocity_at(p, from + h) - velocity_at(p, from));
+      Motion<Dim>& m = state.bodies.motions[p.body];
+      for (int k = 0; k < Dim; ++k)
+        if (p.translation[k]) m.velocity[k] = mean[p.body].velocity[k] + half[k];
+      if (!p.rotation) continue;
+      const double change = 0.5 * (value_at(p.factor, from + h) - value_at(p.factor, from));
+      m.angular_momentum = angular_momentum(model.bodies[p.body], m.rotation,
+                                            Spin<Dim>(mean[p.body].spin + change * p.angular_velocity));
+    }
+  }
+
+  // of all loads along the step, and of the forces at the points
+  void add_works() {
+    EnergyFlows& flows = state.ledger.energy.flows;
+    std::vector<Load<Dim>> of_points(model.bodies.size());
+    for (const StepPoint<Dim>& p : found.points) {
+      const Vector<Dim> force = p.force.normal * p.normal + p.force.shear;
+      of_points[p.body_b] += {force, moment(p.arm_b, force)};
+      of_points[p.body_a] += {-force, -moment(p.arm_a, force)};
+    }
+    const auto work = [&](const std::vector<Load<Dim>>& loads) {
+      double sum = 0;
+      for (std::size_t b = 0; b < loads.size(); ++b)
+        if (!model.bodies[b].immobile())
+          sum += h * (loads[b].force.dot(mean[b].velocity) + loads[b].moment.dot(mean[b].spin));
+      return sum;
+    };
+    for (std::size_t i = 0; i < load_count; ++i)
+      if (static_cast<Source>(i) != Source::contacts && static_cast<Source>(i) != Source::prescribed_motion)
+        flows.values[i] += source_table[i].motion * work(state.loads.by_source.values[i]);
+    flows[Source::contacts] += work(of_points);
+    for (const PrescribedMotion<Dim>& p : model.prescribed) {
+      const Load<Dim> all{state.loads.total[p.body].force + of_points[p.body].force,
+                          state.loads.total[p.body].moment + of_points[p.body].moment};
+      for (int k = 0; k < Dim; ++k)
+        if (p.translation[k]) flows[Source::prescribed_motion] -= h * all.force[k] * mean[p.body].velocity[k];
+      if (p.rotation) flows[Source::prescribed_motion] -= h * all.moment.dot(mean[p.body].spin);
+    }
+  }
+
+  void keep_histories() {
+    for (Contact<Dim>& c : state.contacts.list)
+      c.history = {};
+    closed.clear();
+    for (const StepContact<Dim>& whole : found.contacts)
+      keep_history(whole);
+  }
+
+  // of one contact: its points' springs become one again, whose stress is uniform but for a turn about the centre
+  void keep_history(const StepContact<Dim>& whole) {
+    EnergyFlows& flows = state.ledger.energy.flows;
+    JointState<Dim> kept;
+    PressedArea<Dim> pressed;
+    double slipped = 0, elastic = 0, shear_stiffness = 0;
+    ends.clear();
+    for (std::size_t k = whole.first; k < whole.first + whole.count; ++k) {
+      const StepPoint<Dim>& p = found.points[k];
+      const Vector<Dim> motion = p.motion(mean);
+      const double overlap = p.overlap_after(motion);
+      const PointEnd<Dim> end = end_of_step<Dim>(p.law, p.from, overlap, p.slip(motion), p.force);
+      flows[Source::friction] += end.friction;
+      flows[Source::dashpots] += end.dashpot;
+      flows[Source::unresolved_springs] += end.unresolved;
+      ends.push_back(end.shear);
+      if (!(overlap > 0)) continue;
+      pressed.add(p);
+      kept.normal = p.normal;
+      kept.shear_force += end.shear;
+      slipped = std::max(slipped, end.plastic_slip);
+      if (p.law.shear > 0) elastic += 0.5 * end.shear.squaredNorm() / p.law.shear;
+      shear_stiffness = p.law.shear / p.area;
+      closed.push_back({&p, p.law.chi_normal * p.law.normal, end.stuck ? p.law.chi_shear * p.law.shear : 0});
+    }
+    flows[Source::lost_area] += whole.lost + elastic;
+    if (kept.normal.isZero(0)) return;
+    for (std::size_t k = 0; k < whole.count; ++k) {
+      const StepPoint<Dim>& p = found.points[whole.first + k];
+      kept.twist += twist_of(kept.normal, Vector<Dim>(p.point - pressed.centre), ends[k]);
+    }
+    kept.point = pressed.centre;
+    kept.area = pressed.area;
+    kept.polar = pressed.polar;
+    kept.plastic_slip = histories.contacts[whole.contact].history.plastic_slip + slipped;
+    state.contacts.list[whole.contact].history = kept;
+    flows[Source::lost_area] -= held(kept, shear_stiffness);
+  }
+
+  static double twist_of(const Vector<2>&, const Vector<2>&, const Vector<2>&) { return 0; }
+  static double twist_of(const Vector<3>& normal, const Vector<3>& arm, const Vector<3>& shear) {
+    return normal.dot(arm.cross(shear));
+  }
+
+  void calm() {
+    if (closed.empty()) return;
+    const Calmed calmed = calm_unresolved(model, unknowns, h, closed, state.bodies.motions);
+    state.ledger.energy.flows[Source::prescribed_motion] += calmed.driven;
+    state.ledger.energy.flows[Source::unresolved_motion] += calmed.taken;
+  }
+
+  const Model<Dim>& model;
+  const Settings& settings;
+  State<Dim>& state;
+  const double h, within;
+  StepUnknowns<Dim> unknowns;
+  std::vector<MeanMotion<Dim>> mean;  // by body
+  std::vector<Motion<Dim>> before;
+  JointHistories<Dim> histories;  // at the start, in the order of the last list
+  long long listed = 0;
+  StepPoints<Dim> found;
+  std::vector<ClosedPoint<Dim>> closed;
+  std::vector<Vector<Dim>> ends;  // N: the shear of a contact's points after the step
+};
+
+}  // namespace
+
+template <int Dim>
+double smallest_free(const Model<Dim>& model) {
+  double size = std::numeric_limits<double>::infinity();
+  for (const Body<Dim>& body : model.bodies)
+    if (!body.fixed && body.present) size = std::min(size, body.size);
+  return size;
+}
+
+template <int Dim>
+bool advance(const Model<Dim>& model, const Settings& settings, double h, double within, State<Dim>& state) {
+  return Advance<Dim>(model, settings, state, h, within).carry_out();
+}
+
+#define VOUSSOIR_INSTANTIATE(Dim)                        \
+  template double smallest_free<Dim>(const Model<Dim>&); \
+  template bool advance<Dim>(const Model<Dim>&, const Settings&, double, double, State<Dim>&);
+VOUSSOIR_INSTANTIATE(2)
+VOUSSOIR_INSTANTIATE(3)
+#undef VOUSSOIR_INSTANTIATE
+
+}  // namespace voussoir

@@ -1,0 +1,26 @@
+// True motion by implicit steps: the length of a step follows the motion, not the stiffness of the joints.
+// Energy-momentum midpoint rule with dissipation of what the step does not resolve (core/implicit/README.md).
+#pragma once
+
+#include <string>
+
+#include "core/base/settings.hpp"
+#include "core/model/model.hpp"
+#include "core/model/state.hpp"
+
+namespace voussoir {
+
+// Moves the bodies on by a step whose own error is within the settings' tolerance, or of the stated length. The forces
+// of the state are those at its positions, found without slip (JointStep::length 0).
+template <int Dim>
+void move_implicitly(const Model<Dim>& model, const Settings& settings, State<Dim>& state);
+
+// m: the tolerance of a step if none is stated: 1e-5 of the smallest free block
+template <int Dim>
+double default_step_error(const Model<Dim>& model);
+
+// Why a model's motion is not followed by implicit steps, as a sentence with the repair; empty: it is.
+template <int Dim>
+std::string not_followed_implicitly(const Model<Dim>& model, const Settings& settings);
+
+}  // namespace voussoir

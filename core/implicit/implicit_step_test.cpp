@@ -1,0 +1,353 @@
+// Motions by implicit steps against closed forms: energy at any step, friction of second order, impacts.
+#include "core/implicit/implicit_step.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/implicit/mean_motion.hpp"
+#include "core/load/ground_motion.hpp"
+#include "core/step.hpp"
+#include "core/testing/whole_runs.hpp"
+
+namespace voussoir::implicit_step_test {
+namespace {
+
+constexpr double g = 9.81;
+
+// J: kinetic, of the springs, and of the weights against the positions of reference
+template <int Dim>
+double mechanical(const Prepared<Dim>& scene, const State<Dim>& state) {
+  State<Dim> there = state;
+  Settings settings = scene.settings;
+  settings.time.integration = Integration::implicit_steps;
+  there.time_step.length = 0;
+  find_forces(scene.model, settings, there);
+  double sum = there.ledger.energy.elastic;
+  for (std::size_t b = 0; b < scene.model.bodies.size(); ++b) {
+    const Body<Dim>& body = scene.model.bodies[b];
+    if (body.fixed) continue;
+    const Motion<Dim>& m = state.bodies.motions[b];
+    sum += kinetic_energy(body, m) - body.mass * scene.model.gravity.dot(m.displacement);
+  }
+  return sum;
+}
+
+struct EnergyPath {
+  double start = 0, most = 0, end = 0;  // J
+};
+
+template <int Dim>
+struct Followed {
+  Progress<Dim> end;
+  EnergyPath energy;
+};
+
+template <int Dim>
+Followed<Dim> followed(const Prepared<Dim>& scene) {
+  EnergyPath path;
+  bool begun = false;
+  Watcher<Dim> watcher;
+  watcher.pause = [&](const Progress<Dim>& now) {
+    path.end = mechanical(scene, now.state);
+    if (!begun) path.start = path.most = path.end;
+    begun = true;
+    path.most = std::max(path.most, path.end);
+    return false;
+  };
+  Progress<Dim> progress = simulated(scene, watcher);
+  path.end = mechanical(scene, progress.state);
+  path.most = std::max(path.most, path.end);
+  return {std::move(progress), path};
+}
+
+// Of every test: what implicit steps always keep. Joints of 1e12 Pa/m and more feel the rounding of their overlaps.
+template <int Dim>
+void expect_sound(const Progress<Dim>& end, double stiffness = 1e12) {
+  EXPECT_EQ(end.results.outcome, Outcome::done) << end.results.message;
+  EXPECT_EQ(end.state.counters.implicit_halved, 0);
+  EXPECT_LT(end.state.ledger.energy.relative_error(), 1e-12 * std::max(1.0, 10 * stiffness / 1e12));
+  EXPECT_GE(end.state.ledger.energy.flows[Source::unresolved_springs], 0);
+  EXPECT_GE(end.state.ledger.energy.flows[Source::unresolved_motion], 0);
+}
+
+// ---- a block that bounces -------------------------------------------------------------------------------------------
+
+// 1 m, 1000 kg, falls by 0.1 m; ω = (k/m)^½ = 316 rad/s, or for steps beyond 20 ms a stiffer joint
+Prepared<2> bounce(double limits, double viscous_ratio, double duration = 0.35) {
+  const double omega = std::max(std::sqrt(1e5), 2 * limits / 0.02), h = 2 * limits / omega;
+  return scene_of<2>(fmt::format(R"(
+dimension = 2
+gravity = [0, -9.81]
+density = 1000
+blocks = [{{ name = "base", box = {{ min = [-2, -1], max = [3, 0] }}, fixed = true }},
+          {{ name = "block", box = {{ min = [0, 0.1], max = [1, 1.1] }} }}]
+joint_properties = [{{ name = "rock", normal_stiffness = {3}, shear_stiffness = 1e7, friction_deg = 30 }}]
+restrain = [{{ bodies = ["block"], rotation = true }}]
+contact = {{ face = "point" }}
+damping = {{ local = 0, viscous_ratio = {0} }}
+[[stage]]
+name = "bounce"
+kind = "run"
+duration_s = {1}
+time = {{ integration = "implicit", step_s = {2:.17g} }}
+)",
+                                 viscous_ratio, duration, h, 1000 * omega * omega));
+}
+
+TEST(ImplicitStep, ABouncingBlockNeverGainsEnergy) {
+  for (const double limits : {0.01, 0.1, 0.5, 0.9, 3.0, 10.0, 100.0, 1e3, 1e4}) {
+    SCOPED_TRACE(limits);
+    const Followed<2> run = followed(bounce(limits, 0));
+    expect_sound(run.end);
+    EXPECT_LE(run.energy.most, run.energy.start + 1e-12 * 1000 * g * 0.1);
+  }
+}
+
+// speed after the impact over that before it, from the height that is left: the energy above rest
+double restitution(double limits, double viscous_ratio) {
+  const Prepared<2> scene = bounce(limits, viscous_ratio, 0.16);  // the impact is at 0.143 s
+  const Progress<2> end = whole_run(scene);
+  const Motion<2>& m = end.state.bodies.motions[1];
+  const double height = m.displacement[1] + 0.1;
+  return std::sqrt(std::max(m.velocity.squaredNorm() + 2 * g * height, 0.0) / (2 * g * 0.1));
+}
+
+// By small steps that of the joint: with springs alone 1, with dashpots 0.8545626 (fall of 0.1 m under gravity, by
+// integration in time with the event); by large ones none.
+TEST(ImplicitStep, AnImpactIsTheJointsWhereItIsResolvedAndPlasticElsewhere) {
+  EXPECT_GE(restitution(0.1, 0), 0.997);
+  EXPECT_NEAR(restitution(0.01, 0.05), 0.8545626, 3e-4);
+  for (const double limits : {3.0, 30.0, 1e3})
+    EXPECT_LT(restitution(limits, 0), 0.3) << limits;
+}
+
+// ---- a block on a shaken incline
+// -------------------------------------------------------------------------------------
+
+// 10 degrees, friction 30 degrees, 2 Hz and 0.4 m/s, first down the slope: in three cycles of 0.5 s a slip of 7.905576
+// mm each
+Prepared<2> shaken(double stiffness, const std::string& time, double duration = 1.5) {
+  return scene_of<2>(fmt::format(R"(
+dimension = 2
+gravity = [-1.7034885, -9.6609640]
+density = 2000
+blocks = [{{ name = "base", box = {{ min = [-5, -1], max = [5, 0] }}, fixed = true }},
+          {{ name = "block", box = {{ min = [0, 0], max = [1, 1] }} }}]
+joint_properties = [{{ name = "rock", normal_stiffness = {0:g}, shear_stiffness = {0:g}, friction_deg = 30 }}]
+restrain = [{{ bodies = ["block"], rotation = true }}]
+contact = {{ face = "point" }}
+[[stage]]
+name = "settle"
+kind = "settle"
+gravity_ramp_s = 0.2
+[[stage]]
+name = "shake"
+kind = "run"
+duration_s = {1}
+damping = {{ local = 0 }}
+time = {{ integration = "implicit", {2} }}
+[[stage.move]]
+bodies = ["base"]
+velocity = [-0.4, 0]
+frequency_hz = 2
+)",
+                                 stiffness, duration, time));
+}
+
+double slip_of(const Progress<2>& end) {
+  return end.state.bodies.motions[0].displacement[0] - end.state.bodies.motions[1].displacement[0];
+}
+
+// Newmark's rigid block slips by 7.905576236152 mm a cycle: closed form
+TEST(ImplicitStep, AShakenBlockSlipsByNewmarksDistance) {
+  const double slip = 3 * 7.905576236152e-3;
+  // a slip that begins within a step has up to j h²/8 too much or too little speed, j how fast the acceleration passes
+  // what friction holds, and keeps it while it lasts
+  constexpr double jerk = 40.3, lasts = 0.168;
+  for (const double h : {4.3e-3, 14e-3})
+    for (const double stiffness : {1e10, 1e12, 1e14}) {
+      const double tolerance = 3 * jerk * h * h / 8 * lasts / slip;
+      SCOPED_TRACE(fmt::format("h {} k {:g}", h, stiffness));
+      const Progress<2> end = whole_run(shaken(stiffness, fmt::format("step_s = {}", h)));
+      expect_sound(end, stiffness);
+      fmt::print("h {} k {:g} error {:.4f} %\n", h, stiffness, 100 * (slip_of(end) / slip - 1));
+      EXPECT_NEAR(slip_of(end), slip, tolerance * slip);
+      const Counters& cost = end.state.counters;
+      EXPECT_LT(cost.implicit_iterations, 2.5 * cost.implicit_solutions);
+    }
+}
+
+// by its own error: the load holds the step, and the cost does not follow the stiffness
+TEST(ImplicitStep, TheStepFollowsTheMotion) {
+  const double slip = 3 * 7.905576236152e-3;
+  for (const double stiffness : {1e10, 1e12, 1e14}) {
+    SCOPED_TRACE(stiffness);
+    const Progress<2> end = whole_run(shaken(stiffness, "error_m = 1e-5"));
+    fmt::print("k {:g} error {:.4f} % {} solutions\n", stiffness, 100 * (slip_of(end) / slip - 1),
+               end.state.counters.implicit_solutions);
+    EXPECT_NEAR(slip_of(end), slip, 5e-3 * slip);
+    EXPECT_LT(end.state.counters.implicit_solutions, 1500);
+    EXPECT_GT(end.state.counters.implicit_by_load, end.state.counters.implicit_by_error);
+  }
+}
+
+// ---- a block on ground that is pushed -------------------------------------------------------------------------------
+
+// friction 0.1, horizontal ground that is given 0.5 m/s within 0.1019 s at 0.5 g and keeps it
+TEST(ImplicitStep, ARectangularPulseIsExact) {
+  const double speed = 0.5, acceleration = 0.5 * g, ramp = speed / acceleration;
+  const double slip = speed * speed / (2 * g) * (1 / 0.1 - 1 / 0.5);
+  for (const double h : {ramp / 10, ramp / 40}) {
+    const double duration = 14 * ramp;
+    const Prepared<2> scene = scene_of<2>(fmt::format(R"(
+dimension = 2
+gravity = [0, -9.81]
+density = 2000
+blocks = [{{ name = "base", box = {{ min = [-5, -1], max = [5, 0] }}, fixed = true }},
+          {{ name = "block", box = {{ min = [0, 0], max = [1, 1] }} }}]
+joint_properties = [{{ name = "rock", normal_stiffness = 1e12, shear_stiffness = 1e12, friction_deg = 5.710593137499643 }}]
+restrain = [{{ bodies = ["block"], rotation = true }}]
+[[stage]]
+name = "settle"
+kind = "settle"
+gravity_ramp_s = 0.2
+[[stage]]
+name = "shake"
+kind = "run"
+duration_s = {0:.17g}
+time = {{ integration = "implicit", step_s = {1:.17g} }}
+[[stage.move]]
+bodies = ["base"]
+velocity = [{2}, 0]
+times_s = [0, {3:.17g}]
+factors = [0, 1]
+)",
+                                                      duration, h, speed, ramp));
+    const Progress<2> end = whole_run(scene);
+    expect_sound(end);
+    fmt::print("pulse h {} error {:.3g}\n", h, slip_of(end) / slip - 1);
+    EXPECT_NEAR(slip_of(end), slip, 4e-6 * slip) << h;
+  }
+}
+
+// 30 degrees, friction 25 degrees, shaken across the plane with half of gravity: it slides all the time, and as far as
+// without shaking
+TEST(ImplicitStep, SlipUnderAGrowingNormalForceIsCoulombs) {
+  const double angle = std::numbers::pi / 6, mu = std::tan(25 * std::numbers::pi / 180), time = 2;
+  const double expected = (std::sin(angle) - mu * std::cos(angle)) * g * time * time / 2;
+  for (const double h : {2e-3, 10e-3, 20e-3}) {
+    const Prepared<2> scene = scene_of<2>(fmt::format(R"(
+dimension = 2
+gravity = [{0:.17g}, {1:.17g}]
+density = 2000
+blocks = [{{ name = "base", box = {{ min = [-5, -1], max = [5, 0] }}, fixed = true }},
+          {{ name = "block", box = {{ min = [0, 0], max = [1, 1] }} }}]
+joint_properties = [{{ name = "rock", normal_stiffness = 1e12, shear_stiffness = 1e12, friction_deg = 40 }}]
+restrain = [{{ bodies = ["block"], rotation = true }}]
+[[stage]]
+name = "settle"
+kind = "settle"
+gravity_ramp_s = 0.2
+[[stage]]
+name = "slide"
+friction_deg = 25
+kind = "run"
+duration_s = {2}
+time = {{ integration = "implicit", step_s = {3} }}
+[[stage.move]]
+bodies = ["base"]
+velocity = [{4:.17g}, {5:.17g}]
+frequency_hz = 1
+)",
+                                                      -g * std::sin(angle), -g * std::cos(angle), time, h,
+                                                      0.5 * g / (2 * std::numbers::pi) * std::sin(angle),
+                                                      0.5 * g / (2 * std::numbers::pi) * std::cos(angle)));
+    const Progress<2> end = whole_run(scene);
+    expect_sound(end);
+    fmt::print("growing h {} slip {:.9g} expected {:.9g}\n", h, slip_of(end), expected);
+    EXPECT_NEAR(slip_of(end), expected, 2e-6 * expected) << h;
+  }
+}
+
+// ---- a circle -------------------------------------------------------------------------------------------------------
+
+// A level plane in a circle of 2 Hz with A = 4 m/s², friction 0.3: relative to it the block comes to run on a circle of
+// √(A² - μ² g²)/ω². m: over the last of ten turns, with so many steps each.
+double radius_of_circle(int steps) {
+  const double omega = 4 * std::numbers::pi, speed = 4 / omega, turns = 10;
+  const std::string text = fmt::format(R"(
+dimension = 3
+gravity = [0, 0, -9.81]
+density = 2600
+blocks = [{{ name = "base", box = {{ min = [-9, -9, -1], max = [9, 9, 0] }}, fixed = true }},
+          {{ name = "block", box = {{ min = [-1, -1, 0], max = [1, 1, 2] }} }}]
+joint_properties = [{{ name = "rock", normal_stiffness = 1e12, shear_stiffness = 1e12, friction_deg = 16.69924423399362 }}]
+restrain = [{{ bodies = ["block"], rotation = true }}]
+[[stage]]
+name = "settle"
+kind = "settle"
+gravity_ramp_s = 0.2
+[[stage]]
+name = "shake"
+kind = "run"
+duration_s = {0}
+time = {{ integration = "implicit", step_s = {1:.17g} }}
+)",
+                                       turns / 2, 0.5 / steps);
+  Prepared<3> scene = scene_of<3>(text);
+  // two records make the circle: a factor has one phase for all directions
+  std::vector<double> east, north;
+  constexpr int samples = 4000;
+  for (int i = 0; i <= samples * turns; ++i) {
+    const double angle = 2 * std::numbers::pi * i / samples;
+    east.push_back(speed * std::cos(angle));
+    north.push_back(speed * std::sin(angle));
+  }
+  const double interval = 0.5 / samples;
+  MovePlan circle;
+  circle.bodies.names = {"base"};
+  circle.velocity = {0, 0, 0};
+  const auto record = [&](const std::vector<double>& values) {
+    return std::make_shared<const GroundMotion>(make_ground_motion(MotionQuantity::velocity, interval, values, {}));
+  };
+  circle.records = {{{1, 0, 0}, record(east)}, {{0, 1, 0}, record(north)}};
+  scene.stages[1].change.move = {circle};
+  std::vector<Vector<2>> places;  // of the last turn
+  double started = 0;
+  Watcher<3> watcher;
+  watcher.pause = [&](const Progress<3>& now) {
+    if (now.stage == 0) started = now.state.schedule.time;
+    if (now.state.schedule.time < started + (turns - 1) / 2 - 1e-9) return false;
+    const Vector<2> apart =
+        (now.state.bodies.motions[1].displacement - now.state.bodies.motions[0].displacement).head<2>();
+    places.push_back(apart);
+    return false;
+  };
+  expect_sound(simulated(scene, watcher));
+  Vector<2> centre = Vector<2>::Zero();
+  for (const Vector<2>& p : places)
+    centre += p / static_cast<double>(places.size());
+  double radius = 0;
+  for (const Vector<2>& p : places)
+    radius += (p - centre).norm() / static_cast<double>(places.size());
+  EXPECT_EQ(places.size(), static_cast<std::size_t>(steps));
+  return radius;
+}
+
+TEST(ImplicitStep, ABlockOnAPlaneThatCirclesIsOfSecondOrder) {
+  const double a = 4, mu = 0.3, omega = 4 * std::numbers::pi;
+  const double radius = std::sqrt(a * a - mu * mu * g * g) / (omega * omega);
+  double last = 0;
+  for (const int steps : {20, 40, 80}) {
+    const double error = radius_of_circle(steps) / radius - 1;
+    if (last > 0) EXPECT_NEAR(std::log2(last / error), 2, 0.1) << steps;
+    if (steps == 40) EXPECT_NEAR(error, 0, 1.3e-3);
+    last = error;
+  }
+}
+
+}  // namespace
+}  // namespace voussoir::implicit_step_test

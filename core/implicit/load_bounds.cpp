@@ -1,0 +1,66 @@
+#include "core/implicit/load_bounds.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace voussoir {
+namespace {
+
+// of the shortest period of the loads, and of the shortest interval of their tables
+constexpr double of_period = 1.0 / 40, of_interval = 1.0 / 20;
+
+// s over one, and the time since the stage began: what is no later time but rounding
+constexpr double nearly_now = 1e-12;
+
+}  // namespace
+
+template <int Dim>
+double step_of_loads(const Model<Dim>& model) {
+  double longest = std::numeric_limits<double>::infinity();
+  const auto look = [&](const TimeFactor& factor) {
+    if (factor.frequency > 0) longest = std::min(longest, of_period / factor.frequency);
+    for (std::size_t k = 1; k < factor.times.size(); ++k)
+      if (const double interval = factor.times[k] - factor.times[k - 1]; interval > 0)
+        longest = std::min(longest, of_interval * interval);
+  };
+  for (const PrescribedMotion<Dim>& p : model.prescribed) {
+    look(p.factor);
+    for (const RecordedAxis<Dim>& record : p.records)
+      longest = std::min(longest, record.motion->interval);
+  }
+  for (const AppliedForce<Dim>& f : model.applied)
+    look(f.factor);
+  return longest;
+}
+
+// s: the next time at which a table of the loads bends, or a record has a value
+template <int Dim>
+double next_bend(const Model<Dim>& model, const Schedule& schedule) {
+  const double now = schedule.time - schedule.started, after = now + nearly_now * (1 + now);
+  double next = std::numeric_limits<double>::infinity();
+  const auto look = [&](const TimeFactor& factor) {
+    const auto at = std::upper_bound(factor.times.begin(), factor.times.end(), after);
+    if (at != factor.times.end()) next = std::min(next, *at);
+  };
+  for (const PrescribedMotion<Dim>& p : model.prescribed) {
+    look(p.factor);
+    for (const RecordedAxis<Dim>& record : p.records) {
+      const GroundMotion& m = *record.motion;
+      const double at = m.begins + std::max(std::floor((after - m.begins) / m.interval) + 1, 0.0) * m.interval;
+      if (at <= m.begins + m.duration() + 0.5 * m.interval) next = std::min(next, at);
+    }
+  }
+  for (const AppliedForce<Dim>& f : model.applied)
+    look(f.factor);
+  return schedule.started + next;
+}
+
+#define VOUSSOIR_INSTANTIATE(Dim)                        \
+  template double step_of_loads<Dim>(const Model<Dim>&); \
+  template double next_bend<Dim>(const Model<Dim>&, const Schedule&);
+VOUSSOIR_INSTANTIATE(2)
+VOUSSOIR_INSTANTIATE(3)
+#undef VOUSSOIR_INSTANTIATE
+
+}  // namespace voussoir

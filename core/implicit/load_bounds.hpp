@@ -1,0 +1,18 @@
+// What the loads of a model allow an implicit step.
+#pragma once
+
+#include "core/model/model.hpp"
+#include "core/model/state.hpp"
+
+namespace voussoir {
+
+// s: 1/40 of the shortest period of a prescribed motion or a force, 1/20 of the shortest interval of their tables, the
+// interval of a record; infinity: nothing changes
+template <int Dim>
+double step_of_loads(const Model<Dim>& model);
+
+// s: the next time at which a table of the loads bends, or a record has a value
+template <int Dim>
+double next_bend(const Model<Dim>& model, const Schedule& schedule);
+
+}  // namespace voussoir

@@ -1,0 +1,289 @@
+#include "core/implicit/step_points.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/contact/integrable.hpp"
+#include "core/contact/integrated_contact.hpp"
+#include "core/implicit/face_points.hpp"
+#include "core/joint_laws/elastic_coulomb.hpp"
+#include "core/step/face_forces.hpp"
+#include "core/step/neighbours.hpp"
+
+namespace voussoir {
+namespace {
+
+// m over the bodies' size: by how much a pair that may meet is drawn into each other, to see where
+constexpr double probe_of_size = 1e-5;
+
+template <int Dim>
+double gap_along(const Pair<Dim>& pair, const Vector<Dim>& direction) {
+  double high = -std::numeric_limits<double>::infinity(), low = std::numeric_limits<double>::infinity();
+  const Vector<Dim> of_b = pair.rotation.transpose() * direction;
+  for (const Vector<Dim>& v : pair.a->vertices)
+    high = std::max(high, direction.dot(v));
+  for (const Vector<Dim>& v : pair.b->vertices)
+    low = std::min(low, of_b.dot(v));
+  return low + direction.dot(pair.offset) - high;
+}
+
+// a direction of the first part's frame along which the pair is separated, and by how much
+template <int Dim>
+struct Separation {
+  Vector<Dim> direction;
+  double gap = -std::numeric_limits<double>::infinity();
+};
+template <int Dim>
+Separation<Dim> separation_of(const Pair<Dim>& pair, const Contact<Dim>& c) {
+  Separation<Dim> best;
+  const auto look = [&](const Vector<Dim>& direction) {
+    if (const double gap = gap_along(pair, direction); gap > best.gap) best = {direction, gap};
+  };
+  if (c.proof.kind == ProofKind::separating_axis) look(c.proof.axis);
+  for (const HalfSpace<Dim>& face : pair.a->faces)
+    look(face.normal);
+  for (const HalfSpace<Dim>& face : pair.b->faces)
+    look(pair.rotation * -face.normal);
+  return best;
+}
+
+double spin_about(const Vector<2>&, const Spin<2>&) {
+  return 0;
+}
+double spin_about(const Vector<3>& n, const Spin<3>& spin) {
+  return n.dot(spin);
+}
+
+// of the springs' stress: uniform, and a turn about the centre
+Vector<2> of_twist(const JointState<2>&, const Vector<2>&, const Vector<2>&) {
+  return Vector<2>::Zero();
+}
+Vector<3> of_twist(const JointState<3>& h, const Vector<3>& normal, const Vector<3>& from_centre) {
+  return h.polar > 0 ? Vector<3>(h.twist / h.polar * normal.cross(from_centre)) : Vector<3>(Vector<3>::Zero());
+}
+
+// one pair's points
+template <int Dim>
+class PointsOfPair {
+ public:
+  PointsOfPair(const Model<Dim>& m, const Settings& s, const Schedule& sched, const BodiesState<Dim>& b,
+               const StepMotion<Dim>& mo, const Contact<Dim>& contact, int at, double drawn_by)
+      : model(m), settings(s), bodies(b), motion(mo), c(contact), place(at), drawn(drawn_by) {
+    body_a = model.parts[c.part_a].body;
+    body_b = model.parts[c.part_b].body;
+    const int joint = joint_of(model, c);
+    const int of_joint = joint == no_joint ? model.default_properties : model.joints[joint].properties;
+    properties = &model.properties[of_joint];
+    friction = std::tan(sched.friction[of_joint]);
+    const double a = bodies.poses[body_a].inverse_mass, of_b = bodies.poses[body_b].inverse_mass;
+    lighter = 1 / std::max(a, of_b);
+    reduced = 1 / (a + of_b);
+  }
+
+  // of a face on a face, otherwise at the contact's own point; `before`: the history at the step's start
+  void add(const Pair<Dim>& pair, const JointState<Dim>& before, StepPoints<Dim>& all) const {
+    static thread_local FacePoints<Dim> face;
+    find_faces(pair, face);
+    StepContact<Dim> whole{.contact = place, .first = all.points.size(), .count = face.points.size()};
+    PressedArea<Dim> pressed;
+    for (const FacePoint<Dim>& p : face.points) {
+      all.points.push_back(point_of(p, face));
+      if (all.points.back().law.overlap > 0) pressed.add(all.points.back());
+    }
+    const double ks = properties->shear_stiffness;
+    if (ks > 0 && !before.normal.isZero(0)) {
+      const JointState<Dim> springs = moved(before, face.normal, pressed);
+      whole.lost = held(before, ks);
+      for (std::size_t k = whole.first; k < all.points.size(); ++k) {
+        StepPoint<Dim>& p = all.points[k];
+        if (!(p.law.overlap > 0)) continue;
+        p.from = p.area * (springs.shear_force / pressed.area +
+                           of_twist(springs, p.normal, Vector<Dim>(p.point - pressed.centre)));
+        p.force.shear = p.from;
+        whole.lost -= 0.5 * p.from.squaredNorm() / p.law.shear;
+      }
+    }
+    all.contacts.push_back(whole);
+  }
+
+ private:
+  // in world axes
+  void find_faces(const Pair<Dim>& pair, FacePoints<Dim>& face) const {
+    static thread_local HalfSpaces<Dim> planes;
+    Contact<Dim> near = c;
+    if (near.proof.kind == ProofKind::interior_point) {
+      find_nearest_faces<Dim>(pair, near, planes);
+      if (find_face_points<Dim>(pair, near.proof.point, near.geometry.face_a, near.geometry.face_b, face)) {
+        face.normal = pair.axes * face.normal;
+        face.centre = pair.axes * face.centre;
+        for (FacePoint<Dim>& p : face.points)
+          p.place = pair.axes * p.place;
+        return;
+      }
+    }
+    face = {.normal = c.geometry.normal, .centre = c.geometry.point, .area = c.geometry.area, .points = {}};
+    face.points.push_back({c.geometry.point, c.geometry.overlap, c.geometry.area});
+  }
+
+  // the springs of the step's start, turned into the plane of the points and moved to the centre of what presses
+  JointState<Dim> moved(const JointState<Dim>& before, const Vector<Dim>& normal,
+                        const PressedArea<Dim>& pressed) const {
+    JointState<Dim> h = before;
+    const MeanMotion<Dim>&a = motion.mean[body_a], &b = motion.mean[body_b];
+    const double half = 0.5 * motion.h;
+    h.shear_force =
+        carried(h.shear_force, h.normal, normal, half * 0.5 * spin_about(normal, Spin<Dim>(a.spin + b.spin)));
+    const Vector<Dim> arm_b = h.point - between(bodies.poses[body_a], bodies.poses[body_b]);
+    const Vector<Dim> apart_speed = b.velocity + cross(b.spin, arm_b) - a.velocity - cross(a.spin, h.point);
+    const Vector<Dim> gone = half * (cross(a.spin, h.point) + 0.5 * apart_speed);
+    change_area<Dim>(normal, pressed.centre - h.point - gone, pressed.area, pressed.polar, h);
+    return h;
+  }
+
+  StepPoint<Dim> point_of(const FacePoint<Dim>& at, const FacePoints<Dim>& face) const {
+    const Vector<Dim>& point = at.place;
+    const double share = at.area / face.area, whole = properties->constant_stiffness ? 1 : face.area;
+    const JointProperties& p = *properties;
+    StepPoint<Dim> found;
+    found.contact = place;
+    found.body_a = body_a;
+    found.body_b = body_b;
+    found.normal = face.normal;
+    found.point = point;
+    const MeanMotion<Dim>&a = motion.mean[body_a], &b = motion.mean[body_b];
+    found.arm_a = mean_arm<Dim>(point, a.spin, motion.h);
+    found.arm_b =
+        mean_arm<Dim>(Vector<Dim>(point - between(bodies.poses[body_a], bodies.poses[body_b])), b.spin, motion.h);
+    found.area = whole * share;
+    const double factor = p.constant_stiffness ? c.geometry.stiffness_factor : 1;
+    PointStep& law = found.law;
+    law.h = motion.h;
+    law.normal = p.normal_stiffness * found.area * factor;
+    law.shear = p.shear_stiffness * found.area;
+    law.friction = friction;
+    law.chi_normal = unresolved_share(p.normal_stiffness * whole * factor, lighter, motion.h);
+    law.chi_shear = unresolved_share(p.shear_stiffness * whole, lighter, motion.h);
+    law.rho_normal = softer_of(law.normal, share * lighter, motion.h);
+    law.rho_shear = softer_of(std::max(law.shear, std::numeric_limits<double>::min()), share * lighter, motion.h);
+    if (settings.damping.viscous_ratio > 0)
+      law.dashpot = 2 * settings.damping.viscous_ratio * std::sqrt(law.normal * share * reduced);
+    const double joint_dashpot =
+        settings.damping.joint_ratio / (std::numbers::pi * settings.damping.joint_frequency);  // s: 2ξ/ω
+    law.dashpot += joint_dashpot * law.normal;
+    law.shear_dashpot = joint_dashpot * law.shear;
+    law.overlap = at.overlap - drawn + 0.5 * found.normal.dot(found.motion(motion.mean));
+    found.force.normal = std::max(law.normal * law.overlap, 0.0);
+    return found;
+  }
+
+  const Model<Dim>& model;
+  const Settings& settings;
+  const BodiesState<Dim>& bodies;
+  const StepMotion<Dim>& motion;
+  const Contact<Dim>& c;
+  const int place;
+  const double drawn;
+  const JointProperties* properties;
+  int body_a, body_b;
+  double friction, lighter, reduced;
+};
+
+// m: by how much the second body may have come nearer to the first over the step, or gone away
+template <int Dim>
+double reach_of(const Model<Dim>& model, const StepMotion<Dim>& motion, int a, int b) {
+  const MeanMotion<Dim>&of_a = motion.mean[a], &of_b = motion.mean[b];
+  return motion.h * ((of_b.velocity - of_a.velocity).norm() + of_a.spin.norm() * model.bodies[a].radius +
+                     of_b.spin.norm() * model.bodies[b].radius);
+}
+
+}  // namespace
+
+template <int Dim>
+StepPoints<Dim> find_step_points(const Model<Dim>& model, const Settings& settings, const Schedule& schedule,
+                                 const BodiesState<Dim>& bodies, const ContactsState<Dim>& contacts,
+                                 const JointHistories<Dim>& before, const StepMotion<Dim>& motion, Counters& counters) {
+  StepPoints<Dim> all;
+  for (std::size_t i = 0; i < contacts.list.size(); ++i) {
+    const Contact<Dim>& c = contacts.list[i];
+    const int a = model.parts[c.part_a].body, b = model.parts[c.part_b].body, place = static_cast<int>(i);
+    if (c.unanswered() || (bodies.poses[a].inverse_mass == 0 && bodies.poses[b].inverse_mass == 0)) continue;
+    const JointState<Dim>& history = before.contacts[i].history;
+    Pair<Dim> pair = pair_of(model, bodies, c.part_a, c.part_b, QueryLevel::area);
+    if (c.touching()) {
+      PointsOfPair<Dim>(model, settings, schedule, bodies, motion, c, place, 0).add(pair, history, all);
+      continue;
+    }
+    const double reach = 0.5 * reach_of(model, motion, a, b);
+    if (!(reach > 0)) continue;
+    const Separation<Dim> apart = separation_of(pair, c);
+    if (!(apart.gap < reach)) continue;
+    // drawn into each other to see where they meet
+    const double drawn =
+        std::max(apart.gap, 0.0) + probe_of_size * std::min(model.bodies[a].size, model.bodies[b].size);
+    pair.offset -= drawn * apart.direction;
+    Contact<Dim> found;
+    found.part_a = c.part_a;
+    found.part_b = c.part_b;
+    Contact<Dim>* const one = &found;
+    KernelCounters cost;
+    resolve_pairs<Dim>(model, settings.contact, {&pair, 1}, {&one, 1}, cost);
+    counters.contact_evaluations += cost.evaluations;
+    if (!found.touching()) continue;
+    const double along = drawn * (pair.axes * apart.direction).dot(found.geometry.normal);
+    PointsOfPair<Dim>(model, settings, schedule, bodies, motion, found, place, along).add(pair, history, all);
+  }
+  return all;
+}
+
+template <int Dim>
+void find_point_forces(const Model<Dim>& model, const Settings& settings, const Schedule& schedule,
+                       const BodiesState<Dim>& bodies, ContactsState<Dim>& contacts, EnergyBalance& energy) {
+  const std::vector<MeanMotion<Dim>> still(model.bodies.size());
+  Counters unused;
+  const StepPoints<Dim> all =
+      find_step_points<Dim>(model, settings, schedule, bodies, contacts, histories_of(contacts), {still, 0}, unused);
+  contacts.loads.assign(contacts.list.size(), {});
+  energy.elastic = 0;
+  for (const StepPoint<Dim>& p : all.points) {
+    const double pressed = std::max(p.law.overlap, 0.0);
+    energy.elastic += 0.5 * p.law.normal * pressed * pressed;
+    if (p.law.shear > 0) energy.elastic += 0.5 * p.from.squaredNorm() / p.law.shear;
+    const Vector<Dim> force = p.law.normal * pressed * p.normal + p.from;
+    ContactLoad<Dim>& load = contacts.loads[p.contact];
+    load.second = p.body_b;
+    load.force += force;
+    load.about_first += moment(p.point, force);
+    load.about_second += moment(Vector<Dim>(p.point - between(bodies.poses[p.body_a], bodies.poses[p.body_b])), force);
+  }
+}
+
+template <int Dim>
+void PressedArea<Dim>::add(const StepPoint<Dim>& p) {
+  const Vector<Dim> apart = p.point - centre;
+  const double sum = area + p.area;
+  if (Dim == 3) polar += area * p.area / sum * apart.squaredNorm();
+  centre += p.area / sum * apart;
+  area = sum;
+}
+
+std::string not_followed_implicitly(const JointProperties& properties, const ContactSettings& contact) {
+  if (!is_integrated(contact, properties) && properties.sub_contacts > 1)
+    return "they have sub_contacts; implicit steps take faces at points of their own: leave it out";
+  if (!properties.laws.is_plain()) return "it has a law beyond elastic springs and Coulomb's friction";
+  return {};
+}
+
+#define VOUSSOIR_INSTANTIATE(Dim)                                                                                    \
+  template StepPoints<Dim> find_step_points<Dim>(const Model<Dim>&, const Settings&, const Schedule&,                \
+                                                 const BodiesState<Dim>&, const ContactsState<Dim>&,                 \
+                                                 const JointHistories<Dim>&, const StepMotion<Dim>&, Counters&);     \
+  template void find_point_forces<Dim>(const Model<Dim>&, const Settings&, const Schedule&, const BodiesState<Dim>&, \
+                                       ContactsState<Dim>&, EnergyBalance&);                                         \
+  template struct PressedArea<Dim>;
+VOUSSOIR_INSTANTIATE(2)
+VOUSSOIR_INSTANTIATE(3)
+#undef VOUSSOIR_INSTANTIATE
+
+}  // namespace voussoir

@@ -1,0 +1,84 @@
+// The points at which bodies press on each other within an implicit step: contacts at the half of the step's motion,
+// and pairs beside them that may meet or part within it.
+#pragma once
+
+#include <vector>
+
+#include "core/base/settings.hpp"
+#include "core/implicit/mean_motion.hpp"
+#include "core/implicit/point_law.hpp"
+#include "core/model/joint_histories.hpp"
+#include "core/model/state.hpp"
+
+namespace voussoir {
+
+template <int Dim>
+struct StepPoint {
+  int contact = 0;  // place in ContactsState::list
+  int body_a = 0, body_b = 0;
+  Vector<Dim> normal, point;  // at half of the motion; the point from the first centroid, m
+  Vector<Dim> arm_a, arm_b;   // m: the means of those before and after the step
+  double area = 0;            // m²; of a constant stiffness the share of the contact's 1
+  PointStep law;
+  Vector<Dim> from = Vector<Dim>::Zero();  // N: shear of the spring before the step, in the plane of the point
+  PointForce<Dim> force;
+
+  // m: of the second body relative to the first over the step
+  Vector<Dim> motion(const std::vector<MeanMotion<Dim>>& mean) const {
+    const MeanMotion<Dim>&a = mean[body_a], &b = mean[body_b];
+    return law.h * (b.velocity + cross(b.spin, arm_b) - a.velocity - cross(a.spin, arm_a));
+  }
+  double overlap_after(const Vector<Dim>& motion_of_step) const { return law.overlap - normal.dot(motion_of_step); }
+  Vector<Dim> slip(const Vector<Dim>& motion_of_step) const {
+    return motion_of_step - normal.dot(motion_of_step) * normal;
+  }
+};
+
+// The motion that leads from the start of the step to the bodies' present poses, which are those at its half.
+template <int Dim>
+struct StepMotion {
+  const std::vector<MeanMotion<Dim>>& mean;  // by body
+  double h;                                  // s
+};
+
+// Those of a contact. Its springs are kept from step to step as JointState has them: their stress is uniform over what
+// presses, but for a turn about the centre.
+template <int Dim>
+struct StepContact {
+  int contact = 0;                   // place in ContactsState::list
+  std::size_t first = 0, count = 0;  // of its points
+  double lost = 0;                   // J: by the springs where they were divided among the points
+};
+
+// what presses of some points: the area, and its centre and second moment, as JointState's
+template <int Dim>
+struct PressedArea {
+  double area = 0, polar = 0;                // m², m⁴
+  Vector<Dim> centre = Vector<Dim>::Zero();  // m
+
+  void add(const StepPoint<Dim>& p);  // its polar moment is about the centre of all that were added
+};
+
+template <int Dim>
+struct StepPoints {
+  std::vector<StepPoint<Dim>> points;
+  std::vector<StepContact<Dim>> contacts;
+};
+
+// All points at the present poses. `before`: the histories at the start of the step, in the order of the contacts,
+// which have been found at these poses. The bodies' poses are cached. Forces are those of springs that do not move on.
+template <int Dim>
+StepPoints<Dim> find_step_points(const Model<Dim>& model, const Settings& settings, const Schedule& schedule,
+                                 const BodiesState<Dim>& bodies, const ContactsState<Dim>& contacts,
+                                 const JointHistories<Dim>& before, const StepMotion<Dim>& motion, Counters& counters);
+
+// The joints' forces at the present poses, where the contacts have been found, as implicit steps take them: loads of
+// the contacts, and the energy of the springs.
+template <int Dim>
+void find_point_forces(const Model<Dim>& model, const Settings& settings, const Schedule& schedule,
+                       const BodiesState<Dim>& bodies, ContactsState<Dim>& contacts, EnergyBalance& energy);
+
+// Why implicit steps do not follow a joint of these properties, as a clause; empty: they do.
+std::string not_followed_implicitly(const JointProperties& properties, const ContactSettings& contact);
+
+}  // namespace voussoir

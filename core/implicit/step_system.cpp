@@ -1,0 +1,311 @@
+#include "core/implicit/step_system.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/solvers/complete_factors.hpp"
+
+namespace voussoir {
+namespace {
+
+constexpr int most_iterations = 40;
+
+// Of the motion over the step and of the points' overlaps and slips in it: converged; and, where rounding stops it,
+// if it is no longer halved and below the second.
+constexpr double converged = 1e-13, stalled = 1e-9, hardly_falls = 0.5;
+constexpr int least_iterations = 4;  // before it may have stalled
+
+template <int Dim>
+using PointMotion = FixedMatrix<Dim, freedoms<Dim>>;
+
+// the velocity of a point at an arm by the motion of its body
+template <int Dim>
+PointMotion<Dim> velocity_by_motion(const Vector<Dim>& arm) {
+  PointMotion<Dim> b;
+  b.template leftCols<Dim>().setIdentity();
+  for (int k = 0; k < spin_freedoms<Dim>; ++k)
+    b.col(Dim + k) = cross(Spin<Dim>(Spin<Dim>::Unit(k)), arm);
+  return b;
+}
+
+// blocks for the unknown bodies of all pairs
+template <int Dim>
+BlockMatrix<freedoms<Dim>> laid_out(const StepUnknowns<Dim>& unknowns, const std::vector<StepPoint<Dim>>& points) {
+  std::vector<std::vector<int>> columns(unknowns.bodies.size());
+  for (const StepPoint<Dim>& p : points) {
+    const int a = unknowns.place[p.body_a], b = unknowns.place[p.body_b];
+    if (a < 0 || b < 0) continue;
+    columns[a].push_back(b);
+    columns[b].push_back(a);
+  }
+  BlockMatrix<freedoms<Dim>> matrix;
+  matrix.lay_out(std::move(columns));
+  return matrix;
+}
+
+// restrained directions keep their velocity
+template <int Dim>
+void restrain(const StepUnknowns<Dim>& unknowns, BlockMatrix<freedoms<Dim>>& matrix, Eigen::VectorXd& rhs) {
+  constexpr int F = freedoms<Dim>;
+  for (int row = 0; row < matrix.rows(); ++row)
+    for (int at = matrix.first[row]; at < matrix.first[row + 1]; ++at) {
+      const int column = matrix.column[at];
+      for (int i = 0; i < F; ++i)
+        for (int j = 0; j < F; ++j)
+          if (unknowns.free[F * row + i] == 0 || unknowns.free[F * column + j] == 0)
+            matrix.blocks[at](i, j) = row == column && i == j ? 1 : 0;
+    }
+  rhs = rhs.cwiseProduct(unknowns.free);
+}
+
+// adds scale Bᵀ C B of a pair
+template <int Dim>
+void add_pair(const StepUnknowns<Dim>& unknowns, const StepPoint<Dim>& p, const Vector<Dim>& arm_a,
+              const Vector<Dim>& arm_b, const Matrix<Dim>& c, double scale, BlockMatrix<freedoms<Dim>>& matrix) {
+  const int a = unknowns.place[p.body_a], b = unknowns.place[p.body_b];
+  const PointMotion<Dim> of_a = velocity_by_motion<Dim>(arm_a), of_b = velocity_by_motion<Dim>(arm_b);
+  if (a >= 0) matrix.at(a, a) += scale * (of_a.transpose() * c * of_a);
+  if (b >= 0) matrix.at(b, b) += scale * (of_b.transpose() * c * of_b);
+  if (a < 0 || b < 0) return;
+  matrix.at(a, b) -= scale * (of_a.transpose() * c * of_b);
+  matrix.at(b, a) -= scale * (of_b.transpose() * c * of_a);
+}
+
+template <int Dim>
+class StepEquations {
+  static constexpr int F = freedoms<Dim>, S = spin_freedoms<Dim>;
+
+ public:
+  StepEquations(const Model<Dim>& m, const StepUnknowns<Dim>& u, double step, const std::vector<Motion<Dim>>& start,
+                const std::vector<Load<Dim>>& l, std::vector<StepPoint<Dim>>& p, std::vector<MeanMotion<Dim>>& y)
+      : model(m),
+        unknowns(u),
+        h(step),
+        before(start),
+        loads(l),
+        points(p),
+        mean(y),
+        matrix(laid_out(u, p)),
+        plan(neighbours_in(matrix)) {}
+
+  StepSolution solve() {
+    StepSolution found;
+    double last = 0;
+    CompleteFactors<F> factors(plan, false);
+    for (; found.iterations < most_iterations && !found.solved; ++found.iterations) {
+      Eigen::VectorXd rhs = assemble();
+      if (!factors.factorise(matrix)) return found;
+      const Eigen::VectorXd change = factors.solve(rhs);
+      const double now = take(change);
+      if (!std::isfinite(now)) return found;
+      const bool stands_still = found.iterations >= least_iterations && now > hardly_falls * last && now < stalled;
+      found.solved = now < converged || stands_still;
+      last = now;
+    }
+    for (StepPoint<Dim>& p : points)
+      if (!(p.force.normal > 0)) p.force = {};
+    return found;
+  }
+
+ private:
+  Eigen::VectorXd assemble() {
+    Eigen::VectorXd rhs = Eigen::VectorXd::Zero(unknowns.free.size());
+    for (auto& block : matrix.blocks)
+      block.setZero();
+    for (std::size_t i = 0; i < unknowns.bodies.size(); ++i) {
+      const int b = unknowns.bodies[i];
+      const Body<Dim>& body = model.bodies[b];
+      const SpinChange<Dim> spin = spin_change<Dim>(body, before[b], mean[b].spin, h);
+      auto&& block = matrix.at(static_cast<int>(i), static_cast<int>(i));
+      block.template topLeftCorner<Dim, Dim>().diagonal().array() += 2 * body.mass;
+      block.template bottomRightCorner<S, S>() += spin.by_spin;
+      rhs.segment<Dim>(F * i) = h * loads[b].force - 2 * body.mass * (mean[b].velocity - before[b].velocity);
+      rhs.segment<S>(F * i + Dim) = h * loads[b].moment - spin.change;
+    }
+    lines.resize(points.size());
+    errors = 0;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      const StepPoint<Dim>& p = points[k];
+      const Vector<Dim> motion = p.motion(mean);
+      const LinearPoint<Dim>& line = lines[k] =
+          linearise<Dim>(p.law, p.normal, p.from, p.overlap_after(motion), p.slip(motion), p.force);
+      errors = std::max({errors, line.overlap_error, line.slip_error});
+      const Vector<Dim> force = p.force.normal * p.normal + p.force.shear + line.change;
+      const int a = unknowns.place[p.body_a], b = unknowns.place[p.body_b];
+      if (a >= 0) rhs.segment<F>(F * a) -= h * (velocity_by_motion<Dim>(p.arm_a).transpose() * force);
+      if (b >= 0) rhs.segment<F>(F * b) += h * (velocity_by_motion<Dim>(p.arm_b).transpose() * force);
+      add_pair<Dim>(unknowns, p, p.arm_a, p.arm_b, line.slope, h * h, matrix);
+    }
+    restrain(unknowns, matrix, rhs);
+    return rhs;
+  }
+
+  // m: the largest change of a body's motion over the step, and what was left of the points' equations, over the step's
+  // own motions
+  double take(const Eigen::VectorXd& change) {
+    std::vector<MeanMotion<Dim>> more(mean.size());
+    double moved = 0, changed = 0;
+    for (std::size_t i = 0; i < unknowns.bodies.size(); ++i) {
+      const int b = unknowns.bodies[i];
+      const double radius = model.bodies[b].radius;
+      more[b].velocity = change.segment<Dim>(F * i);
+      more[b].spin = change.segment<S>(F * i + Dim);
+      mean[b].velocity += more[b].velocity;
+      mean[b].spin += more[b].spin;
+      changed = std::max(changed, h * (more[b].velocity.norm() + radius * more[b].spin.norm()));
+      moved = std::max(moved, h * (mean[b].velocity.norm() + radius * mean[b].spin.norm()));
+    }
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      StepPoint<Dim>& p = points[k];
+      const Vector<Dim> way = p.motion(more), df = lines[k].change - lines[k].slope * way;
+      const double along = p.normal.dot(df);
+      p.force.normal += along;
+      p.force.shear += df - along * p.normal;
+      moved = std::max(moved, std::abs(p.law.overlap));
+    }
+    return moved > 0 ? std::max(changed, errors) / moved : 0;
+  }
+
+  const Model<Dim>& model;
+  const StepUnknowns<Dim>& unknowns;
+  const double h;
+  const std::vector<Motion<Dim>>& before;
+  const std::vector<Load<Dim>>& loads;
+  std::vector<StepPoint<Dim>>& points;
+  std::vector<MeanMotion<Dim>>& mean;
+  BlockMatrix<F> matrix;
+  EliminationPlan plan;
+  std::vector<LinearPoint<Dim>> lines;
+  double errors = 0;
+};
+
+}  // namespace
+
+template <int Dim>
+StepUnknowns<Dim>::StepUnknowns(const Model<Dim>& model) : place(model.bodies.size(), -1) {
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    if (!model.bodies[b].fixed && model.bodies[b].present) {
+      place[b] = static_cast<int>(bodies.size());
+      bodies.push_back(static_cast<int>(b));
+    }
+  free.resize(freedoms<Dim> * static_cast<Eigen::Index>(bodies.size()));
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const Body<Dim>& body = model.bodies[bodies[i]];
+    for (int f = 0; f < freedoms<Dim>; ++f)
+      free[freedoms<Dim> * i + f] = f < Dim ? body.free_translation[f] : body.free_rotation[f - Dim];
+  }
+}
+
+template <int Dim>
+StepSolution solve_step(const Model<Dim>& model, const StepUnknowns<Dim>& unknowns, double h,
+                        const std::vector<Motion<Dim>>& before, const std::vector<Load<Dim>>& loads,
+                        std::vector<StepPoint<Dim>>& points, std::vector<MeanMotion<Dim>>& mean) {
+  return StepEquations<Dim>(model, unknowns, h, before, loads, points, mean).solve();
+}
+
+namespace {
+
+template <int Dim>
+Vector<Dim> velocity_of_point(const Model<Dim>& model, const std::vector<Motion<Dim>>& motions, int body,
+                              const Vector<Dim>& arm) {
+  return motions[body].velocity + cross(angular_velocity(model.bodies[body], motions[body]), arm);
+}
+
+// kg: h²/4 χ K of a closed point
+template <int Dim>
+Matrix<Dim> mass_of(const ClosedPoint<Dim>& c, double h) {
+  const Vector<Dim>& n = c.point->normal;
+  const Matrix<Dim> along = n * n.transpose();
+  return 0.25 * h * h * (c.normal * along + c.shear * (Matrix<Dim>::Identity() - along));
+}
+
+// N s: on the second body
+template <int Dim>
+Vector<Dim> impulse_of(const Model<Dim>& model, const std::vector<Motion<Dim>>& motions, const ClosedPoint<Dim>& c,
+                       double h) {
+  const StepPoint<Dim>& p = *c.point;
+  return mass_of(c, h) *
+         (velocity_of_point(model, motions, p.body_a, p.arm_a) - velocity_of_point(model, motions, p.body_b, p.arm_b));
+}
+
+// J: of what holds the restrained directions of a body, which moves along them only if that is prescribed
+template <int Dim>
+double work_of_restraint(const Body<Dim>& body, const Motion<Dim>& motion, const Vector<Dim>& arm,
+                         const Vector<Dim>& impulse) {
+  const Spin<Dim> spin = angular_velocity(body, motion), turn = moment(arm, impulse);
+  double work = 0;
+  for (int k = 0; k < Dim; ++k)
+    if (body.fixed || !body.free_translation[k]) work -= impulse[k] * motion.velocity[k];
+  for (int k = 0; k < spin_freedoms<Dim>; ++k)
+    if (body.fixed || !body.free_rotation[k]) work -= turn[k] * spin[k];
+  return work;
+}
+
+}  // namespace
+
+template <int Dim>
+Calmed calm_unresolved(const Model<Dim>& model, const StepUnknowns<Dim>& unknowns, double h,
+                       const std::vector<ClosedPoint<Dim>>& closed, std::vector<Motion<Dim>>& after) {
+  constexpr int F = freedoms<Dim>, S = spin_freedoms<Dim>;
+  std::vector<StepPoint<Dim>> points;
+  for (const ClosedPoint<Dim>& c : closed)
+    points.push_back(*c.point);
+  BlockMatrix<F> matrix = laid_out(unknowns, points);
+  for (auto& block : matrix.blocks)
+    block.setZero();
+  // M (v' - v) + h²/4 Σ χ Bᵀ K B v' = 0
+  Eigen::VectorXd rhs = Eigen::VectorXd::Zero(unknowns.free.size());
+  for (std::size_t i = 0; i < unknowns.bodies.size(); ++i) {
+    const int b = unknowns.bodies[i];
+    auto&& block = matrix.at(static_cast<int>(i), static_cast<int>(i));
+    block.template topLeftCorner<Dim, Dim>().diagonal().array() += model.bodies[b].mass;
+    block.template bottomRightCorner<S, S>() += world_inertia<Dim>(model.bodies[b], after[b].rotation);
+  }
+  for (const ClosedPoint<Dim>& c : closed) {
+    const StepPoint<Dim>& p = *c.point;
+    const Vector<Dim> impulse = impulse_of(model, after, c, h);
+    const int a = unknowns.place[p.body_a], b = unknowns.place[p.body_b];
+    if (a >= 0) rhs.segment<F>(F * a) -= velocity_by_motion<Dim>(p.arm_a).transpose() * impulse;
+    if (b >= 0) rhs.segment<F>(F * b) += velocity_by_motion<Dim>(p.arm_b).transpose() * impulse;
+    add_pair<Dim>(unknowns, p, p.arm_a, p.arm_b, mass_of(c, h), 1, matrix);
+  }
+  restrain(unknowns, matrix, rhs);
+  const EliminationPlan plan(neighbours_in(matrix));
+  CompleteFactors<F> factors(plan, true);
+  if (!factors.factorise(matrix)) return {};
+  const Eigen::VectorXd change = factors.solve(rhs);
+  // (v·Mv - v'·Mv')/2 = (v - v')·M(v - v')/2 + v'·C v', C of the points
+  Calmed calmed;
+  for (std::size_t i = 0; i < unknowns.bodies.size(); ++i) {
+    const int b = unknowns.bodies[i];
+    Motion<Dim>& m = after[b];
+    const Spin<Dim> turned = change.segment<S>(F * i + Dim);
+    calmed.taken += 0.5 * (model.bodies[b].mass * change.segment<Dim>(F * i).squaredNorm() +
+                           turned.dot(world_inertia<Dim>(model.bodies[b], m.rotation) * turned));
+    const Spin<Dim> spin = angular_velocity(model.bodies[b], m) + turned;
+    m.velocity += change.segment<Dim>(F * i);
+    m.angular_momentum = angular_momentum(model.bodies[b], m.rotation, spin);
+  }
+  for (const ClosedPoint<Dim>& c : closed) {
+    const StepPoint<Dim>& p = *c.point;
+    const Vector<Dim> impulse = impulse_of(model, after, c, h);
+    calmed.taken += impulse.dot(velocity_of_point(model, after, p.body_a, p.arm_a) -
+                                velocity_of_point(model, after, p.body_b, p.arm_b));
+    calmed.driven += work_of_restraint<Dim>(model.bodies[p.body_b], after[p.body_b], p.arm_b, impulse) +
+                     work_of_restraint<Dim>(model.bodies[p.body_a], after[p.body_a], p.arm_a, -impulse);
+  }
+  return calmed;
+}
+
+#define VOUSSOIR_INSTANTIATE(Dim)                                                                       \
+  template struct StepUnknowns<Dim>;                                                                    \
+  template StepSolution solve_step<Dim>(const Model<Dim>&, const StepUnknowns<Dim>&, double,            \
+                                        const std::vector<Motion<Dim>>&, const std::vector<Load<Dim>>&, \
+                                        std::vector<StepPoint<Dim>>&, std::vector<MeanMotion<Dim>>&);   \
+  template Calmed calm_unresolved<Dim>(const Model<Dim>&, const StepUnknowns<Dim>&, double,             \
+                                       const std::vector<ClosedPoint<Dim>>&, std::vector<Motion<Dim>>&);
+VOUSSOIR_INSTANTIATE(2)
+VOUSSOIR_INSTANTIATE(3)
+#undef VOUSSOIR_INSTANTIATE
+
+}  // namespace voussoir
