@@ -194,7 +194,6 @@ class Advance {
   void keep_history(const StepContact<Dim>& whole) {
     EnergyFlows& flows = state.ledger.energy.flows;
     JointState<Dim> kept;
-    PressedArea<Dim> pressed;
     double slipped = 0, elastic = 0, shear_stiffness = 0;
     ends.clear();
     for (std::size_t k = whole.first; k < whole.first + whole.count; ++k) {
@@ -207,7 +206,6 @@ class Advance {
       flows[Source::unresolved_springs] += end.unresolved;
       ends.push_back(end.shear);
       if (!(overlap > 0)) continue;
-      pressed.add(p);
       kept.normal = p.normal;
       kept.shear_force += end.shear;
       slipped = std::max(slipped, end.plastic_slip);
@@ -219,19 +217,14 @@ class Advance {
     if (kept.normal.isZero(0)) return;
     for (std::size_t k = 0; k < whole.count; ++k) {
       const StepPoint<Dim>& p = found.points[whole.first + k];
-      kept.twist += twist_of(kept.normal, Vector<Dim>(p.point - pressed.centre), ends[k]);
+      kept.twist += moment_about<Dim>(kept.normal, Vector<Dim>(p.point - whole.end.centre), ends[k]);
     }
-    kept.point = pressed.centre;
-    kept.area = pressed.area;
-    kept.polar = pressed.polar;
+    kept.point = whole.end.centre;
+    kept.area = whole.end.area;
+    kept.polar = whole.end.polar;
     kept.plastic_slip = histories.contacts[whole.contact].history.plastic_slip + slipped;
     state.contacts.list[whole.contact].history = kept;
     flows[Source::lost_area] -= held(kept, shear_stiffness);
-  }
-
-  static double twist_of(const Vector<2>&, const Vector<2>&, const Vector<2>&) { return 0; }
-  static double twist_of(const Vector<3>& normal, const Vector<3>& arm, const Vector<3>& shear) {
-    return normal.dot(arm.cross(shear));
   }
 
   void calm() {

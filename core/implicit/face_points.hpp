@@ -1,6 +1,6 @@
 // The points at which a face presses on another within an implicit step: of the smaller face, where it lies on the
-// larger one, each with its own overlap, below zero where they are apart. Points and weights belong to the faces, not
-// to what presses of them at the moment, so that the springs' energy follows the motion also where a face opens.
+// larger one, each with its own overlap, below zero where they are apart. They cover what presses at the begin or the
+// end of the step: all of the common area, or, of a face that leans, what is near its edge or corner.
 #pragma once
 
 #include <vector>
@@ -15,21 +15,36 @@ struct FacePoint {
   double overlap = 0, area = 0;  // m, m²
 };
 
+// what presses of a face: its area, the centre of that, and in 3-D its polar moment about the centre
+template <int Dim>
+struct PressedArea {
+  double area = 0, polar = 0;                // m², m⁴
+  Vector<Dim> centre = Vector<Dim>::Zero();  // m, from the first body's centroid
+};
+
 // frame of the first body
 template <int Dim>
 struct FacePoints {
   Vector<Dim> normal = Vector<Dim>::Zero();  // of the larger face, from the first to the second, unit
-  Vector<Dim> centre = Vector<Dim>::Zero();  // m: of the common area
-  double area = 0;                           // m²: of it
-  double polar = 0;                          // m⁴, 3-D: Σ A |y - centre|² of the points
+  PressedArea<Dim> all, begin, end;          // that the points cover; that presses at the ends of the step
   std::vector<FacePoint<Dim>> points;
 };
 
-// `inside`: a point near both faces, m. In the plane the composite rule of Simpson over the common length, in space the
-// rule of degree three with the vertices on the triangles about the centre of the common polygon: where all of a face
-// presses, force, moment and stiffness are exact. False, without points: the faces are not nearly parallel, or nothing
-// is common to them.
+// Of the second body relative to the first over a step, at a place y from the first's centroid: shift + turn × y, m.
+// `drawn`, m: by so much the pair has been drawn together, against this direction, to see where it meets.
 template <int Dim>
-bool find_face_points(const Pair<Dim>& pair, const Vector<Dim>& inside, int face_a, int face_b, FacePoints<Dim>& found);
+struct RelativeMotion {
+  Vector<Dim> shift = Vector<Dim>::Zero();
+  Spin<Dim> turn = Spin<Dim>::Zero();
+  Vector<Dim> drawn = Vector<Dim>::Zero();
+};
+
+// `inside`: a point near both faces, m; `motion`: its half leads from the pair's pose to the ends of the step. In the
+// plane the composite rule of Simpson over the length, in space the rule of degree three with the vertices on the
+// triangles about the centre of the polygon: where all of it presses, force, moment and stiffness are exact. No points:
+// nothing presses. False: the faces are not nearly parallel.
+template <int Dim>
+bool find_face_points(const Pair<Dim>& pair, const Vector<Dim>& inside, int face_a, int face_b,
+                      const RelativeMotion<Dim>& motion, FacePoints<Dim>& found);
 
 }  // namespace voussoir

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 
 #include "core/contact/integrable.hpp"
 #include "core/contact/integrated_contact.hpp"
@@ -56,12 +57,36 @@ double spin_about(const Vector<3>& n, const Spin<3>& spin) {
   return n.dot(spin);
 }
 
-// of the springs' stress: uniform, and a turn about the centre
-Vector<2> of_twist(const JointState<2>&, const Vector<2>&, const Vector<2>&) {
+// n × arm; 2-D: none
+Vector<2> around(const Vector<2>&, const Vector<2>&) {
   return Vector<2>::Zero();
 }
-Vector<3> of_twist(const JointState<3>& h, const Vector<3>& normal, const Vector<3>& from_centre) {
-  return h.polar > 0 ? Vector<3>(h.twist / h.polar * normal.cross(from_centre)) : Vector<3>(Vector<3>::Zero());
+Vector<3> around(const Vector<3>& normal, const Vector<3>& arm) {
+  return normal.cross(arm);
+}
+
+// Divides shear and twist of a contact's springs among its points in proportion to their normal forces: in proportion
+// to their areas those that hardly press would slip in every step. `points`: of the contact.
+template <int Dim>
+void divide_springs(const JointState<Dim>& springs, const Vector<Dim>& centre, std::span<StepPoint<Dim>> points) {
+  const auto pressed = [](const StepPoint<Dim>& p) { return p.law.normal * std::max(p.law.overlap, 0.0); };
+  double sum = 0, polar = 0;
+  Vector<Dim> of_pressure = Vector<Dim>::Zero();
+  for (const StepPoint<Dim>& p : points) {
+    sum += pressed(p);
+    of_pressure += pressed(p) * (p.point - centre);
+  }
+  if (!(sum > 0)) return;
+  of_pressure = centre + of_pressure / sum;
+  for (const StepPoint<Dim>& p : points)
+    polar += pressed(p) * (p.point - of_pressure).squaredNorm();
+  const Vector<Dim>& n = points.front().normal;
+  const double twist = springs.twist - moment_about<Dim>(n, Vector<Dim>(of_pressure - centre), springs.shear_force);
+  for (StepPoint<Dim>& p : points) {
+    p.from = pressed(p) / sum * springs.shear_force;
+    if (polar > 0) p.from += pressed(p) * twist / polar * around(n, Vector<Dim>(p.point - of_pressure));
+    p.force.shear = p.from;
+  }
 }
 
 // one pair's points
@@ -69,7 +94,7 @@ template <int Dim>
 class PointsOfPair {
  public:
   PointsOfPair(const Model<Dim>& m, const Settings& s, const Schedule& sched, const BodiesState<Dim>& b,
-               const StepMotion<Dim>& mo, const Contact<Dim>& contact, int at, double drawn_by)
+               const StepMotion<Dim>& mo, const Contact<Dim>& contact, int at, const Vector<Dim>& drawn_by)
       : model(m), settings(s), bodies(b), motion(mo), c(contact), place(at), drawn(drawn_by) {
     body_a = model.parts[c.part_a].body;
     body_b = model.parts[c.part_b].body;
@@ -86,24 +111,16 @@ class PointsOfPair {
   void add(const Pair<Dim>& pair, const JointState<Dim>& before, StepPoints<Dim>& all) const {
     static thread_local FacePoints<Dim> face;
     find_faces(pair, face);
-    StepContact<Dim> whole{.contact = place, .first = all.points.size(), .count = face.points.size()};
-    PressedArea<Dim> pressed;
-    for (const FacePoint<Dim>& p : face.points) {
+    StepContact<Dim> whole{.contact = place, .first = all.points.size(), .count = face.points.size(), .end = face.end};
+    for (const FacePoint<Dim>& p : face.points)
       all.points.push_back(point_of(p, face));
-      if (all.points.back().law.overlap > 0) pressed.add(all.points.back());
-    }
     const double ks = properties->shear_stiffness;
     if (ks > 0 && !before.normal.isZero(0)) {
-      const JointState<Dim> springs = moved(before, face.normal, pressed);
+      const std::span<StepPoint<Dim>> own(all.points.begin() + whole.first, all.points.end());
+      divide_springs(moved(before, face.normal, face.begin), face.begin.centre, own);
       whole.lost = held(before, ks);
-      for (std::size_t k = whole.first; k < all.points.size(); ++k) {
-        StepPoint<Dim>& p = all.points[k];
-        if (!(p.law.overlap > 0)) continue;
-        p.from = p.area * (springs.shear_force / pressed.area +
-                           of_twist(springs, p.normal, Vector<Dim>(p.point - pressed.centre)));
-        p.force.shear = p.from;
+      for (const StepPoint<Dim>& p : own)
         whole.lost -= 0.5 * p.from.squaredNorm() / p.law.shear;
-      }
     }
     all.contacts.push_back(whole);
   }
@@ -115,17 +132,35 @@ class PointsOfPair {
     Contact<Dim> near = c;
     if (near.proof.kind == ProofKind::interior_point) {
       find_nearest_faces<Dim>(pair, near, planes);
-      if (find_face_points<Dim>(pair, near.proof.point, near.geometry.face_a, near.geometry.face_b, face)) {
+      if (find_face_points<Dim>(pair, near.proof.point, near.geometry.face_a, near.geometry.face_b,
+                                relative_motion(pair), face)) {
         face.normal = pair.axes * face.normal;
-        face.centre = pair.axes * face.centre;
+        for (PressedArea<Dim>* area : {&face.all, &face.begin, &face.end}) {
+          area->centre = pair.axes * area->centre;
+          if (properties->constant_stiffness) area->area = area->area > 0 ? 1 : 0;
+        }
         for (FacePoint<Dim>& p : face.points)
           p.place = pair.axes * p.place;
         return;
       }
     }
-    face = {.normal = c.geometry.normal, .centre = c.geometry.point, .area = c.geometry.area, .points = {}};
-    face.points.push_back({c.geometry.point, c.geometry.overlap, c.geometry.area});
+    const double overlap = c.geometry.overlap - c.geometry.normal.dot(Vector<Dim>(pair.axes * drawn));
+    face.normal = c.geometry.normal;
+    face.all = face.begin = face.end =
+        PressedArea<Dim>{properties->constant_stiffness ? 1 : c.geometry.area, 0, c.geometry.point};
+    face.points = {{c.geometry.point, overlap, face.all.area}};
   }
+
+  // frame of the first body
+  RelativeMotion<Dim> relative_motion(const Pair<Dim>& pair) const {
+    const MeanMotion<Dim>&a = motion.mean[body_a], &b = motion.mean[body_b];
+    const Vector<Dim> shift =
+        b.velocity - a.velocity - cross(b.spin, between(bodies.poses[body_a], bodies.poses[body_b]));
+    return {motion.h * (pair.axes.transpose() * shift), in_frame(pair.axes, Spin<Dim>(motion.h * (b.spin - a.spin))),
+            drawn};
+  }
+  static Spin<2> in_frame(const Matrix<2>&, const Spin<2>& turn) { return turn; }
+  static Spin<3> in_frame(const Matrix<3>& axes, const Spin<3>& turn) { return axes.transpose() * turn; }
 
   // the springs of the step's start, turned into the plane of the points and moved to the centre of what presses
   JointState<Dim> moved(const JointState<Dim>& before, const Vector<Dim>& normal,
@@ -144,7 +179,10 @@ class PointsOfPair {
 
   StepPoint<Dim> point_of(const FacePoint<Dim>& at, const FacePoints<Dim>& face) const {
     const Vector<Dim>& point = at.place;
-    const double share = at.area / face.area, whole = properties->constant_stiffness ? 1 : face.area;
+    double sum = 0;
+    for (const FacePoint<Dim>& p : face.points)
+      sum += p.area;
+    const double share = at.area / sum, whole = face.all.area;
     const JointProperties& p = *properties;
     StepPoint<Dim> found;
     found.contact = place;
@@ -173,7 +211,7 @@ class PointsOfPair {
         settings.damping.joint_ratio / (std::numbers::pi * settings.damping.joint_frequency);  // s: 2ξ/ω
     law.dashpot += joint_dashpot * law.normal;
     law.shear_dashpot = joint_dashpot * law.shear;
-    law.overlap = at.overlap - drawn + 0.5 * found.normal.dot(found.motion(motion.mean));
+    law.overlap = at.overlap + 0.5 * found.normal.dot(found.motion(motion.mean));
     found.force.normal = std::max(law.normal * law.overlap, 0.0);
     return found;
   }
@@ -184,7 +222,7 @@ class PointsOfPair {
   const StepMotion<Dim>& motion;
   const Contact<Dim>& c;
   const int place;
-  const double drawn;
+  const Vector<Dim> drawn;  // frame of the first body
   const JointProperties* properties;
   int body_a, body_b;
   double friction, lighter, reduced;
@@ -212,7 +250,8 @@ StepPoints<Dim> find_step_points(const Model<Dim>& model, const Settings& settin
     const JointState<Dim>& history = before.contacts[i].history;
     Pair<Dim> pair = pair_of(model, bodies, c.part_a, c.part_b, QueryLevel::area);
     if (c.touching()) {
-      PointsOfPair<Dim>(model, settings, schedule, bodies, motion, c, place, 0).add(pair, history, all);
+      PointsOfPair<Dim>(model, settings, schedule, bodies, motion, c, place, Vector<Dim>::Zero())
+          .add(pair, history, all);
       continue;
     }
     const double reach = 0.5 * reach_of(model, motion, a, b);
@@ -231,8 +270,8 @@ StepPoints<Dim> find_step_points(const Model<Dim>& model, const Settings& settin
     resolve_pairs<Dim>(model, settings.contact, {&pair, 1}, {&one, 1}, cost);
     counters.contact_evaluations += cost.evaluations;
     if (!found.touching()) continue;
-    const double along = drawn * (pair.axes * apart.direction).dot(found.geometry.normal);
-    PointsOfPair<Dim>(model, settings, schedule, bodies, motion, found, place, along).add(pair, history, all);
+    PointsOfPair<Dim>(model, settings, schedule, bodies, motion, found, place, Vector<Dim>(drawn * apart.direction))
+        .add(pair, history, all);
   }
   return all;
 }
@@ -259,15 +298,6 @@ void find_point_forces(const Model<Dim>& model, const Settings& settings, const 
   }
 }
 
-template <int Dim>
-void PressedArea<Dim>::add(const StepPoint<Dim>& p) {
-  const Vector<Dim> apart = p.point - centre;
-  const double sum = area + p.area;
-  if (Dim == 3) polar += area * p.area / sum * apart.squaredNorm();
-  centre += p.area / sum * apart;
-  area = sum;
-}
-
 std::string not_followed_implicitly(const JointProperties& properties, const ContactSettings& contact) {
   if (!is_integrated(contact, properties) && properties.sub_contacts > 1)
     return "they have sub_contacts; implicit steps take faces at points of their own: leave it out";
@@ -280,8 +310,7 @@ std::string not_followed_implicitly(const JointProperties& properties, const Con
                                                  const BodiesState<Dim>&, const ContactsState<Dim>&,                 \
                                                  const JointHistories<Dim>&, const StepMotion<Dim>&, Counters&);     \
   template void find_point_forces<Dim>(const Model<Dim>&, const Settings&, const Schedule&, const BodiesState<Dim>&, \
-                                       ContactsState<Dim>&, EnergyBalance&);                                         \
-  template struct PressedArea<Dim>;
+                                       ContactsState<Dim>&, EnergyBalance&);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)
 #undef VOUSSOIR_INSTANTIATE

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/settings.hpp"
+#include "core/implicit/face_points.hpp"
 #include "core/implicit/mean_motion.hpp"
 #include "core/implicit/point_law.hpp"
 #include "core/model/joint_histories.hpp"
@@ -47,16 +48,8 @@ template <int Dim>
 struct StepContact {
   int contact = 0;                   // place in ContactsState::list
   std::size_t first = 0, count = 0;  // of its points
+  PressedArea<Dim> end;              // what presses at the end, relative to the first body at half of the motion
   double lost = 0;                   // J: by the springs where they were divided among the points
-};
-
-// what presses of some points: the area, and its centre and second moment, as JointState's
-template <int Dim>
-struct PressedArea {
-  double area = 0, polar = 0;                // m², m⁴
-  Vector<Dim> centre = Vector<Dim>::Zero();  // m
-
-  void add(const StepPoint<Dim>& p);  // its polar moment is about the centre of all that were added
 };
 
 template <int Dim>
@@ -64,6 +57,15 @@ struct StepPoints {
   std::vector<StepPoint<Dim>> points;
   std::vector<StepContact<Dim>> contacts;
 };
+
+// N m: of a force at an arm, about the normal; 2-D: none
+template <int Dim>
+double moment_about(const Vector<Dim>& normal, const Vector<Dim>& arm, const Vector<Dim>& force) {
+  if constexpr (Dim == 2)
+    return 0;
+  else
+    return normal.dot(arm.cross(force));
+}
 
 // All points at the present poses. `before`: the histories at the start of the step, in the order of the contacts,
 // which have been found at these poses. The bodies' poses are cached. Forces are those of springs that do not move on.
