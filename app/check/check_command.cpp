@@ -349,6 +349,12 @@ void print_derived(const Forecast& forecast) {
     const std::string count =
         stage.steps > 0 ? fmt::format(", {} {:.1g} of them", text_of(stage.kind), stage.steps) : "";
     print_line("", fmt::format("{}: {}{}", stage.name, step, count));
+    if (stage.load_step > 0 && stage.steps > 0)
+      print_line("", fmt::format("{}: {:.1g} evaluations of each contact; implicit steps, {}, of at most {:.3g} s by "
+                                 "the load: about {:.1g}",
+                                 stage.name, stage.steps,
+                                 stage.implicit ? "which it takes" : "time = { integration = \"implicit\" }",
+                                 stage.load_step, stage.implicit_evaluations()));
   }
 }
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "app/check/blocks.hpp"
+#include "core/implicit/load_bounds.hpp"
 #include "core/run/bonds_as_sliced.hpp"
 #include "core/scene/judge_values.hpp"
 #include "core/step/contacts.hpp"
@@ -184,6 +185,11 @@ void forecast_stages(const Prepared<Dim>& prepared, const Model<Dim>& model, Sta
     if (forecast.steps > 0 && settings.statics.method != Statics::newton &&
         !std::holds_alternative<RunPlan>(stage.plan))
       forecast.steps = std::max(forecast.steps, linings.steps);
+    if (std::holds_alternative<RunPlan>(stage.plan)) {
+      const double load_step = step_of_loads(std::span(stage.change.move));
+      forecast.load_step = std::isfinite(load_step) ? load_step : 0;
+      forecast.implicit = settings.time.integration == Integration::implicit_steps;
+    }
     result.stages.push_back(forecast);
   }
 }

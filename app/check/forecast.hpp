@@ -21,6 +21,14 @@ struct StageForecast {
   double duration = 0;   // s: expected; 0 if unknown
   double steps = 0;      // 0 if unknown
   EstimateKind kind = EstimateKind::about;
+  // of true motion under prescribed motions: what they allow an implicit step, s; 0: there are none
+  double load_step = 0;
+  bool implicit = false;  // the stage takes implicit steps
+
+  // evaluations of each contact by implicit steps that the loads hold
+  double implicit_evaluations() const { return load_step > 0 ? evaluations_of_a_step * duration / load_step : 0; }
+  static constexpr double evaluations_of_a_step =
+      7.5;  // measured: three solutions of half a step, whose geometry is found again
 };
 
 struct Forecast {

@@ -19,9 +19,11 @@ namespace {
 // Geometry of the points at half of the motion is found again so often at most.
 constexpr int most_geometries = 12;
 
-// A body turns by no more than this in a step, rad, and moves by no more than this part of the smallest block: so far
-// away are neighbours looked for.
-constexpr double most_turn = 1, most_way_of_size = 0.1;
+// A body turns by no more than this in a step, rad, and moves by no more than its radius.
+constexpr double most_turn = 1;
+
+// neighbours are listed for so many times the way of a step
+constexpr double with_margin = 1.5;
 
 template <int Dim>
 class Advance {
@@ -36,12 +38,13 @@ class Advance {
     begin();
     for (int k = 0; k < most_geometries; ++k) {
       const std::vector<MeanMotion<Dim>> last = mean;
-      place_at_half();
+      find_points(k == 0 ? 0 : 0.5);
       const StepSolution solution = solve_step(model, unknowns, h, before, loads_at_half(), found.points, mean);
       ++state.counters.implicit_solutions;
       state.counters.implicit_iterations += solution.iterations;
       if (!solution.solved || goes_too_far()) return false;
-      if (k == 0 || change_since(last) > within) continue;
+      const bool settled = k > 0 && change_since(last) <= within;
+      if (list_neighbours() || !settled) continue;
       end();
       return true;
     }
@@ -51,8 +54,6 @@ class Advance {
  private:
   void begin() {
     before = state.bodies.motions;
-    histories = histories_of(state.contacts);
-    listed = state.counters.neighbour_builds;
     for (std::size_t b = 0; b < before.size(); ++b) {
       const Body<Dim>& body = model.bodies[b];
       if (body.fixed || !body.present) continue;
@@ -66,28 +67,40 @@ class Advance {
         if (p.translation[k]) mean[p.body].velocity[k] = velocity[k];
       if (p.rotation) mean[p.body].spin = mean_of(p.factor, from, from + h) * p.angular_velocity;
     }
+    histories = histories_of(state.contacts);
+    list_neighbours();
   }
 
-  void place_at_half() {
+  // All pairs that may meet within the step, as seen from its start. True: the present motion goes beyond those that
+  // were listed before.
+  bool list_neighbours() {
+    double way = 0;
     for (std::size_t b = 0; b < before.size(); ++b)
-      state.bodies.motions[b] = motion_at_half(before[b], mean[b], h);
-    JointHistories<Dim> now = histories;
-    if (listed != state.counters.neighbour_builds) follow_list(state.contacts, now);
-    state.contacts.kept.clear();
-    set_histories(now, state.contacts);
-    const long long builds = state.counters.neighbour_builds;
+      if (!model.bodies[b].immobile() && model.bodies[b].present)
+        way = std::max(way, h * (mean[b].velocity.norm() + model.bodies[b].radius * mean[b].spin.norm()));
+    if (way <= listed) return false;
+    listed = with_margin * way;
+    Settings wide = settings;
+    const double size = smallest_free(model);
+    if (std::isfinite(size)) wide.contact.skin += 2 * listed / size;
+    state.bodies.listed_at.clear();
+    state.bodies.motions = before;
     cache_poses(model, settings.threads, state.bodies);
-    find_neighbours(model, settings, state.bodies, state.contacts, state.counters);
-    if (builds != state.counters.neighbour_builds) {
-      histories = now;
-      follow_list(state.contacts, histories);
-      listed = state.counters.neighbour_builds;
-      now = histories;
-      set_histories(now, state.contacts);
-    }
+    find_neighbours(model, wide, state.bodies, state.contacts, state.counters);
+    follow_list(state.contacts, histories);
+    return true;
+  }
+
+  // after a part of the step
+  void find_points(double passed) {
+    for (std::size_t b = 0; b < before.size(); ++b)
+      state.bodies.motions[b] = passed > 0 ? motion_at_half(before[b], mean[b], h) : before[b];
+    state.contacts.kept.clear();
+    set_histories(histories, state.contacts);
+    cache_poses(model, settings.threads, state.bodies);
     find_contacts(model, settings, 0, state.bodies, state.contacts, state.counters);
-    found = find_step_points<Dim>(model, settings, state.schedule, state.bodies, state.contacts, now, {mean, h},
-                                  state.counters);
+    found = find_step_points<Dim>(model, settings, state.schedule, state.bodies, state.contacts, histories,
+                                  {mean, h, passed}, state.counters);
   }
 
   // without the contacts' forces
@@ -100,11 +113,9 @@ class Advance {
   }
 
   bool goes_too_far() const {
-    const double most = most_way_of_size * smallest_free(model);
-    for (const int b : unknowns.bodies)
-      if (h * mean[b].spin.norm() > most_turn || h * (mean[b].velocity.norm()) > std::max(most, model.bodies[b].size))
-        return true;
-    return false;
+    return std::ranges::any_of(unknowns.bodies, [&](int b) {
+      return h * mean[b].spin.norm() > most_turn || h * mean[b].velocity.norm() > model.bodies[b].radius;
+    });
   }
 
   double change_since(const std::vector<MeanMotion<Dim>>& last) const {
@@ -242,7 +253,7 @@ class Advance {
   std::vector<MeanMotion<Dim>> mean;  // by body
   std::vector<Motion<Dim>> before;
   JointHistories<Dim> histories;  // at the start, in the order of the last list
-  long long listed = 0;
+  double listed = -1;             // m: the way for which the neighbours are listed
   StepPoints<Dim> found;
   std::vector<ClosedPoint<Dim>> closed;
   std::vector<Vector<Dim>> ends;  // N: the shear of a contact's points after the step

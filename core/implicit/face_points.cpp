@@ -193,14 +193,14 @@ bool find_face_points(const Pair<Dim>& pair, const Vector<Dim>& inside, int face
 
   const Vector<Dim> origin = -signed_distance<Dim>(small, Vector<Dim>(Vector<Dim>::Zero())) * small.normal;
   const FacePlane<Dim> plane{origin, axes_across(small.normal)};
-  // half of the closing over the step is added to the overlap or taken off: its value and gradient
+  // what has closed since the begin of the step is taken off the overlap, what will close is added: value and gradient
   const Vector<Dim> gradient = gradient_along(found.normal, motion.turn);
-  const double closing = found.normal.dot(motion.shift + cross(motion.turn, Vector<Dim>(inside + origin)));
+  const double parting = found.normal.dot(motion.shift + cross(motion.turn, Vector<Dim>(inside + origin)));
   BothOverlaps<Dim> overlaps;
   for (int k = 0; k < 2; ++k) {
-    const double half = k == 0 ? 0.5 : -0.5;
-    overlaps[k].value = -signed_distance<Dim>(large, origin) + half * closing - found.normal.dot(motion.drawn);
-    overlaps[k].gradient = plane.axes.transpose() * Vector<Dim>(-large.normal + half * gradient);
+    const double apart = k == 0 ? motion.passed : motion.passed - 1;
+    overlaps[k].value = -signed_distance<Dim>(large, origin) + apart * parting - found.normal.dot(motion.drawn);
+    overlaps[k].gradient = plane.axes.transpose() * Vector<Dim>(-large.normal + apart * gradient);
   }
   add_points(planes, plane, small.normal, 4 * std::min(pair.a->radius, pair.b->radius), overlaps, found);
   for (PressedArea<Dim>* area : {&found.all, &found.begin, &found.end})

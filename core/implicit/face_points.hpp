@@ -37,9 +37,10 @@ struct RelativeMotion {
   Vector<Dim> shift = Vector<Dim>::Zero();
   Spin<Dim> turn = Spin<Dim>::Zero();
   Vector<Dim> drawn = Vector<Dim>::Zero();
+  double passed = 0.5;  // of the motion: leads from the start to the pair's pose
 };
 
-// `inside`: a point near both faces, m; `motion`: its half leads from the pair's pose to the ends of the step. In the
+// `inside`: a point near both faces, m. In the
 // plane the composite rule of Simpson over the length, in space the rule of degree three with the vertices on the
 // triangles about the centre of the polygon: where all of it presses, force, moment and stiffness are exact. No points:
 // nothing presses. False: the faces are not nearly parallel.

@@ -173,6 +173,7 @@ TEST(ImplicitStep, AShakenBlockSlipsByNewmarksDistance) {
       SCOPED_TRACE(fmt::format("h {} k {:g}", h, stiffness));
       const Progress<2> end = whole_run(shaken(stiffness, fmt::format("step_s = {}", h)));
       expect_sound(end, stiffness);
+      EXPECT_NEAR(slip_of(end), slip, tolerance * slip);
       const Counters& cost = end.state.counters;
       EXPECT_LT(cost.implicit_iterations, 2.5 * cost.implicit_solutions);
     }
@@ -224,6 +225,7 @@ factors = [0, 1]
                                                       duration, h, speed, ramp));
     const Progress<2> end = whole_run(scene);
     expect_sound(end);
+    EXPECT_NEAR(slip_of(end), slip, 4e-6 * slip) << h;
   }
 }
 
@@ -261,6 +263,7 @@ frequency_hz = 1
                                                       0.5 * g / (2 * std::numbers::pi) * std::cos(angle)));
     const Progress<2> end = whole_run(scene);
     expect_sound(end);
+    EXPECT_NEAR(slip_of(end), expected, 2e-6 * expected) << h;
   }
 }
 

@@ -13,24 +13,39 @@ constexpr double of_period = 1.0 / 40, of_interval = 1.0 / 20;
 // s over one, and the time since the stage began: what is no later time but rounding
 constexpr double nearly_now = 1e-12;
 
+// s: of a factor of the time
+double step_of(const TimeFactor& factor) {
+  double longest = std::numeric_limits<double>::infinity();
+  if (factor.frequency > 0) longest = of_period / factor.frequency;
+  for (std::size_t k = 1; k < factor.times.size(); ++k)
+    longest = std::min(longest, of_interval * (factor.times[k] - factor.times[k - 1]));
+  return longest;
+}
+
+// of a motion: its factor, and its records
+double step_of_motion(const TimeFactor& factor, const auto& records) {
+  double longest = step_of(factor);
+  for (const auto& record : records)
+    longest = std::min(longest, record.motion->interval);
+  return longest;
+}
+
 }  // namespace
 
 template <int Dim>
 double step_of_loads(const Model<Dim>& model) {
   double longest = std::numeric_limits<double>::infinity();
-  const auto look = [&](const TimeFactor& factor) {
-    if (factor.frequency > 0) longest = std::min(longest, of_period / factor.frequency);
-    for (std::size_t k = 1; k < factor.times.size(); ++k)
-      if (const double interval = factor.times[k] - factor.times[k - 1]; interval > 0)
-        longest = std::min(longest, of_interval * interval);
-  };
-  for (const PrescribedMotion<Dim>& p : model.prescribed) {
-    look(p.factor);
-    for (const RecordedAxis<Dim>& record : p.records)
-      longest = std::min(longest, record.motion->interval);
-  }
+  for (const PrescribedMotion<Dim>& p : model.prescribed)
+    longest = std::min(longest, step_of_motion(p.factor, p.records));
   for (const AppliedForce<Dim>& f : model.applied)
-    look(f.factor);
+    longest = std::min(longest, step_of(f.factor));
+  return longest;
+}
+
+double step_of_loads(std::span<const MovePlan> moves) {
+  double longest = std::numeric_limits<double>::infinity();
+  for (const MovePlan& move : moves)
+    longest = std::min(longest, step_of_motion(move.factor, move.records));
   return longest;
 }
 

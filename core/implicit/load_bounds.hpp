@@ -1,6 +1,9 @@
 // What the loads of a model allow an implicit step.
 #pragma once
 
+#include <span>
+
+#include "core/base/settings.hpp"
 #include "core/model/model.hpp"
 #include "core/model/state.hpp"
 
@@ -10,6 +13,9 @@ namespace voussoir {
 // interval of a record; infinity: nothing changes
 template <int Dim>
 double step_of_loads(const Model<Dim>& model);
+
+// The same of motions that a stage states.
+double step_of_loads(std::span<const MovePlan> moves);
 
 // s: the next time at which a table of the loads bends, or a record has a value
 template <int Dim>

@@ -157,7 +157,7 @@ class PointsOfPair {
     const Vector<Dim> shift =
         b.velocity - a.velocity - cross(b.spin, between(bodies.poses[body_a], bodies.poses[body_b]));
     return {motion.h * (pair.axes.transpose() * shift), in_frame(pair.axes, Spin<Dim>(motion.h * (b.spin - a.spin))),
-            drawn};
+            drawn, motion.passed};
   }
   static Spin<2> in_frame(const Matrix<2>&, const Spin<2>& turn) { return turn; }
   static Spin<3> in_frame(const Matrix<3>& axes, const Spin<3>& turn) { return axes.transpose() * turn; }
@@ -167,12 +167,12 @@ class PointsOfPair {
                         const PressedArea<Dim>& pressed) const {
     JointState<Dim> h = before;
     const MeanMotion<Dim>&a = motion.mean[body_a], &b = motion.mean[body_b];
-    const double half = 0.5 * motion.h;
+    const double since = motion.passed * motion.h;
     h.shear_force =
-        carried(h.shear_force, h.normal, normal, half * 0.5 * spin_about(normal, Spin<Dim>(a.spin + b.spin)));
+        carried(h.shear_force, h.normal, normal, since * 0.5 * spin_about(normal, Spin<Dim>(a.spin + b.spin)));
     const Vector<Dim> arm_b = h.point - between(bodies.poses[body_a], bodies.poses[body_b]);
     const Vector<Dim> apart_speed = b.velocity + cross(b.spin, arm_b) - a.velocity - cross(a.spin, h.point);
-    const Vector<Dim> gone = half * (cross(a.spin, h.point) + 0.5 * apart_speed);
+    const Vector<Dim> gone = since * (cross(a.spin, h.point) + 0.5 * apart_speed);
     change_area<Dim>(normal, pressed.centre - h.point - gone, pressed.area, pressed.polar, h);
     return h;
   }
@@ -211,7 +211,7 @@ class PointsOfPair {
         settings.damping.joint_ratio / (std::numbers::pi * settings.damping.joint_frequency);  // s: 2ξ/ω
     law.dashpot += joint_dashpot * law.normal;
     law.shear_dashpot = joint_dashpot * law.shear;
-    law.overlap = at.overlap + 0.5 * found.normal.dot(found.motion(motion.mean));
+    law.overlap = at.overlap + motion.passed * found.normal.dot(found.motion(motion.mean));
     found.force.normal = std::max(law.normal * law.overlap, 0.0);
     return found;
   }
@@ -254,7 +254,7 @@ StepPoints<Dim> find_step_points(const Model<Dim>& model, const Settings& settin
           .add(pair, history, all);
       continue;
     }
-    const double reach = 0.5 * reach_of(model, motion, a, b);
+    const double reach = std::max(motion.passed, 1 - motion.passed) * reach_of(model, motion, a, b);
     if (!(reach > 0)) continue;
     const Separation<Dim> apart = separation_of(pair, c);
     if (!(apart.gap < reach)) continue;
@@ -282,7 +282,7 @@ void find_point_forces(const Model<Dim>& model, const Settings& settings, const 
   const std::vector<MeanMotion<Dim>> still(model.bodies.size());
   Counters unused;
   const StepPoints<Dim> all =
-      find_step_points<Dim>(model, settings, schedule, bodies, contacts, histories_of(contacts), {still, 0}, unused);
+      find_step_points<Dim>(model, settings, schedule, bodies, contacts, histories_of(contacts), {still, 0, 0}, unused);
   contacts.loads.assign(contacts.list.size(), {});
   energy.elastic = 0;
   for (const StepPoint<Dim>& p : all.points) {

@@ -35,11 +35,12 @@ struct StepPoint {
   }
 };
 
-// The motion that leads from the start of the step to the bodies' present poses, which are those at its half.
+// The motion of a step, and how much of it leads from its start to the bodies' present poses.
 template <int Dim>
 struct StepMotion {
   const std::vector<MeanMotion<Dim>>& mean;  // by body
   double h;                                  // s
+  double passed;                             // of the step: 0 at its start, 0.5 at its half
 };
 
 // Those of a contact. Its springs are kept from step to step as JointState has them: their stress is uniform over what

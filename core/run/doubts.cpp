@@ -16,6 +16,9 @@ constexpr double energy_left_open = 0.05;
 // the fraction of that energy from which local damping dominates a motion
 constexpr double much_damped = 0.1;
 
+// of what friction takes, or of the square of this of the largest energy: what implicit steps may leave unresolved
+constexpr double much_unresolved = 0.05;
+
 // the first stage of true motion with a step that is too long for impacts
 const StagePlan* long_step(std::span<const StagePlan> stages, const Settings& scene) {
   for (const StagePlan& stage : stages) {
@@ -67,6 +70,16 @@ std::string doubts_of(const EnergyBalance& energy, std::span<const StagePlan> st
       "the energy balance does not close: {:.2g} J, {:.2g} of the largest energy of the run, is unexplained, in the "
       "balance of {}",
       energy.worst_error, energy.relative_error(), open_balance(energy, stages, scene));
+}
+
+std::string doubts_of_implicit_steps(const EnergyBalance& energy) {
+  const double taken = energy.flows[Source::unresolved_springs] + energy.flows[Source::unresolved_motion];
+  const double friction = energy.flows[Source::friction];
+  if (!(taken > much_unresolved * std::max(friction, much_unresolved * energy.largest_energy))) return {};
+  return fmt::format(
+      "implicit steps took {:.2g} J out of swings and impacts that they do not resolve, friction {:.2g} J: the answer "
+      "depends on the step; lower time.error_m or time.step_s, or take explicit steps",
+      taken, friction);
 }
 
 std::vector<std::string> doubts_of_level(std::string_view level, const Results& results) {

@@ -17,6 +17,9 @@ namespace voussoir {
 // balance of the motion. `stages`: those that were begun, with the scene's settings.
 std::string doubts_of(const EnergyBalance& energy, std::span<const StagePlan> stages, const Settings& scene);
 
+// A warning if implicit steps have taken much energy out of swings and impacts that they do not resolve; or empty.
+std::string doubts_of_implicit_steps(const EnergyBalance& energy);
+
 // A warning for each critical angle below the range of the accuracy level (empty: none).
 std::vector<std::string> doubts_of_level(std::string_view level, const Results& results);
 

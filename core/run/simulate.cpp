@@ -37,6 +37,8 @@ void add_final_results(const StageInForce<Dim>& stage, Progress<Dim>& progress) 
   const auto begun = std::span(scene.stages).first(std::min<std::size_t>(stage.place + 1, scene.stages.size()));
   if (std::string doubts = doubts_of(state.ledger.energy, begun, scene.settings); !doubts.empty())
     results.warnings.push_back(std::move(doubts));
+  if (std::string doubts = doubts_of_implicit_steps(state.ledger.energy); !doubts.empty())
+    results.warnings.push_back(std::move(doubts));
 }
 
 // stage after stage; false: interrupted
