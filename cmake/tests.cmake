@@ -24,6 +24,10 @@ if(VOUSSOIR_BUILD_TESTS)
   set(core_headers ${PROJECT_SOURCE_DIR}/core/step.hpp ${PROJECT_SOURCE_DIR}/core/testing/models.hpp ${PROJECT_SOURCE_DIR}/core/testing/whole_runs.hpp)
   voussoir_precompiled_tests(voussoir_unit_headers "${VOUSSOIR_TEST_OPTIMISATION}" HEADERS ${core_headers} LIBS voussoir_core)
   voussoir_precompiled_tests(voussoir_optimised_unit_headers "${VOUSSOIR_OPTIMISED_TESTS}" LIBS voussoir_core)
+  # those that app/testing/program.hpp includes; itself it has a macro of its program
+  voussoir_precompiled_tests(voussoir_program_headers "${VOUSSOIR_TEST_OPTIMISATION}"
+    HEADERS <fmt/format.h> <nlohmann/json.hpp> ${PROJECT_SOURCE_DIR}/app/base/run_scene.hpp ${PROJECT_SOURCE_DIR}/app/testing/process.hpp
+    LIBS voussoir_core fmt::fmt nlohmann_json::nlohmann_json)
   # those that cases/case_tools.hpp includes; itself it has a macro of each case
   voussoir_precompiled_tests(voussoir_case_headers "${VOUSSOIR_TEST_OPTIMISATION}"
     HEADERS <fmt/format.h> ${PROJECT_SOURCE_DIR}/app/base/run_scene.hpp ${PROJECT_SOURCE_DIR}/verification/case_report.hpp
@@ -69,7 +73,9 @@ function(voussoir_test name)
     endif()
   else()
     target_compile_options(${target} PRIVATE ${VOUSSOIR_TEST_OPTIMISATION})
-    if(uses_core)
+    if("voussoir_app" IN_LIST arg_LIBS AND "fmt::fmt" IN_LIST arg_LIBS)
+      target_precompile_headers(${target} REUSE_FROM voussoir_program_headers)
+    elseif(uses_core)
       target_precompile_headers(${target} REUSE_FROM voussoir_unit_headers)
     elseif("voussoir_reference" IN_LIST arg_LIBS)
       target_precompile_headers(${target} REUSE_FROM voussoir_reference_headers)
