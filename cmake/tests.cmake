@@ -7,9 +7,9 @@ set(VOUSSOIR_COMMON_HEADERS <Eigen/Dense> <algorithm> <filesystem> <functional> 
 # header must not initialise one of a test's: without optimisation clang 14 may initialise it later.
 set(VOUSSOIR_TEST_OPTIMISATION $<$<CONFIG:Release>:-O0>)
 set(VOUSSOIR_OPTIMISED_TESTS $<$<CONFIG:Release>:-O1>)
-# voussoir_precompiled_tests(<name> <optimisation> HEADERS <headers of their own…> LIBS <targets…>). Two thirds of the compile time of
-# a small case, or of a small test of the core, are the headers of models and runs, and the classes and destructors that these
-# instantiate: HEADERS has them. A change of one compiles every test again, as it does without.
+# voussoir_precompiled_tests(<name> <optimisation> [HEADERS <further ones…>] LIBS <targets…>). A third of the compile time of a case,
+# or of a test of the program, is the headers of loaded scenes and results: HEADERS has them. A change of one compiles these tests
+# again, as it does without. Not for the unit tests of the core: with its headers they took no less, and the headers twice as long.
 function(voussoir_precompiled_tests name optimisation)
   cmake_parse_arguments(arg "" "" "HEADERS;LIBS" ${ARGN})
   add_library(${name} OBJECT ${PROJECT_SOURCE_DIR}/cmake/precompiled.cpp)
@@ -21,8 +21,7 @@ if(VOUSSOIR_BUILD_TESTS)
   find_package(Eigen3 3.4 REQUIRED NO_MODULE)
   find_package(fmt REQUIRED)
   find_package(nlohmann_json REQUIRED)
-  set(core_headers ${PROJECT_SOURCE_DIR}/core/step.hpp ${PROJECT_SOURCE_DIR}/core/testing/models.hpp ${PROJECT_SOURCE_DIR}/core/testing/whole_runs.hpp)
-  voussoir_precompiled_tests(voussoir_unit_headers "${VOUSSOIR_TEST_OPTIMISATION}" HEADERS ${core_headers} LIBS voussoir_core)
+  voussoir_precompiled_tests(voussoir_unit_headers "${VOUSSOIR_TEST_OPTIMISATION}" LIBS voussoir_core)
   voussoir_precompiled_tests(voussoir_optimised_unit_headers "${VOUSSOIR_OPTIMISED_TESTS}" LIBS voussoir_core)
   # those that app/testing/program.hpp includes; itself it has a macro of its program
   voussoir_precompiled_tests(voussoir_program_headers "${VOUSSOIR_TEST_OPTIMISATION}"
