@@ -9,7 +9,7 @@ set(VOUSSOIR_TEST_OPTIMISATION $<$<CONFIG:Release>:-O0>)
 set(VOUSSOIR_OPTIMISED_TESTS $<$<CONFIG:Release>:-O1>)
 # voussoir_precompiled_tests(<name> <optimisation> [HEADERS <further ones…>] LIBS <targets…>). A third of the compile time of a case,
 # or of a test of the program, is the headers of loaded scenes and results: HEADERS has them. A change of one compiles these tests
-# again, as it does without. Not for the unit tests of the core: with its headers they took no less, and the headers twice as long.
+# again, as it does without. Not for the unit tests of the core: with its headers they took longer, and the headers twice as long.
 function(voussoir_precompiled_tests name optimisation)
   cmake_parse_arguments(arg "" "" "HEADERS;LIBS" ${ARGN})
   add_library(${name} OBJECT ${PROJECT_SOURCE_DIR}/cmake/precompiled.cpp)

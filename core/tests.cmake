@@ -2,7 +2,7 @@
 # come the programs with certain tests from several rooms.
 find_package(Boost 1.74 REQUIRED)
 
-# optimised as the tests that use it: at the program's level it took as long to compile as ten tests
+# optimised as the tests that use it: at the program's level it took as long to compile as three of them
 add_library(voussoir_oracle_algebra STATIC testing/dense.cpp)
 target_compile_options(voussoir_oracle_algebra PRIVATE ${VOUSSOIR_OPTIMISED_TESTS})
 target_precompile_headers(voussoir_oracle_algebra REUSE_FROM voussoir_optimised_unit_headers)
