@@ -7,21 +7,32 @@ set(VOUSSOIR_COMMON_HEADERS <Eigen/Dense> <algorithm> <filesystem> <functional> 
 # header must not initialise one of a test's: without optimisation clang 14 may initialise it later.
 set(VOUSSOIR_TEST_OPTIMISATION $<$<CONFIG:Release>:-O0>)
 set(VOUSSOIR_OPTIMISED_TESTS $<$<CONFIG:Release>:-O1>)
+# voussoir_precompiled_tests(<name> <optimisation> [HEADERS <further ones…>] LIBS <targets…>). A third of the compile time of a case,
+# or of a test of the program, is the headers of loaded scenes and results: HEADERS has them. A change of one compiles these tests
+# again, as it does without. Not for the unit tests of the core: with its headers they took longer, and the headers twice as long.
 function(voussoir_precompiled_tests name optimisation)
+  cmake_parse_arguments(arg "" "" "HEADERS;LIBS" ${ARGN})
   add_library(${name} OBJECT ${PROJECT_SOURCE_DIR}/cmake/precompiled.cpp)
-  target_link_libraries(${name} PRIVATE voussoir_flags GTest::gtest ${ARGN})
-  target_precompile_headers(${name} PRIVATE <gtest/gtest.h> ${VOUSSOIR_COMMON_HEADERS})
+  target_link_libraries(${name} PRIVATE voussoir_flags GTest::gtest ${arg_LIBS})
+  target_precompile_headers(${name} PRIVATE <gtest/gtest.h> ${VOUSSOIR_COMMON_HEADERS} ${arg_HEADERS})
   target_compile_options(${name} PRIVATE ${optimisation})
 endfunction()
 if(VOUSSOIR_BUILD_TESTS)
   find_package(Eigen3 3.4 REQUIRED NO_MODULE)
   find_package(fmt REQUIRED)
   find_package(nlohmann_json REQUIRED)
-  voussoir_precompiled_tests(voussoir_unit_headers "${VOUSSOIR_TEST_OPTIMISATION}" voussoir_core)
-  voussoir_precompiled_tests(voussoir_optimised_unit_headers "${VOUSSOIR_OPTIMISED_TESTS}" voussoir_core)
-  voussoir_precompiled_tests(voussoir_case_headers "${VOUSSOIR_TEST_OPTIMISATION}" voussoir_core voussoir_reference fmt::fmt)
-  voussoir_precompiled_tests(voussoir_reference_headers "${VOUSSOIR_TEST_OPTIMISATION}" voussoir_reference Eigen3::Eigen)
-  voussoir_precompiled_tests(voussoir_text_headers "${VOUSSOIR_TEST_OPTIMISATION}" Eigen3::Eigen fmt::fmt nlohmann_json::nlohmann_json)
+  voussoir_precompiled_tests(voussoir_unit_headers "${VOUSSOIR_TEST_OPTIMISATION}" LIBS voussoir_core)
+  voussoir_precompiled_tests(voussoir_optimised_unit_headers "${VOUSSOIR_OPTIMISED_TESTS}" LIBS voussoir_core)
+  # those that app/testing/program.hpp includes; itself it has a macro of its program
+  voussoir_precompiled_tests(voussoir_program_headers "${VOUSSOIR_TEST_OPTIMISATION}"
+    HEADERS <fmt/format.h> <nlohmann/json.hpp> ${PROJECT_SOURCE_DIR}/app/base/run_scene.hpp ${PROJECT_SOURCE_DIR}/app/testing/process.hpp
+    LIBS voussoir_core fmt::fmt nlohmann_json::nlohmann_json)
+  # those that cases/case_tools.hpp includes; itself it has a macro of each case
+  voussoir_precompiled_tests(voussoir_case_headers "${VOUSSOIR_TEST_OPTIMISATION}"
+    HEADERS <fmt/format.h> ${PROJECT_SOURCE_DIR}/app/base/run_scene.hpp ${PROJECT_SOURCE_DIR}/verification/case_report.hpp
+    LIBS voussoir_core voussoir_reference fmt::fmt)
+  voussoir_precompiled_tests(voussoir_reference_headers "${VOUSSOIR_TEST_OPTIMISATION}" LIBS voussoir_reference Eigen3::Eigen)
+  voussoir_precompiled_tests(voussoir_text_headers "${VOUSSOIR_TEST_OPTIMISATION}" LIBS Eigen3::Eigen fmt::fmt nlohmann_json::nlohmann_json)
   target_precompile_headers(voussoir_text_headers PRIVATE <fmt/format.h> <nlohmann/json.hpp>)
 endif()
 
@@ -61,7 +72,9 @@ function(voussoir_test name)
     endif()
   else()
     target_compile_options(${target} PRIVATE ${VOUSSOIR_TEST_OPTIMISATION})
-    if(uses_core)
+    if("voussoir_app" IN_LIST arg_LIBS AND "fmt::fmt" IN_LIST arg_LIBS)
+      target_precompile_headers(${target} REUSE_FROM voussoir_program_headers)
+    elseif(uses_core)
       target_precompile_headers(${target} REUSE_FROM voussoir_unit_headers)
     elseif("voussoir_reference" IN_LIST arg_LIBS)
       target_precompile_headers(${target} REUSE_FROM voussoir_reference_headers)

@@ -2,12 +2,17 @@
 # come the programs with certain tests from several rooms.
 find_package(Boost 1.74 REQUIRED)
 
+# optimised as the tests that use it: at the program's level it took as long to compile as three of them
 add_library(voussoir_oracle_algebra STATIC testing/dense.cpp)
+target_compile_options(voussoir_oracle_algebra PRIVATE ${VOUSSOIR_OPTIMISED_TESTS})
+target_precompile_headers(voussoir_oracle_algebra REUSE_FROM voussoir_optimised_unit_headers)
 target_link_libraries(voussoir_oracle_algebra PUBLIC Eigen3::Eigen PRIVATE voussoir_flags)
 target_include_directories(voussoir_oracle_algebra PUBLIC ${PROJECT_SOURCE_DIR})
 target_compile_definitions(voussoir_oracle_algebra PUBLIC EIGEN_DONT_VECTORIZE)
 
 add_library(voussoir_end_bytes STATIC testing/end_bytes.cpp)
+target_compile_options(voussoir_end_bytes PRIVATE ${VOUSSOIR_TEST_OPTIMISATION})
+target_precompile_headers(voussoir_end_bytes REUSE_FROM voussoir_unit_headers)
 target_link_libraries(voussoir_end_bytes PUBLIC voussoir_core PRIVATE voussoir_flags cereal::cereal)
 
 set(outside_cone_solver)

@@ -51,6 +51,11 @@ LoadedScene load(Scene scene, int threads) {
 
 }  // namespace
 
+LoadedScene::LoadedScene() = default;
+LoadedScene::LoadedScene(LoadedScene&&) noexcept = default;
+LoadedScene& LoadedScene::operator=(LoadedScene&&) noexcept = default;
+LoadedScene::~LoadedScene() = default;
+
 LoadedScene load_scene(const std::filesystem::path& path, const std::vector<std::string>& overrides, int threads) {
   Scene scene = read_scene(path, overrides);
   require_stages(scene);

@@ -27,6 +27,12 @@ struct LoadedScene {
   std::vector<std::string> warnings;         // stated values that look like mistakes, one line each
   std::shared_ptr<const Scene> stated;       // as the file states it
   AnyPrepared prepared;
+
+  // defined in one source: every other one would spend seconds on those of both models
+  LoadedScene();
+  LoadedScene(LoadedScene&&) noexcept;
+  LoadedScene& operator=(LoadedScene&&) noexcept;
+  ~LoadedScene();
 };
 
 // Reads, cuts, chooses the solvers. Overrides as after --set: "joints.A.dip=65". Throws SceneError, or BadInput when a
