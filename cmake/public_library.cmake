@@ -16,7 +16,8 @@ function(voussoir_public_library target)
   if(VOUSSOIR_SHARED)
     set(exported ${PROJECT_SOURCE_DIR}/cmake/exported_symbols.txt)
     target_link_options(${target} PRIVATE -Wl,--version-script=${exported} -Wl,-Bsymbolic-functions -Wl,--no-undefined)
-    set_target_properties(${target} PROPERTIES LINK_DEPENDS ${exported} VERSION ${PROJECT_VERSION}
+    # without a macro of its own it is linked from the objects of the static one
+    set_target_properties(${target} PROPERTIES DEFINE_SYMBOL "" LINK_DEPENDS ${exported} VERSION ${PROJECT_VERSION}
       SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})  # another minor version may change layouts
     install(TARGETS ${target} EXPORT voussoir-targets
       LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT program NAMELINK_COMPONENT development)
