@@ -7,7 +7,7 @@ JOBS   ?= $(shell nproc)
 # when make began: the last line of each target says how long it took
 export VOUSSOIR_STARTED := $(shell date +%s)
 
-.PHONY: help history build program test test-long coverage reports problems benchmark judge-kernel others deb run format clean
+.PHONY: help history build program test test-long coverage reports problems benchmark judge-kernel others deb dist dist-check run format clean
 
 help:
 	@echo "make run                 the program alone, and the tutorial's slope: a factor of safety and an interactive page"
@@ -23,6 +23,7 @@ help:
 	@echo "make judge-kernel KERNEL=./mine.so  judge a contact kernel of your own by exact pairs, and time it (benchmarks/judge)"
 	@echo "make others              the problem files in seven other engines beside the program: a table, 20 minutes of two cores"
 	@echo "make deb                 Debian packages: build-packages/*.deb"
+	@echo "make dist                source archive: build-dist/voussoir-VERSION.tar.gz (dist-check: builds it without network, minutes)"
 
 # $(call configure,options): keeps the options of an existing build
 configure = cmake --preset $(PRESET) $(1) > configure.log 2>&1 || { cat configure.log; rm -f configure.log; exit 1; }; \
@@ -83,6 +84,13 @@ others: build
 deb:
 	@cmake/install_packages.sh program python packaging
 	@cmake/make_packages.sh $(CURDIR)/build-packages $(JOBS)
+
+dist:
+	@cmake/make_dist.sh $(CURDIR)/build-dist
+
+dist-check:
+	@cmake/install_packages.sh program
+	@cmake/check_dist.sh $(CURDIR)/build-dist $(JOBS)
 
 run: program
 	@cmake/run_scene.sh $(BUILD) "$(SCENE)" "$(OUT)" $(SET)

@@ -121,6 +121,7 @@ if [ -x "$program" ] && ! "$program" docs >"$reports/scene_keys.md"; then
   rm -f "$reports/scene_keys.md"
   failures+=("scene keys (voussoir docs)")
 fi
+"$source/library/header_pages.py" "$source" "$reports/library_headers.md" >/dev/null || failures+=("public headers (library/header_pages.py)")
 rm -f "$reports"/manual-*.html "$reports"/manual-*.pdf "$reports/index.html"  # of another version, or without one
 "$build/reports/voussoir_manual" --source "$source" --build "$build" || failures+=("manual")
 largest_manual=12000000  # bytes: the size limit of e-mail

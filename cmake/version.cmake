@@ -19,7 +19,10 @@ if(CMAKE_SCRIPT_MODE_FILE)
     endif()
   endif()
   if(NOT commit)
-    set(commit unknown)
+    file(STRINGS ${SOURCE_DIR}/cmake/archived_commit.txt commit)  # git archive has written it
+    if(NOT commit MATCHES "^[0-9a-f]+$")
+      set(commit unknown)
+    endif()
   endif()
   file(CONFIGURE OUTPUT ${HEADER} @ONLY CONTENT [[
 #define VOUSSOIR_VERSION "@VERSION@"

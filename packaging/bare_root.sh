@@ -30,10 +30,19 @@ grep -q "voussoir study gather" /tmp/manual
 grep -q "voussoir $version" /tmp/manual
 
 echo "the library"
-install ./libvoussoir-dev_*.deb g++ pkg-config
+install ./libvoussoir-dev_*.deb g++ pkg-config cmake make
 [ "$(pkg-config --modversion voussoir)" = "$version" ]
 g++ -std=c++20 -O2 /usr/share/doc/libvoussoir-dev/examples/sliding_block/main.cpp $(pkg-config --cflags --libs voussoir) -o /tmp/sliding_block
 /tmp/sliding_block
+WITH_AVX2=$(grep -qw avx2 /proc/cpuinfo && echo yes || true)
+export WITH_AVX2
+consumer=/usr/share/doc/libvoussoir-dev/examples/library
+./use_library.sh /usr /tmp/static g++ $consumer "$PWD/two_squares.toml" "$PWD/two_cubes.toml"
+
+echo "the shared library"
+./use_library.sh "$PWD/shared" /tmp/shared g++ $consumer "$PWD/two_squares.toml" "$PWD/two_cubes.toml"
+ldd /tmp/shared/consumer/uses_voussoir | grep libvoussoir_core.so
+cmp /tmp/static/bits.txt /tmp/shared/bits.txt
 
 if compgen -G './python3-voussoir_*.deb' >/dev/null; then
   echo "the Python module"

@@ -11,7 +11,13 @@ done
 "$source/cmake/make_packages.sh" "$folder" "$(nproc)"
 rm -rf "$folder/packages"
 mkdir -p "$folder/packages"
-cp "$folder"/*.deb "$source/packaging/bare_root.sh" "$source/app/testing/console_page.sh" "$folder/packages"
+cp "$folder"/*.deb "$source/packaging/bare_root.sh" "$source/app/testing/console_page.sh" "$source/library/use_library.sh" \
+   "$source"/app/testing/two_squares.toml "$source"/app/testing/two_cubes.toml "$folder/packages"
+# the shared library from the same objects
+{
+  cmake -B "$folder" -DVOUSSOIR_SHARED=ON && cmake --build "$folder" --parallel "$(nproc)" &&
+    cmake --install "$folder" --prefix "$folder/packages/shared" && cmake -B "$folder" -DVOUSSOIR_SHARED=OFF
+} >"$folder/shared.log" 2>&1 || { tail -n 20 "$folder/shared.log"; exit 1; }
 
 # $1 is mmdebstrap's root
 mmdebstrap --variant=minbase --mode=root --format=null --customize-hook="copy-in '$folder/packages' /" \

@@ -57,17 +57,20 @@ std::string front(const Sources& sources) {
       commit_note(verdicts));
 }
 
-std::string scene_keys(const Sources& sources) {
-  std::string text = "<section id=\"scene-keys\"><h2>Scene keys</h2>\n";
-  if (fs::exists(sources.keys) && fs::file_size(sources.keys) > 0) {
+// a list in markdown that `maker` has written
+std::string list_page(const Sources& sources, const fs::path& list, const char* id, const char* title,
+                      const char* maker) {
+  std::string text = fmt::format("<section id=\"{}\"><h2>{}</h2>\n", id, title);
+  if (fs::exists(list) && fs::file_size(list) > 0) {
     const LinkRules without_pictures{
         {}, [](const std::string&, const std::string&) -> std::optional<std::string> { return {}; }};
-    return text + markdown_to_html(read_text(sources.keys), 1, true, without_pictures) + "</section>\n";
+    return text + markdown_to_html(read_text(list), 1, true, without_pictures) + "</section>\n";
   }
-  sources.missing.push_back("scene keys: the program voussoir did not list them");
-  return text +
-         "<p class=\"note\">The list is missing: the program <code>voussoir docs</code> was not available when "
-         "this manual was built.</p></section>\n";
+  sources.missing.push_back(fmt::format("{}: {} did not list them", title, maker));
+  return text + fmt::format(
+                    "<p class=\"note\">The list is missing: <code>{}</code> was not available when this manual was "
+                    "built.</p></section>\n",
+                    maker);
 }
 
 void add_cases(const Sources& sources, CaseState state, bool wanted, const std::string& group,
@@ -149,7 +152,11 @@ std::vector<Part> all_parts(const Sources& sources) {
   parts.push_back({"Speed", "other-engines", "Other engines", others_page(folders)});
   parts.push_back({"Reference", "what-water-means", "Water in the model",
                    text_page(folders, "water", "what-water-means", sources.missing)});
-  parts.push_back({"Reference", "scene-keys", "Scene keys", scene_keys(sources)});
+  parts.push_back({"Reference", "scene-keys", "Scene keys",
+                   list_page(sources, sources.keys, "scene-keys", "Scene keys", "voussoir docs")});
+  parts.push_back({"Reference", "public-headers", "Public headers",
+                   list_page(sources, folders.build / "reports" / "library_headers.md", "public-headers",
+                             "Public headers", "library/header_pages.py")});
   return parts;
 }
 

@@ -21,8 +21,11 @@ namespace fs = std::filesystem;
 constexpr int longest_file = 500;  // lines; a longer one holds two ideas
 constexpr int one_screen = 60;     // lines of core/step.cpp: the whole method at a glance
 
-constexpr std::array top_folders{"text",  "core",       "app",     "reference", "verification",
-                                 "cases", "benchmarks", "reports", "fuzz",      "python"};
+constexpr std::array top_folders{"text",       "core",    "app",  "reference", "verification", "cases",
+                                 "benchmarks", "reports", "fuzz", "python",    "library"};
+
+// the header that users of the library include
+constexpr std::string_view entry_of_users = "library/voussoir.hpp";
 
 // The rooms of the core from the ground up: a room may include those of the lines before its own. Files within a room
 // need no line: there, as everywhere, only circles are refused. So contact, joint_laws, load and support do not know
@@ -59,6 +62,7 @@ const std::vector<Reach> reaches{
      {"verification", "text", "core/base/accuracy.hpp"}},  // the promises of the accuracy levels, which reports judge
     {"fuzz", {"core", "app", "text"}},
     {"python", {"core", "text"}},
+    {"library", {"core", "text"}},
 };
 
 std::string top_folder(std::string_view path) {
@@ -305,7 +309,8 @@ std::vector<std::string> unused_files(const std::vector<SourceFile>& sources, co
       if (path != source.path) included.insert(path);
   std::vector<std::string> unused;
   for (const SourceFile& source : sources)
-    if (source.path.ends_with(".cpp") ? !built.contains(source.path) : !included.contains(source.path))
+    if (source.path.ends_with(".cpp") ? !built.contains(source.path)
+                                      : !included.contains(source.path) && source.path != entry_of_users)
       unused.push_back(source.path +
                        (source.path.ends_with(".cpp") ? " is in no target of CMake" : " is included by no file"));
   return unused;

@@ -5,6 +5,7 @@
 
 #include "app/base/arguments.hpp"
 #include "app/docs/command_pages.hpp"
+#include "app/docs/schema.hpp"
 #include "app/study/keys.hpp"
 #include "core/output/monitor.hpp"
 #include "core/run/simulate.hpp"
@@ -105,18 +106,26 @@ ExitCode print_documentation() {
 
 void add_docs(CLI::App& program, Action& action) {
   struct Pages {
-    bool manual = false, completion = false;
+    bool manual = false, completion = false, schema = false;
   };
   const auto pages = std::make_shared<Pages>();
   CLI::App* command =
       program.add_subcommand("docs", "every key of scenes and studies and every column of history.csv, as Markdown");
   CLI::Option* manual = command->add_flag("--man", pages->manual, "print the manual page instead (troff)");
-  command->add_flag("--completion", pages->completion, "print the completion script for bash instead")
-      ->excludes(manual);
+  CLI::Option* completion =
+      command->add_flag("--completion", pages->completion, "print the completion script for bash instead");
+  command->add_flag("--schema", pages->schema, "print a JSON Schema of scenes and studies instead, for editors")
+      ->excludes(manual)
+      ->excludes(completion);
+  completion->excludes(manual);
   command->callback([pages, &program, &action] {
     action = [pages, &program] {
-      if (!pages->manual && !pages->completion) return print_documentation();
-      fmt::print("{}", pages->manual ? manual_page(program) : bash_completion(program));
+      if (pages->schema)
+        fmt::print("{}", files_schema());
+      else if (pages->manual || pages->completion)
+        fmt::print("{}", pages->manual ? manual_page(program) : bash_completion(program));
+      else
+        return print_documentation();
       return ExitCode::done;
     };
   });

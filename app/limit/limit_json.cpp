@@ -5,6 +5,7 @@
 #include "app/limit/limit_files.hpp"
 #include "app/run_folder/origin.hpp"
 #include "core/base/version.hpp"
+#include "core/output/json_parts.hpp"
 
 namespace voussoir {
 namespace {

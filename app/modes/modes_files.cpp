@@ -11,6 +11,7 @@
 #include "app/view/page.hpp"
 #include "core/base/version.hpp"
 #include "core/output/atomic_file.hpp"
+#include "core/output/json_parts.hpp"
 #include "core/output/paraview.hpp"
 #include "core/output/view.hpp"
 #include "core/run/run.hpp"

@@ -10,6 +10,7 @@
 #include "app/run_folder/search_files.hpp"
 #include "core/base/preset.hpp"
 #include "core/output/atomic_file.hpp"
+#include "core/output/json_parts.hpp"
 #include "core/output/record_output.hpp"
 #include "core/output/support_table.hpp"
 #include "core/run/simulate.hpp"

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/key_blocks/mass_values.hpp"
+#include "core/output/json_parts.hpp"
 #include "core/scene/node.hpp"
 #include "text/csv_table.hpp"
 #include "text/plain_text.hpp"

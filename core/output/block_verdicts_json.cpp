@@ -8,6 +8,7 @@
 #include "core/key_blocks/direction_cone.hpp"
 #include "core/key_blocks/mass_values.hpp"
 #include "core/output/block_verdicts.hpp"
+#include "core/output/json_parts.hpp"
 #include "text/angle.hpp"
 
 namespace voussoir {

@@ -2,9 +2,8 @@
 // fewest digits that read back to the same number. Columns:
 //   time_s                 simulated time
 //   stage                  from 1
-//   trial                  if a stage searches by trials: 0 on the path to the result, whose time never goes back, or
-//   the number of the
-// trial, from 1, that ended here and was undone
+//   trial                  if a stage searches: 0 on the path to the result, whose time never goes back, or the
+//                          number, from 1, of the trial that ended here and was undone
 //   friction_<name>_deg    friction angle in force of each joint property whose friction a stage reduces or states
 //   <monitor>_<quantity>…  quantities of the monitors (core/output/monitor.hpp)
 #pragma once

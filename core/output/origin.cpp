@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/fingerprint.hpp"
+#include "core/output/json_parts.hpp"
 
 namespace voussoir {
 namespace {

@@ -2,7 +2,6 @@
 // alone, because the C library chooses its sine, exponential and power by processor.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -22,9 +21,5 @@ const std::string& math_functions_hash();
 
 // false: it was there already
 bool add_origin(std::vector<Origin>& origins, const Origin& origin);
-
-nlohmann::ordered_json origins_json(const std::vector<Origin>& origins);
-// throws nlohmann::json::exception
-std::vector<Origin> origins_of(const nlohmann::json& json);
 
 }  // namespace voussoir

@@ -9,6 +9,7 @@
 #include "core/base/version.hpp"
 #include "core/output/atomic_file.hpp"
 #include "core/output/history_csv.hpp"
+#include "core/output/json_parts.hpp"
 #include "core/output/results_json.hpp"
 #include "core/testing/temporary_folder.hpp"
 

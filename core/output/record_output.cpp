@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/load/response_spectrum.hpp"
+#include "core/output/json_parts.hpp"
 #include "text/csv_table.hpp"
 
 namespace voussoir {

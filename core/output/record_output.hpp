@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -23,9 +22,6 @@ struct RecordRow {
 
 // every record that the stages prescribe
 std::vector<RecordRow> record_rows(const std::vector<StagePlan>& stages);
-
-// `records` of results.json: SI units in the keys
-nlohmann::ordered_json records_json(const std::vector<RecordRow>& rows);
 
 // The response at 5 % of critical damping, a row for each record and period; empty if no record has accelerations.
 // Columns: record, file, period_s, frequency_hz, displacement_m (largest relative to the ground),

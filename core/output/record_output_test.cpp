@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/load/ground_motion.hpp"
+#include "core/output/json_parts.hpp"
 #include "text/csv_table.hpp"
 
 namespace voussoir::record_output_test {

@@ -6,6 +6,7 @@
 
 #include "core/base/version.hpp"
 #include "core/output/atomic_file.hpp"
+#include "core/output/json_parts.hpp"
 #include "core/output/support_summary.hpp"
 
 namespace voussoir {

@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <map>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +13,7 @@
 
 namespace voussoir {
 
+// `schema_version` of results.json: another number if a reader of files must know of a change
 inline constexpr int results_schema_version = 1;
 
 // One round of `[accuracy] error`; the last one is accurate enough.
@@ -23,7 +23,6 @@ struct AccuracyRound {
   long long contact_evaluations = 0;         // including those of its budget
   std::map<std::string, double> parts = {};  // of error bars: "critical_friction: stiffness"
 };
-nlohmann::ordered_json rounds_json(const std::vector<AccuracyRound>& rounds);
 
 // further contents of results.json besides the results
 struct RunRecord {

@@ -30,6 +30,7 @@ struct CheckpointRecord {
   long long step = 0;
 };
 
+// the progress as bytes, for read_checkpoint with the same hash: that of the scene (input_hash)
 template <int Dim>
 std::string checkpoint_bytes(const Progress<Dim>& progress, const std::string& scene_hash);
 

@@ -34,6 +34,8 @@ std::string canonical_text(const Scene& scene);
 
 // the input hash: the fingerprint of that text
 std::string input_hash(const Scene& scene);
+
+// the same text of a part of a scene
 std::string canonical_text(const Node& part);
 
 // every key, its meaning, unit, range and default, in markdown, from the table that the reader uses
