@@ -156,10 +156,14 @@ class Measurement(unittest.TestCase):
         self.assertTrue(accelerates({"cube": path(lambda t: 0.1 * t)}, c))
 
     def test_a_block_sent_off(self):
-        c = dict(kind="gets faster", block="cube", times_s=[0.5, 1.0, 1.5])
+        c = dict(kind="gets faster", block="cube", times_s=[0.5, 1.0, 1.5], stopped_m=0.05)
         self.assertTrue(gets_faster({"cube": path(lambda t: t + 0.01 * t * t)}, c))
         self.assertFalse(gets_faster({"cube": path(lambda t: t - 0.01 * t * t)}, c))
         self.assertFalse(gets_faster({"cube": path(lambda t: 0.3 + 1e-9 * t * t)}, c))  # it has stopped
+        self.assertTrue(gets_faster({"cube": path(lambda t: 0.3 + 1e-9 * t * t)}, dict(c, stopped_m=1e-10)))
+        del c["stopped_m"]
+        with self.assertRaisesRegex(ValueError, "lacks stopped_m"):
+            gets_faster({"cube": path(lambda t: t)}, c)
 
     def test_any_block_may_fall(self):
         c = dict(kind="falls", block="any block", far_m=0.3)
