@@ -87,7 +87,7 @@ def points_of_sweeps(problems, known):
     for name, engine in known.items():
         if engine.extra:
             continue  # the same sweep with other joints
-        for problem, tried in judged(kept_rows(os.path.join(HERE, engine.folder, "sweep.tsv")), problems, engine.model).items():
+        for problem, tried in judged(kept_rows(os.path.join(HERE, engine.folder, "sweep.tsv")), problems, engine).items():
             points.setdefault(problem, {})[name] = [(t.seconds, t.largest) for t in tried.values() if t.seconds > 0]
     return points
 
