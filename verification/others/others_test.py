@@ -8,6 +8,7 @@ import unittest
 
 try:
     import numpy as np
+    import scipy.optimize  # noqa: F401, read by overlap
 except ImportError:
     print("not tested: python3-numpy is not installed")
     sys.exit(1 if os.environ.get("VOUSSOIR_NO_SKIP") == "1" else 77)
@@ -15,11 +16,12 @@ except ImportError:
 import answer
 import choose
 import engines
+import overlap
 import run
 import score
 import table
 from measure import Path, accelerates, bisect, falls, gets_faster
-from problem import CannotState, Problem, mass_properties, matrix_of, quaternion_of, turn_matrix
+from problem import CannotState, Problem, bonded_faces, mass_properties, matrix_of, quaternion_of, turn_matrix
 from scene import force_at, gravity_at, read_scene, scene_text, turned
 
 G = 9.81
@@ -247,6 +249,66 @@ class Answers(unittest.TestCase):
         self.assertEqual({c: one.words() for c, one in found.items()},
                          {"bullet": "30.5, FAIL +0.5, 0.2 s", "jolt": "30, pass, 1 s", "ode": "stopped", "rapier": "not run",
                           "box2d": "cannot state"})
+
+
+def cuboid(name, centre, turn, lengths, fixed=False):
+    """of a scene: a box by its planes in its own axes"""
+    corners = [[sx * lengths[0] / 2, sy * lengths[1] / 2, sz * lengths[2] / 2] for sx in (-1, 1) for sy in (-1, 1) for sz in (-1, 1)]
+    faces = [dict(plane=[*(s * np.eye(3)[k]), lengths[k] / 2]) for k in range(3) for s in (-1, 1)]
+    return dict(name=name, fixed=fixed, centre=np.array(centre, float), turn=np.array(turn, float), vertices=np.array(corners), faces=faces)
+
+
+class Overlap(unittest.TestCase):
+    floor = cuboid("floor", [0, 0, -0.5], [1, 0, 0, 0], [4, 4, 1], True)
+
+    def test_a_cube_that_sinks_in(self):
+        for depth in (1e-9, 2.5e-7, 1e-3):
+            found = overlap.largest_overlap([self.floor, cuboid("cube", [0, 0, 0.5 - depth], [1, 0, 0, 0], [1, 1, 1])], {})
+            self.assertAlmostEqual(found, depth, delta=1e-12)
+
+    def test_an_edge_that_sinks_in(self):
+        # the deepest point under the floor's plane and both planes of an edge of 90 deg: depth / (1 + root 2), twice
+        turn = [math.cos(math.pi / 8), 0, math.sin(math.pi / 8), 0]
+        cube = cuboid("cube", [0, 0, 0.5], [1, 0, 0, 0], [1, 1, 1])
+        found = overlap.largest_overlap([self.floor, cube], {"cube": [0, 0, math.sqrt(0.5) - 1e-3, *turn]})
+        self.assertAlmostEqual(found, 2e-3 / (1 + math.sqrt(2)), delta=1e-9)
+
+    def test_a_gap_is_no_overlap_and_what_is_far_is_nothing(self):
+        for height, expected in ((0.5005, 0.0), (0.6, None)):
+            cube = cuboid("cube", [0, 0, height], [1, 0, 0, 0], [1, 1, 1])
+            self.assertEqual(overlap.largest_overlap([self.floor, cube], {}), expected)
+
+    def test_fixed_blocks_are_no_pair(self):
+        self.assertIsNone(overlap.largest_overlap([self.floor, dict(self.floor, name="other")], {}))
+
+
+class Bonds(unittest.TestCase):
+    joint = [1e9, 2e8, 1e6, 3e5]
+
+    def faces(self):
+        wall, beam = block("wall", (-1, -0.5, -1), (0, 0.5, 1), True), block("beam", (0, -0.5, -0.25), (1, 0.5, 0.25))
+        stated = dict(incline(), blocks=[wall, beam])
+        return bonded_faces(Problem(stated).scene()["blocks"], self.joint)
+
+    def test_springs_have_the_stiffness_of_the_face(self):
+        (w,) = self.faces()
+        self.assertEqual((w["block"], w["fixed"], w["strength"]), ("beam", "wall", 3e5))
+        np.testing.assert_allclose([4 * w["kn"], 4 * w["ks"], w["area"]], [5e8, 1e8, 0.5])
+        np.testing.assert_allclose(w["normal"], [1, 0, 0], atol=1e-12)
+        points = np.array(w["points"])
+        np.testing.assert_allclose(points.mean(0), 0, atol=1e-12)
+        np.testing.assert_allclose((w["kn"] * points**2).sum(0), 1e9 * np.array([0, 0.5 / 12, 0.125 / 12]), rtol=1e-12)
+
+    def test_only_codes_of_springs_read_them(self):
+        scene = dict(Problem(incline()).scene(21.0), welds=self.faces())
+        self.assertNotIn("weld", scene_text(scene, {}))
+        (line,) = [t for t in scene_text(scene, {}, welds=True).splitlines() if t.startswith("weld")]
+        self.assertEqual(len(line.split()), 1 + 2 + 4 + 3 + 12)
+
+    def test_a_code_whose_welds_are_springs_is_judged_as_one_with_stiffness(self):
+        engine = engines.Engine("welder", "1", [], "rigid", {}, welds=True)
+        self.assertEqual([engine.model_for(n) for n in ({"bond"}, {"space"})], ["joint stiffness", "rigid"])
+        self.assertEqual(Answers.rigid.model_for({"bond"}), "rigid")
 
 
 class Choice(unittest.TestCase):
