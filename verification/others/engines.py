@@ -8,8 +8,8 @@ import time
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 BOND = "contacts have no cohesion and no tensile strength per area"
-ONE_SOFTNESS = BOND + "; a joint between blocks has one softness for forces and moments alike"
-WELD = BOND + "; a joint that fixes a block to another has no stiffness"
+ONE_SOFTNESS = BOND + "; its fixed joint has one softness for forces and moments alike, and the adapter states no other joint"
+WELD = BOND + "; its fixed joint has no stiffness"
 FRICTIONS = "one coefficient of friction for all joints: the adapter states no other"
 PLANE = "the engine is plane"
 BOLTS = "the engine has no bolts"
@@ -35,7 +35,7 @@ PACKAGES = {"bullet": "libbullet-dev", "ode": "libode-dev", "box2d": "libbox2d-d
             "siconos": "python3-siconos"}
 MODULES = {"rapier": "@dimforge/rapier3d-deterministic-compat", "jolt": "jolt-physics"}
 # why an engine cannot state a bond; one that is not listed states it by springs
-BONDS = {"ode": ONE_SOFTNESS, "rapier": WELD, "jolt": WELD}
+BONDS = {"ode": ONE_SOFTNESS}
 RIGID = {"bond": WELD, "several frictions": FRICTIONS, "bolts": BOLTS}
 
 
