@@ -10,7 +10,7 @@ try:
     import numpy as np
     import scipy.optimize  # noqa: F401, read by overlap
 except ImportError:
-    print("not tested: python3-numpy is not installed")
+    print("not tested: python3-numpy or python3-scipy is not installed")
     sys.exit(1 if os.environ.get("VOUSSOIR_NO_SKIP") == "1" else 77)
 
 import answer

@@ -5,7 +5,6 @@ from scipy.optimize import linprog
 from problem import matrix_of
 
 NEAR = 1e-3  # m, between the bounds of blocks that may touch
-MICROMETRES = 1e6  # the solver's tolerance of 1e-7 is then 1e-13 m
 
 
 def overlap(first, second):
@@ -13,12 +12,18 @@ def overlap(first, second):
     overlap that the program itself computes; negative: the gap's measure"""
     planes = np.concatenate([first, second])
     middle = np.mean([np.linalg.lstsq(p[:, :3], p[:, 3], rcond=None)[0] for p in (first, second)], axis=0)
-    limits = (planes[:, 3] - planes[:, :3] @ middle) * MICROMETRES
-    found = linprog([0, 0, 0, -1], A_ub=np.column_stack([planes[:, :3], np.ones(len(planes))]), b_ub=limits,
-                    bounds=[(None, None)] * 4, method="highs")
-    if found.status != 0:
+    limits = planes[:, 3] - planes[:, :3] @ middle
+    for method in ("highs-ds", "highs-ipm"):
+        found = linprog([0, 0, 0, -1], A_ub=np.column_stack([planes[:, :3], np.ones(len(planes))]), b_ub=limits,
+                        bounds=[(None, None)] * 4, method=method)
+        if found.status == 0:
+            break
+    else:
         raise ArithmeticError("overlap of two blocks: " + found.message)
-    return 2 * found.x[3] / MICROMETRES
+    # The solver's point is good to 1e-7 m. The shares of the planes that hold it balance each other, so their mean depth does
+    # not depend on the point, and its error is the product of both.
+    shares = -found.ineqlin.marginals
+    return 2 * float(shares @ (limits - planes[:, :3] @ found.x[:3]) / shares.sum())
 
 
 def placed(block, pose):
