@@ -1,5 +1,5 @@
-// MuJoCo 2.2. Settings: dt; timeconst (s, of solref; never below two steps), dmin, dmax (of solimp): softness of
-// contacts; cone (1 elliptic, 0 pyramid); box (1: native boxes); impratio; noslip, iterations; multiccd; rk4 (0: Euler)
+// MuJoCo 2.2. Settings: dt; timeconst (s, of solref; never below two steps), dmin, dmax (of solimp): softness; cone
+// (1 elliptic, 0 pyramid); box (1: native boxes); impratio; noslip, iterations; multiccd; cg (0: Newton); rk4 (0: Euler)
 #include <mujoco/mujoco.h>
 
 #include <cstring>
@@ -96,7 +96,8 @@ class MujocoWorld {
         << scene_.setting("dt", 0.002) << "' iterations='" << static_cast<int>(scene_.setting("iterations", 100))
         << "' tolerance='1e-10' cone='" << (scene_.setting("cone", 1) != 0 ? "elliptic" : "pyramidal") << "' impratio='"
         << scene_.setting("impratio", 1) << "' integrator='" << (scene_.setting("rk4", 0) != 0 ? "RK4" : "Euler")
-        << "' noslip_iterations='" << static_cast<int>(scene_.setting("noslip", 0)) << "'><flag multiccd='"
+        << "' solver='" << (scene_.setting("cg", 0) != 0 ? "CG" : "Newton") << "' noslip_iterations='"
+        << static_cast<int>(scene_.setting("noslip", 0)) << "'><flag multiccd='"
         << (scene_.setting("multiccd", 1) != 0 ? "enable" : "disable") << "'/></option><asset>";
     for (const SceneBlock& block : scene_.blocks) {
       out << "<mesh name='" << block.name << "' vertex='";
