@@ -4,6 +4,7 @@ import math
 import numpy as np
 
 from measure import Path, bisect, failed
+from overlap import largest_overlap
 from problem import matrix_of, word
 from scene import scene_text
 
@@ -13,8 +14,9 @@ STATED = "the engine's contacts are rigid, or soft by numbers without a unit: no
 class Answer:
     """a value with its seconds and note; value None: the engine failed; a string: `cannot state`"""
 
-    def __init__(self, quantity, unit, value, seconds, note=""):
+    def __init__(self, quantity, unit, value, seconds, note="", overlap=None):
         self.quantity, self.unit, self.value, self.seconds, self.note = quantity, unit, value, seconds, note
+        self.overlap = overlap  # m, the largest at the end of a trial; None: nothing touched
 
 
 class EngineFailure(Exception):
@@ -22,26 +24,33 @@ class EngineFailure(Exception):
 
 
 class Trial:
-    """runs scenes of one problem in one engine with one setting, and adds up the seconds of their steps"""
+    """runs scenes of one problem in one engine with one setting, adds up the seconds of their steps, keeps the largest overlap"""
 
     def __init__(self, process, settings):
-        self.process, self.settings, self.seconds = process, settings, 0.0
+        self.process, self.settings, self.seconds, self.overlap = process, settings, 0.0, None
 
-    def paths(self, scene):
-        springs = self.process.engine.model == "joint stiffness"
-        run = self.process.run(scene_text(scene, self.settings, springs))
+    def paths(self, scene, stands=lambda paths: True):
+        """the overlap is measured at the end, if the blocks stand then: in a heap of fallen ones it says nothing"""
+        engine = self.process.engine
+        run = self.process.run(scene_text(scene, self.settings, engine.model == "joint stiffness", engine.welds))
         self.seconds += run.seconds
         paths = {name: Path(rows) for name, rows in run.rows.items()}
         if run.failure:
             raise EngineFailure(run.failure)
         if any(not np.isfinite(p.rows).all() for p in paths.values()):
             raise EngineFailure("a position that is not a number")
+        if stands(paths):
+            found = largest_overlap(scene["blocks"], {name: path.rows[-1, 1:8] for name, path in paths.items()})
+            self.overlap = found if self.overlap is None else max(self.overlap, found or 0.0)
         return paths
 
 
 def searched(problem, trial, stiffness):
-    bracket = bisect(lambda value: failed(trial.paths(problem.scene(value, stiffness=stiffness)), problem.criterion),
-                     problem.search)
+    def fails(value):
+        paths = trial.paths(problem.scene(value, stiffness=stiffness), lambda found: not failed(found, problem.criterion))
+        return failed(paths, problem.criterion)
+
+    bracket = bisect(fails, problem.search)
     return bracket.value, bracket.note or "bracket +- %.3g" % bracket.half_width
 
 
@@ -142,15 +151,15 @@ def whole(problem, trial):
 
 def answers(problem, process, settings):
     """every asked quantity, in the order of the problem"""
-    engine, found = process.engine, {}
-    reason = engine.reason(problem.needs())
+    engine, found, needs = process.engine, {}, problem.needs()
+    reason = engine.reason(needs)
     for part in [] if reason else problem.variants():
         asked = {a["quantity"]: a["unit"] for a in part.asked}
         searches = {}  # one search for each stiffness
         runs = None
         for quantity in asked:
             stiffness = "stated" if quantity.endswith("stated joints") else "stiff"
-            if stiffness == "stated" and engine.model == "rigid":
+            if stiffness == "stated" and engine.model_for(needs) == "rigid":
                 found[quantity] = ("cannot state", 0.0, STATED)
                 continue
             try:
@@ -163,13 +172,16 @@ def answers(problem, process, settings):
                     if runs is None:
                         trial = Trial(process, settings)
                         runs = (whole(part, trial), trial)
+                    if isinstance(runs, EngineFailure):
+                        raise runs
                     (values, trial) = runs
                     if quantity not in values:
                         found[quantity] = ("cannot state", 0.0, "the adapter does not read this quantity")
                         continue
                     value, note = values[quantity]
-                found[quantity] = (value, trial.seconds, note)
+                found[quantity] = (value, trial.seconds, note, trial.overlap)
             except EngineFailure as failure:
+                runs = runs or failure  # not tried again for the next quantity
                 found[quantity] = (None, 0.0, str(failure))
     if reason:
         return [Answer(a["quantity"], a["unit"], "cannot state", 0.0, reason) for a in problem.asked]

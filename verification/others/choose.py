@@ -5,8 +5,12 @@ import os
 import sys
 
 from engines import HERE, engines
+from problem import Problem
 from score import MOST, read_reference, target, tolerances
 from sweep import kept_rows
+
+
+DEAR = "rock_mass"
 
 
 def settings_of_text(text):
@@ -30,15 +34,16 @@ class Tally:
         return sum(self.runs)
 
 
-def judged(rows, problems, model):
+def judged(rows, problems, engine):
     """{problem: {setting: Tally}}"""
-    found, references = {}, {}
+    found, references, models = {}, {}, {}
     for row in rows:
         problem = row["problem"]
         if problem not in references:
             references[problem] = read_reference(os.path.join(problems, problem))
+            models[problem] = engine.model_for(Problem.read(os.path.join(problems, problem)).needs())
         quantity = references[problem].get(row["quantity"])
-        bounds = target(quantity, model) if quantity else None
+        bounds = target(quantity, models[problem]) if quantity else None
         if bounds:
             error = tolerances(float(row["value"]) if row["value"] else None, bounds)
             found.setdefault(problem, {}).setdefault(row["setting"], Tally()).add(error, float(row["seconds"] or 0))
@@ -46,14 +51,16 @@ def judged(rows, problems, model):
 
 
 def choose(found):
-    """(setting for everything, {problem: best setting}); of equals the quickest"""
+    """(setting for everything, {problem: best setting}); of equals the quickest. The rock mass, of which few settings can be
+    tried, has no part in the first: else it alone would decide which settings are candidates."""
     best = {problem: min(tried, key=lambda s: (tried[s].sum, tried[s].seconds)) for problem, tried in found.items()}
-    everywhere = {s for tried in found.values() for s in tried}
-    most = max(sum(s in tried for tried in found.values()) for s in everywhere)
-    common = [s for s in everywhere if sum(s in tried for tried in found.values()) == most]
+    small = [tried for problem, tried in found.items() if problem != DEAR]
+    everywhere = {s for tried in small for s in tried}
+    most = max(sum(s in tried for tried in small) for s in everywhere)
+    common = [s for s in everywhere if sum(s in tried for tried in small) == most]
 
     def cost(setting):
-        tried = [t[setting] for t in found.values() if setting in t]
+        tried = [t[setting] for t in small if setting in t]
         return sum(t.sum for t in tried), sum(t.seconds for t in tried)
 
     return min(sorted(common), key=cost), best
@@ -64,7 +71,7 @@ def main():
     known = engines(build, program)
     for name in names:
         folder = os.path.join(HERE, known[name].folder)
-        found = judged(kept_rows(os.path.join(folder, "sweep.tsv")), problems, known[name].model)
+        found = judged(kept_rows(os.path.join(folder, "sweep.tsv")), problems, known[name])
         one, best = choose(found)
         with open(os.path.join(folder, "settings.json"), "w", encoding="utf-8") as file:
             json.dump({"one": settings_of_text(one), "best": {p: settings_of_text(s) for p, s in sorted(best.items())}}, file,

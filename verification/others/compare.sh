@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # compare.sh BUILD JOBS: builds the adapters whose engines are found, writes the problems, runs every engine with one setting for everything
-# and with the best of each problem, judges the answers, and writes the table: BUILD/others/out/others.html, others.md, others.csv.
+# and with the best of each problem, judges the answers, and writes the table: BUILD/others/out/others.html, results.md (which
+# is kept in this folder), error_against_cost.svg.
 set -euo pipefail
 build=$(cd "$1" && pwd) jobs=$2
 here=$(cd "$(dirname "$0")" && pwd)

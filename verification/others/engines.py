@@ -8,16 +8,23 @@ import time
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 BOND = "contacts have no cohesion and no tensile strength per area"
+ONE_SOFTNESS = BOND + "; its fixed joint has one softness for forces and moments alike, and the adapter states no other joint"
+WELD = BOND + "; its fixed joint has no stiffness"
 FRICTIONS = "one coefficient of friction for all joints: the adapter states no other"
 PLANE = "the engine is plane"
 BOLTS = "the engine has no bolts"
 
 
 class Engine:
-    def __init__(self, name, version, command, model, cannot, extra=None):
+    def __init__(self, name, version, command, model, cannot, extra=None, welds=False):
         self.name, self.version, self.command, self.model, self.cannot = name, version, command, model, cannot
+        self.welds = welds  # the adapter states a bonded face as springs
         self.extra = extra or {}  # settings that make this row, besides those of the sweep
         self.folder = name.split("_")[0]  # below this one
+
+    def model_for(self, needs):
+        """a bond that is made of springs has joint stiffness, whatever the engine's contacts are"""
+        return "joint stiffness" if self.welds and "bond" in needs else self.model
 
     def reason(self, needs):
         """why it cannot state a problem, or None"""
@@ -27,7 +34,9 @@ class Engine:
 PACKAGES = {"bullet": "libbullet-dev", "ode": "libode-dev", "box2d": "libbox2d-dev", "mujoco": "libmujoco-dev",
             "siconos": "python3-siconos"}
 MODULES = {"rapier": "@dimforge/rapier3d-deterministic-compat", "jolt": "jolt-physics"}
-RIGID = {"bond": BOND, "several frictions": FRICTIONS, "bolts": BOLTS}
+# why an engine cannot state a bond; one that is not listed states it by springs
+BONDS = {"ode": ONE_SOFTNESS}
+RIGID = {"bond": WELD, "several frictions": FRICTIONS, "bolts": BOLTS}
 
 
 def version_of(name):
@@ -48,8 +57,9 @@ def engines(build, program):
     found = {}
     for name, command in files.items():
         if os.path.exists(command[-1]):
-            cannot = dict(RIGID, space=PLANE) if name == "box2d" else RIGID
-            found[name] = Engine(name, version_of(name), command, "rigid", cannot)
+            cannot = dict(RIGID, bond=BONDS.get(name), **({"space": PLANE} if name == "box2d" else {}))
+            cannot = {need: reason for need, reason in cannot.items() if reason}
+            found[name] = Engine(name, version_of(name), command, "rigid", cannot, welds="bond" not in cannot)
     python = "/usr/bin/python3"  # the system's own, for which Debian builds the module
     if subprocess.run([python, "-c", "import siconos.kernel"], capture_output=True).returncode == 0:
         found["siconos"] = Engine("siconos", version_of("siconos"), [python, os.path.join(HERE, "siconos", "siconos_adapter.py")],
@@ -63,6 +73,19 @@ def engines(build, program):
     return found
 
 
+def processor_seconds(process):
+    """used so far by a process and those that it started"""
+    try:
+        with open("/proc/%d/stat" % process, encoding="utf-8") as file:
+            fields = file.read().rsplit(")", 1)[1].split()  # a name may have spaces
+        with open("/proc/%d/task/%d/children" % (process, process), encoding="utf-8") as file:
+            children = file.read().split()
+    except OSError:
+        return 0.0  # it has ended
+    own = sum(int(fields[k]) for k in (11, 12, 13, 14)) / os.sysconf("SC_CLK_TCK")  # with children that have ended
+    return own + sum(processor_seconds(int(child)) for child in children)
+
+
 class Run:
     """of one scene: rows by block, seconds of the steps, or why it failed"""
 
@@ -71,7 +94,8 @@ class Run:
 
 
 class Process:
-    """one process that runs scene after scene; started again after a failure"""
+    """One process that runs scene after scene; started again after a failure. A scene may take patience_s of processor time, so
+    that a busy machine stops no engine; one that waits for something is stopped after ten times as long by the clock."""
 
     def __init__(self, engine, patience_s=120):
         self.engine, self.patience, self.process, self.text = engine, patience_s, None, b""
@@ -81,14 +105,15 @@ class Process:
             self.process = subprocess.Popen(self.engine.command, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
                                             stderr=subprocess.DEVNULL)
             self.text = b""
-        found, until = Run(), time.monotonic() + self.patience
+        found, until = Run(), time.monotonic() + 10 * self.patience
+        used = processor_seconds(self.process.pid) + self.patience
         try:
             self.process.stdin.write(text.encode())
             self.process.stdin.flush()
         except BrokenPipeError:
             found.failure = "the engine stopped"
             return found
-        while not self._read_line(found, until):
+        while not self._read_line(found, until, used):
             pass
         if found.failure:
             self.close()
@@ -100,12 +125,14 @@ class Process:
             self.process.wait()
             self.process = None
 
-    def _read_line(self, found, until):
-        """true after the scene's last line"""
+    def _read_line(self, found, until, used):
+        """true after the scene's last line; until: by the clock; used: processor time"""
         while b"\n" not in self.text:
-            ready, _, _ = select.select([self.process.stdout], [], [], max(0.0, until - time.monotonic()))
+            ready, _, _ = select.select([self.process.stdout], [], [], 1.0)
             if not ready:
-                found.failure = "no result within %g s" % self.patience
+                if processor_seconds(self.process.pid) < used and time.monotonic() < until:
+                    continue
+                found.failure = "no result within %g s of processor time" % self.patience
                 return True
             part = os.read(self.process.stdout.fileno(), 1 << 16)
             if not part:

@@ -26,10 +26,13 @@ def accelerates(paths, c):
 
 
 def gets_faster(paths, c):
-    """The block was sent off: it covers more in the later interval than in the earlier one. One that covers next to nothing in
-    the later interval has stopped: its two paths are noise, and either may be the longer."""
+    """The block was sent off: it covers more in the later interval than in the earlier one. One that covers less than
+    stopped_m in the later interval has stopped: its two paths are noise, and either may be the longer."""
+    if "stopped_m" not in c:
+        raise ValueError("blocks.json: criterion: \"gets faster\" lacks stopped_m (m), the path below which a block has stopped; "
+                         "write the problems again (make problems)")
     path, (a, b, end) = paths[c["block"].replace(" ", "_")], c["times_s"]
-    return path.moved(b, end) > max(path.moved(a, b), c.get("stopped_m", 0.05))
+    return path.moved(b, end) > max(path.moved(a, b), c["stopped_m"])
 
 
 def falls(paths, c):

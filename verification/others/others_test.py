@@ -8,18 +8,20 @@ import unittest
 
 try:
     import numpy as np
+    import scipy.optimize  # noqa: F401, read by overlap
 except ImportError:
-    print("not tested: python3-numpy is not installed")
+    print("not tested: python3-numpy or python3-scipy is not installed")
     sys.exit(1 if os.environ.get("VOUSSOIR_NO_SKIP") == "1" else 77)
 
 import answer
 import choose
 import engines
+import overlap
 import run
 import score
 import table
 from measure import Path, accelerates, bisect, falls, gets_faster
-from problem import CannotState, Problem, mass_properties, matrix_of, quaternion_of, turn_matrix
+from problem import CannotState, Problem, bonded_faces, mass_properties, matrix_of, quaternion_of, turn_matrix
 from scene import force_at, gravity_at, read_scene, scene_text, turned
 
 G = 9.81
@@ -129,8 +131,7 @@ class Expansion(unittest.TestCase):
         stated["loads"] = [dict(block="cube", force_N=[0, 0, 8], point_m=[1, 0, 0.5], times_s=[0, 2], factors=[0, 1])]
         scene = Problem(stated).scene()
         np.testing.assert_allclose(scene["forces"]["cube"], [0, 0, 8, 0, -8, 0])
-        scene["forces"]["cube"][3:] = 0
-        np.testing.assert_allclose(force_at(scene, "cube", 0.5), [0, 0, 2])
+        np.testing.assert_allclose(force_at(scene, "cube", 0.5), [0, 0, 2, 0, -2, 0])
 
     def test_the_text_is_read_back(self):
         scene = Problem(incline()).scene(21.0, stiffness="stated")
@@ -156,10 +157,14 @@ class Measurement(unittest.TestCase):
         self.assertTrue(accelerates({"cube": path(lambda t: 0.1 * t)}, c))
 
     def test_a_block_sent_off(self):
-        c = dict(kind="gets faster", block="cube", times_s=[0.5, 1.0, 1.5])
+        c = dict(kind="gets faster", block="cube", times_s=[0.5, 1.0, 1.5], stopped_m=0.05)
         self.assertTrue(gets_faster({"cube": path(lambda t: t + 0.01 * t * t)}, c))
         self.assertFalse(gets_faster({"cube": path(lambda t: t - 0.01 * t * t)}, c))
         self.assertFalse(gets_faster({"cube": path(lambda t: 0.3 + 1e-9 * t * t)}, c))  # it has stopped
+        self.assertTrue(gets_faster({"cube": path(lambda t: 0.3 + 1e-9 * t * t)}, dict(c, stopped_m=1e-10)))
+        del c["stopped_m"]
+        with self.assertRaisesRegex(ValueError, "lacks stopped_m"):
+            gets_faster({"cube": path(lambda t: t)}, c)
 
     def test_any_block_may_fall(self):
         c = dict(kind="falls", block="any block", far_m=0.3)
@@ -222,7 +227,7 @@ class Answers(unittest.TestCase):
         stated = incline()
         stated["joints"][0]["cohesion_Pa"] = 1e6
         (found,) = answer.answers(Problem(stated), ExactSlide(self.rigid), {})
-        self.assertEqual((found.value, found.note), ("cannot state", engines.BOND))
+        self.assertEqual((found.value, found.note), ("cannot state", engines.WELD))
 
     def test_an_answer_file_is_what_the_judge_reads(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -244,6 +249,66 @@ class Answers(unittest.TestCase):
         self.assertEqual({c: one.words() for c, one in found.items()},
                          {"bullet": "30.5, FAIL +0.5, 0.2 s", "jolt": "30, pass, 1 s", "ode": "stopped", "rapier": "not run",
                           "box2d": "cannot state"})
+
+
+def cuboid(name, centre, turn, lengths, fixed=False):
+    """of a scene: a box by its planes in its own axes"""
+    corners = [[sx * lengths[0] / 2, sy * lengths[1] / 2, sz * lengths[2] / 2] for sx in (-1, 1) for sy in (-1, 1) for sz in (-1, 1)]
+    faces = [dict(plane=[*(s * np.eye(3)[k]), lengths[k] / 2]) for k in range(3) for s in (-1, 1)]
+    return dict(name=name, fixed=fixed, centre=np.array(centre, float), turn=np.array(turn, float), vertices=np.array(corners), faces=faces)
+
+
+class Overlap(unittest.TestCase):
+    floor = cuboid("floor", [0, 0, -0.5], [1, 0, 0, 0], [4, 4, 1], True)
+
+    def test_a_cube_that_sinks_in(self):
+        for depth in (1e-9, 2.5e-7, 1e-3):
+            found = overlap.largest_overlap([self.floor, cuboid("cube", [0, 0, 0.5 - depth], [1, 0, 0, 0], [1, 1, 1])], {})
+            self.assertAlmostEqual(found, depth, delta=1e-12)
+
+    def test_an_edge_that_sinks_in(self):
+        # the deepest point under the floor's plane and both planes of an edge of 90 deg: depth / (1 + root 2), twice
+        turn = [math.cos(math.pi / 8), 0, math.sin(math.pi / 8), 0]
+        cube = cuboid("cube", [0, 0, 0.5], [1, 0, 0, 0], [1, 1, 1])
+        found = overlap.largest_overlap([self.floor, cube], {"cube": [0, 0, math.sqrt(0.5) - 1e-3, *turn]})
+        self.assertAlmostEqual(found, 2e-3 / (1 + math.sqrt(2)), delta=1e-9)
+
+    def test_a_gap_is_no_overlap_and_what_is_far_is_nothing(self):
+        for height, expected in ((0.5005, 0.0), (0.6, None)):
+            cube = cuboid("cube", [0, 0, height], [1, 0, 0, 0], [1, 1, 1])
+            self.assertEqual(overlap.largest_overlap([self.floor, cube], {}), expected)
+
+    def test_fixed_blocks_are_no_pair(self):
+        self.assertIsNone(overlap.largest_overlap([self.floor, dict(self.floor, name="other")], {}))
+
+
+class Bonds(unittest.TestCase):
+    joint = [1e9, 2e8, 1e6, 3e5]
+
+    def faces(self):
+        wall, beam = block("wall", (-1, -0.5, -1), (0, 0.5, 1), True), block("beam", (0, -0.5, -0.25), (1, 0.5, 0.25))
+        stated = dict(incline(), blocks=[wall, beam])
+        return bonded_faces(Problem(stated).scene()["blocks"], self.joint)
+
+    def test_springs_have_the_stiffness_of_the_face(self):
+        (w,) = self.faces()
+        self.assertEqual((w["block"], w["fixed"], w["strength"]), ("beam", "wall", 3e5))
+        np.testing.assert_allclose([4 * w["kn"], 4 * w["ks"], w["area"]], [5e8, 1e8, 0.5])
+        np.testing.assert_allclose(w["normal"], [1, 0, 0], atol=1e-12)
+        points = np.array(w["points"])
+        np.testing.assert_allclose(points.mean(0), 0, atol=1e-12)
+        np.testing.assert_allclose((w["kn"] * points**2).sum(0), 1e9 * np.array([0, 0.5 / 12, 0.125 / 12]), rtol=1e-12)
+
+    def test_only_codes_of_springs_read_them(self):
+        scene = dict(Problem(incline()).scene(21.0), welds=self.faces())
+        self.assertNotIn("weld", scene_text(scene, {}))
+        (line,) = [t for t in scene_text(scene, {}, welds=True).splitlines() if t.startswith("weld")]
+        self.assertEqual(len(line.split()), 1 + 2 + 4 + 3 + 12)
+
+    def test_a_code_whose_welds_are_springs_is_judged_as_one_with_stiffness(self):
+        engine = engines.Engine("welder", "1", [], "rigid", {}, welds=True)
+        self.assertEqual([engine.model_for(n) for n in ({"bond"}, {"space"})], ["joint stiffness", "rigid"])
+        self.assertEqual(Answers.rigid.model_for({"bond"}), "rigid")
 
 
 class Choice(unittest.TestCase):
@@ -275,6 +340,11 @@ class Choice(unittest.TestCase):
         one, best = choose.choose(found)
         self.assertEqual(one, "y")  # 0 + 4, against 0 + 50 and 30 + 2
         self.assertEqual(best, {"a": "y", "b": "z"})  # within the tolerance the quicker one
+
+    def test_the_rock_mass_has_no_part_in_the_setting_for_everything(self):
+        t = self.tally
+        one, best = choose.choose({"a": {"x": t((2, 1)), "y": t((9, 1))}, "rock_mass": {"y": t((0, 1)), "z": t((5, 1))}})
+        self.assertEqual((one, best["rock_mass"]), ("x", "y"))
 
     def test_settings_tried_on_fewer_problems_are_no_candidates_for_all(self):
         t = self.tally

@@ -104,6 +104,31 @@ def engine_block(b, vertices):
                 spin=b.get("spin_rad_s") or [0, 0, 0], box=box, vertices=np.array(inside, float), faces=faces)
 
 
+def bonded_faces(blocks, joint):
+    """faces of free blocks that lie on a face of a fixed one, as four springs at the face's radii of gyration (scene.hpp): a spring
+    has a quarter of the area's stiffness. The faces are rectangles."""
+    kn, ks, _, tension = joint
+    found = []
+    for b in (b for b in blocks if not b["fixed"]):
+        corners = b["centre"] + b["vertices"] @ matrix_of(b["turn"]).T
+        for other in (o for o in blocks if o["fixed"]):
+            walls = other["centre"] + other["vertices"] @ matrix_of(other["turn"]).T
+            for f in b["faces"]:
+                p, (*normal, offset) = corners[f["corners"]], plane_of(corners, f["corners"])
+                touches = any(np.allclose([*np.negative(plane[:3]), -plane[3]], [*normal, offset], atol=1e-9)
+                              for plane in (plane_of(walls, g["corners"]) for g in other["faces"]))
+                if not touches:
+                    continue
+                edges = [p[1] - p[0], p[3] - p[0]] if len(p) == 4 else [np.ones(3), np.ones(3)]
+                if abs(edges[0] @ edges[1]) > 1e-9 * np.linalg.norm(edges[0]) * np.linalg.norm(edges[1]):
+                    raise CannotState("a bonded face that is not a rectangle")
+                area = np.linalg.norm(np.cross(*edges))
+                points = [p.mean(0) + (s * edges[1] + t * edges[0]) / math.sqrt(12) for s in (-1, 1) for t in (-1, 1)]
+                found.append(dict(block=b["name"], fixed=other["name"], kn=kn * area / 4, ks=ks * area / 4, area=area,
+                                  strength=tension, normal=-np.array(normal), points=points))
+    return found
+
+
 class Problem:
     def __init__(self, stated):
         self.stated = stated
@@ -154,7 +179,7 @@ class Problem:
         """The scene at a value of the search parameter (None: as stated), in one of the problem's positions, with the joints'
         "stiff" or "stated" stiffness: duration, output, friction (a coefficient), gravity (rows of time and vector), forces
         {block: force and moment}, shares (rows of time and share of them), joint (kn, ks, cohesion, tension), plane, bolts,
-        blocks"""
+        blocks, welds (bonded faces)"""
         s = self.stated
         friction = max((j["friction_deg"] for j in s["joints"]), default=0.0)
         gravity = [[g["time_s"], *g["g_m_s2"]] for g in s["gravity"]]
@@ -182,7 +207,8 @@ class Problem:
         forces, shares = self.forces(blocks)
         return dict(duration=s["duration_s"], output=s["output_s"], friction=math.tan(math.radians(friction)),
                     gravity=gravity, forces=forces, shares=shares, joint=joint, plane=s["dimension"] == 2,
-                    bolts=s.get("bolts") or [], blocks=blocks)
+                    bolts=s.get("bolts") or [], blocks=blocks,
+                    welds=bonded_faces(blocks, joint) if joint[2] > 0 or joint[3] > 0 else [])
 
     def joint(self, stiffness):
         """kn, ks, cohesion, tension of the joints, which engines with one joint state alike"""

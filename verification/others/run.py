@@ -1,6 +1,6 @@
 """Runs problems in engines: OUT/ENGINE/PROBLEM/answer.csv with one setting for everything, and with --settings best
 OUT/ENGINE_best/PROBLEM/answer.csv with the best setting of each problem. usage: run.py PROBLEMS BUILD PROGRAM OUT [--engine NAME]
-[--problem NAME] [--settings best]"""
+[--problem NAME] [--settings best] [--patience SECONDS]"""
 import argparse
 import csv
 import json
@@ -10,6 +10,9 @@ import sys
 from answer import answers
 from engines import HERE, Process, engines
 from problem import Problem
+
+
+OVERLAP = "# largest overlap: "  # of blocks that stand, at the end of a trial
 
 
 def settings_of(engine, which, problem):
@@ -24,11 +27,14 @@ def value_text(value):
     return "" if value is None else value if isinstance(value, str) else "%.10g" % value
 
 
-def write_answer(path, engine, settings, found, suffix=""):
+def write_answer(path, engine, settings, found, suffix="", model=None):
     os.makedirs(os.path.dirname(path), exist_ok=True)
     with open(path, "w", encoding="utf-8", newline="") as file:
-        file.write("# code: %s%s %s\n# model: %s\n" % (engine.name, suffix, engine.version, engine.model))
+        file.write("# code: %s%s %s\n# model: %s\n" % (engine.name, suffix, engine.version, model or engine.model))
         file.write("# setting: %s\n" % (" ".join("%s=%g" % s for s in settings.items()) or "as it comes"))
+        overlaps = [a.overlap for a in found if a.overlap is not None]
+        if overlaps:
+            file.write("%s%.3g m\n" % (OVERLAP, max(overlaps)))
         rows = csv.writer(file, lineterminator="\n")
         rows.writerow(["quantity", "unit", "value", "seconds", "note"])
         for a in found:
@@ -49,7 +55,8 @@ def run_problem(process, problem, which, out):
             print("%s %s: one setting is the best" % (engine.name, problem.name))
             return
     found = answers(problem, process, settings)
-    write_answer(path, engine, settings, found, "_best" if which == "best" else "")
+    write_answer(path, engine, settings, found, "_best" if which == "best" else "",
+                 engine.model_for(problem.needs()))
     for a in found:
         words = (engine.name, problem.name, a.quantity, value_text(a.value), a.unit, a.seconds, a.note)
         print("%s %s: %s: %s %s (%.3g s) %s" % words)
@@ -62,6 +69,7 @@ def main():
     parser.add_argument("--engine", action="append")
     parser.add_argument("--problem", action="append")
     parser.add_argument("--settings", default="one", choices=("one", "best"))
+    parser.add_argument("--patience", type=float, default=100, help="processor seconds of a scene before the engine is stopped")
     parser.add_argument("--list", action="store_true", help="print the engines that are there, and run nothing")
     given = parser.parse_args()
     found = engines(given.build, given.program)
@@ -69,7 +77,7 @@ def main():
         print("\n".join(found))
         return
     for name in given.engine or found:
-        process = Process(found[name], patience_s=600)
+        process = Process(found[name], given.patience)
         for folder in given.problem or sorted(os.listdir(given.problems)):
             if os.path.exists(os.path.join(given.problems, folder, "blocks.json")):
                 run_problem(process, Problem.read(os.path.join(given.problems, folder)), given.settings, given.out)

@@ -49,6 +49,56 @@ struct BlockMotion {
   Quaternion turn{};
 };
 
+// a vector of a block's axes in the world's; the quaternion has length 1
+inline Triple turned(const Quaternion& q, const Triple& v) {
+  const Triple t{2 * (q[2] * v[2] - q[3] * v[1]), 2 * (q[3] * v[0] - q[1] * v[2]), 2 * (q[1] * v[1] - q[2] * v[0])};
+  return {v[0] + q[0] * t[0] + q[2] * t[2] - q[3] * t[1], v[1] + q[0] * t[1] + q[3] * t[0] - q[1] * t[2],
+          v[2] + q[0] * t[2] + q[1] * t[1] - q[2] * t[0]};
+}
+
+inline Triple turned_back(const Quaternion& q, const Triple& v) {
+  return turned({q[0], -q[1], -q[2], -q[3]}, v);
+}
+
+inline Triple minus(const Triple& a, const Triple& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+inline std::ostream& operator<<(std::ostream& out, const Triple& a) {
+  return out << a[0] << ' ' << a[1] << ' ' << a[2];
+}
+
+// A bonded face between a free and a fixed block, as four springs at its radii of gyration: together they have the
+// face's stiffness in compression, shear and bending. It breaks where its edge does.
+struct SceneWeld {
+  std::size_t block = 0, fixed = 0;
+  double normal_stiffness = 0, shear_stiffness = 0;  // N/m, of one spring
+  double area = 0, strength = 0;                     // m2, Pa
+  Triple normal{};                                   // out of the fixed block
+  std::array<Triple, 4> points{};  // world; on the low (0) or high (1) side of the face's two axes: 00, 01, 10, 11
+  std::array<Triple, 4> own{};     // the same from the block's centre, in its axes
+
+  // The greatest tensile stress of the face, Pa, is that of a linear field whose forces and moments are those of the
+  // springs; a radius of gyration of a rectangle is 1 / root 3 of half its edge.
+  bool breaks(const BlockMotion& now) const {
+    std::array<double, 4> tension{};
+    for (int k = 0; k < 4; ++k) {
+      const Triple arm = turned(now.turn, own[k]);
+      for (int axis = 0; axis < 3; ++axis)
+        tension[k] += normal_stiffness * normal[axis] * (now.centre[axis] + arm[axis] - points[k][axis]);
+    }
+    for (int corner = 0; corner < 4; ++corner) {
+      double force = 0;
+      for (int k = 0; k < 4; ++k) {
+        const int sides = ((corner ^ k) & 1 ? -1 : 1) + ((corner ^ k) & 2 ? -1 : 1);
+        force += tension[k] * (1 + std::sqrt(3.0) * sides);
+      }
+      if (force > strength * area) return true;
+    }
+    return false;
+  }
+};
+
 // a row of a table whose first column is time: linear between rows, the last one held
 template <std::size_t Columns>
 std::array<double, Columns> row_at(const std::vector<std::array<double, Columns>>& table, double time) {
@@ -67,6 +117,7 @@ struct EngineScene {
   double duration = 0, output = 0.01, friction = 0;  // s, s, coefficient
   std::vector<std::array<double, 4>> gravity;        // time and vector, linear between rows, the last one held
   std::vector<SceneBlock> blocks;
+  std::vector<SceneWeld> welds;
   std::map<std::string, std::array<double, 6>>
       forces;                                 // full force on a block, and moment about its centre, world axes
   std::vector<std::array<double, 2>> shares;  // time and share of the full forces, as gravity
@@ -78,8 +129,8 @@ struct EngineScene {
     return found == settings.end() ? otherwise : found->second;
   }
 
-  Triple gravity_at(double time) const {
-    const auto row = row_at(gravity, time);
+  Triple gravity_at(double moment) const {
+    const auto row = row_at(gravity, moment);
     return {row[1], row[2], row[3]};
   }
 
@@ -129,6 +180,21 @@ inline void read_block_line(const std::string& word, std::istringstream& line, S
   }
 }
 
+inline void read_weld(std::istringstream& line, const std::vector<SceneBlock>& blocks, SceneWeld& weld) {
+  for (std::size_t* index : {&weld.block, &weld.fixed}) {
+    std::string name;
+    line >> name;
+    *index = std::ranges::find(blocks, name, &SceneBlock::name) - blocks.begin();
+    if (*index == blocks.size()) throw std::runtime_error("no block above this line has the name " + name);
+  }
+  line >> weld.normal_stiffness >> weld.shear_stiffness >> weld.area >> weld.strength;
+  read_numbers(line, weld.normal);
+  for (int k = 0; k < 4; ++k) {
+    read_numbers(line, weld.points[k]);
+    weld.own[k] = turned_back(blocks[weld.block].turn, minus(weld.points[k], blocks[weld.block].centre));
+  }
+}
+
 // false: no further scene. Throws std::runtime_error for a line that it does not know.
 inline bool read_scene(std::istream& in, EngineScene& scene) {
   for (std::string text, word, kind; std::getline(in, text);) {
@@ -148,6 +214,8 @@ inline bool read_scene(std::istream& in, EngineScene& scene) {
     } else if (word == "force") {
       line >> kind;
       read_numbers(line, scene.forces[kind]);
+    } else if (word == "weld") {
+      read_weld(line, scene.blocks, scene.welds.emplace_back());
     } else if (word == "share") {
       read_numbers(line, scene.shares.emplace_back());
     } else if (word == "block") {

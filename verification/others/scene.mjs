@@ -2,6 +2,45 @@
 import { createInterface } from "node:readline";
 import { writeSync } from "node:fs";
 
+const minus = (a, b) => a.map((x, k) => x - b[k]);
+const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+const unit = (a) => a.map((x) => x / Math.hypot(...a));
+
+// a vector of a block's axes in the world's, and back; the quaternion w x y z has length 1
+const turned = ([w, ...axis], v) => {
+  const t = cross(axis, v).map((x) => 2 * x), u = cross(axis, t);
+  return v.map((x, k) => x + w * t[k] + u[k]);
+};
+const turnedBack = ([w, ...axis], v) => turned([w, ...minus([0, 0, 0], axis)], v);
+
+// A bonded face as elastic rods of 1 m: at each of its four points one along the normal, one along each axis of the face.
+export function rodsOf(weld) {
+  const side = unit(minus(weld.points[1], weld.points[0])), other = cross(weld.normal, side);
+  const local = (block, point) => turnedBack(block.turn, minus(point, block.centre));
+  return weld.points.flatMap((point) => [[weld.normal, weld.normalStiffness], [side, weld.shearStiffness], [other, weld.shearStiffness]]
+    .map(([direction, stiffness]) => ({ stiffness, damping: Math.sqrt(stiffness * weld.block.mass), onFixed: local(weld.fixed, minus(point, direction)),
+      onBlock: local(weld.block, point) })));
+}
+
+// whether the greatest tensile stress of the face is above its strength, at a pose of its block (scene.hpp explains)
+export function breaks(weld, motion) {
+  const tension = weld.points.map((point) => {
+    const own = turnedBack(weld.block.turn, minus(point, weld.block.centre)), arm = turned(motion.turn, own);
+    return weld.normalStiffness * dot(weld.normal, minus(motion.centre.map((x, k) => x + arm[k]), point));
+  });
+  const sides = (a, b) => ((a ^ b) & 1 ? -1 : 1) + ((a ^ b) & 2 ? -1 : 1);
+  return [0, 1, 2, 3].some((corner) =>
+    tension.reduce((sum, force, k) => sum + force * (1 + Math.sqrt(3) * sides(corner, k)), 0) > weld.strength * weld.area);
+}
+
+function readWeld(words, numbers, blocks) {
+  const [block, fixed] = words.slice(0, 2).map((name) => blocks.find((b) => b.name === name));
+  const [normalStiffness, shearStiffness, area, strength, ...v] = numbers.slice(2);
+  return { block, fixed, normalStiffness, shearStiffness, area, strength, normal: v.slice(0, 3),
+    points: [3, 6, 9, 12].map((k) => v.slice(k, k + 3)) };
+}
+
 function readBlockLine(word, rest, block) {
   const numbers = rest.map(Number);
   if (word === "vertex") block.vertices.push(numbers);
@@ -11,12 +50,13 @@ function readBlockLine(word, rest, block) {
 }
 
 export function readScene(lines) {
-  const scene = { gravity: [], shares: [], blocks: [], forces: {}, settings: {}, used: new Set() };
+  const scene = { gravity: [], shares: [], blocks: [], welds: [], forces: {}, settings: {}, used: new Set() };
   for (const line of lines) {
     const [word, ...rest] = line.trim().split(/\s+/);
     const numbers = rest.map(Number);
     if (word === "setting") scene.settings[rest[0]] = numbers[1];
     else if (word === "gravity") scene.gravity.push(numbers);
+    else if (word === "weld") scene.welds.push(readWeld(rest, numbers, scene.blocks));
     else if (word === "share") scene.shares.push(numbers);
     else if (word === "force") scene.forces[rest[0]] = numbers.slice(1);
     else if (["duration", "output", "friction"].includes(word)) scene[word] = numbers[0];

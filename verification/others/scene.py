@@ -8,9 +8,10 @@ def numbers(values):
     return " ".join("%.17g" % x for x in values)
 
 
-def scene_text(scene, settings, springs=False):
+def scene_text(scene, settings, springs=False, welds=False):
     """scene: see Problem.scene. With springs, for codes that have joint stiffness, the joint (kn, ks, cohesion, tension), whether
-    the problem is plane, and its bolts instead of the forces that replace them."""
+    the problem is plane, and its bolts instead of the forces that replace them. With welds, for codes whose contacts cannot be
+    bonded, bonded faces as springs (scene.hpp)."""
     lines = ["setting %s %.17g" % item for item in settings.items()]
     lines += ["%s %.17g" % (key, scene[key]) for key in ("duration", "output", "friction")]
     lines += ["gravity " + numbers(row) for row in scene["gravity"]]
@@ -31,6 +32,9 @@ def scene_text(scene, settings, springs=False):
             lines.append("box " + numbers(b["box"]))
         lines += ["vertex " + numbers(v) for v in b["vertices"]]
         lines += ["face %s %s" % (numbers(f["plane"]), " ".join(map(str, f["corners"]))) for f in b["faces"]]
+    if welds:
+        lines += ["weld %s %s %s" % (w["block"], w["fixed"], numbers([w["kn"], w["ks"], w["area"], w["strength"], *w["normal"],
+                                                                      *np.ravel(w["points"])])) for w in scene["welds"]]
     return "\n".join(lines + ["end", ""])
 
 
@@ -76,13 +80,11 @@ def gravity_at(scene, time):
 
 
 def force_at(scene, name, time):
-    """the force on a block besides gravity; its line of action is that through the centre"""
+    """the force on a block besides gravity, and its moment about the centre, in world axes"""
     if name not in scene["forces"]:
-        return np.zeros(3)
-    if np.any(np.abs(scene["forces"][name][3:]) > 1e-9 * np.linalg.norm(scene["forces"][name][:3])):
-        raise ValueError("this adapter states no moment of a force")
+        return np.zeros(6)
     table = np.array(scene["shares"])
-    return np.interp(time, table[:, 0], table[:, 1]) * np.array(scene["forces"][name][:3])
+    return np.interp(time, table[:, 0], table[:, 1]) * np.array(scene["forces"][name])
 
 
 def turned(turn, vector):

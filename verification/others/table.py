@@ -1,17 +1,26 @@
-"""The table of engines and problems from `voussoir judge`: OUT/others.md, others.html; and error_against_cost.svg from the sweeps.
+"""The table of engines and problems from `voussoir judge`: OUT/results.md, others.html; and error_against_cost.svg from the sweeps.
 usage: table.py JUDGEMENT.csv PROBLEMS BUILD PROGRAM OUT"""
 import csv
+import glob
 import html
+import json
 import os
 import sys
 
 from choose import judged
 from engines import HERE, engines
 from figure import draw
-from sweep import kept_rows
+from run import OVERLAP
+from sweep import kept_rows, setting_text
 
 
 HEADS = (("One setting for everything", ""), ("The best setting of each problem", "_best"))
+INTRODUCTION = """# Results of the other engines
+
+Written by `make others`. Value, verdict (the distance from the right answer if it fails), processor seconds of all trials.
+*Cannot state* and *stopped* have their reasons in the answers' notes and in the list below.
+
+"""
 
 
 class Cell:
@@ -58,6 +67,47 @@ def markdown(head, rows, codes):
     return "\n".join(lines) + "\n\n"
 
 
+def overlaps_of(out):
+    """{problem: {code: m}}, from the heads of the answers; those of one setting and of the best alike"""
+    found = {}
+    for path in sorted(glob.glob(os.path.join(out, "*", "*", "answer.csv"))):
+        code, problem = path.split(os.sep)[-3:-1]
+        with open(path, encoding="utf-8") as file:
+            for line in file:
+                if line.startswith(OVERLAP):
+                    found.setdefault(problem, {})[code] = float(line.removeprefix(OVERLAP).split()[0])
+    return found
+
+
+def overlaps_text(found, codes):
+    lines = ["## Largest overlap, m", "", "Twice the depth of the deepest point under all planes of two blocks, at the end of the trials in which the blocks "
+             "stand: one setting for everything / the best setting.", "",
+             "| problem | " + " | ".join(codes) + " |", "|---|" + "--:|" * len(codes)]
+    for problem, values in sorted(found.items()):
+        cells = [" / ".join("%.1e" % values[c] if c in values else "-" for c in (code, code + "_best")) for code in codes]
+        lines.append("| %s | %s |" % (problem, " | ".join("" if c == "- / -" else c for c in cells)))
+    return "\n".join(lines) + "\n\n"
+
+
+def reasons_text(rows, codes):
+    """why an engine stopped or cannot state a problem, each reason once"""
+    found = {}
+    for problem, _, _, answers in rows:
+        for code in codes:
+            if code in answers and answers[code].verdict in ("stopped", "cannot state"):
+                found.setdefault((column(code), answers[code].verdict, answers[code].note), {})[problem] = None
+    lines = ["- %s, %s: %s: %s" % (code, ", ".join(problems), verdict, note) for (code, verdict, note), problems in found.items()]
+    return "\n".join(["## Reasons", ""] + lines) + "\n\n"
+
+
+def settings_table(known):
+    lines = ["## Settings for everything", "", "| engine | setting |", "|---|---|"]
+    for name, engine in known.items():
+        with open(os.path.join(HERE, engine.folder, "settings.json"), encoding="utf-8") as file:
+            lines.append("| %s | %s |" % (name, setting_text({**json.load(file)["one"], **engine.extra})))
+    return "\n".join(lines) + "\n"
+
+
 def page(head, rows, codes):
     lines = ["<h3>%s</h3>" % head, "<table class=\"others\">", "<tr><th>problem</th><th>quantity</th>%s</tr>" % "".join("<th>%s</th>" % column(c) for c in codes)]
     for problem, name, unit, found in rows:
@@ -87,7 +137,7 @@ def points_of_sweeps(problems, known):
     for name, engine in known.items():
         if engine.extra:
             continue  # the same sweep with other joints
-        for problem, tried in judged(kept_rows(os.path.join(HERE, engine.folder, "sweep.tsv")), problems, engine.model).items():
+        for problem, tried in judged(kept_rows(os.path.join(HERE, engine.folder, "sweep.tsv")), problems, engine).items():
             points.setdefault(problem, {})[name] = [(t.seconds, t.largest) for t in tried.values() if t.seconds > 0]
     return points
 
@@ -98,11 +148,15 @@ def main():
     with open(judgement, encoding="utf-8", newline="") as file:
         rows = judged_rows(file)
     codes = [c + suffix for c in known for suffix in ("", "_best") if any(c + suffix in row[3] for row in rows)]
-    for name, write in (("others.md", markdown), ("others.html", page)):
+    for name, write, begin in (("results.md", markdown, INTRODUCTION), ("others.html", page, "")):
         with open(os.path.join(out, name), "w", encoding="utf-8") as file:
+            file.write(begin)
             for head, suffix in HEADS:
                 shown = [c for c in codes if c.endswith("_best") == bool(suffix)]
                 file.write(write(head, rows, shown) if shown else "")
+            if write is markdown:
+                file.write(overlaps_text(overlaps_of(out), [c for c in codes if not c.endswith("_best")]))
+                file.write(reasons_text(rows, codes) + settings_table(known))
     with open(os.path.join(out, "error_against_cost.svg"), "w", encoding="utf-8") as file:
         file.write(draw(points_of_sweeps(problems, known)))
     print("\n".join(counts(rows, codes)))

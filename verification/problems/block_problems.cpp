@@ -168,7 +168,7 @@ Problem wedge() {
   search.upper = 40;
   search.tolerance = 0.005;
   p.search = search;
-  p.criterion = Criterion{"gets faster", "wedge", {0.5, 1, 1.5}, 0, 0};
+  p.criterion = Criterion{"gets faster", "wedge", {0.5, 1, 1.5}, 0, 0, 0.05};
   Variant rest;
   rest.name = "at rest";
   rest.velocities["wedge"] = Point::Zero();
@@ -206,8 +206,10 @@ Problem wedge() {
       "Gravity is inclined by 38 deg along the groove. The friction angle is sought, the same on both planes.";
   p.words.measured =
       "Kinetic: the wedge starts at 1 m/s along the groove; the trial fails if its path from 1.0 s to 1.5 s is longer "
-      "than that from 0.5 s to 1.0 s. At rest: fails if it moves by 0.5 mm more from 2.5 s to 3.5 s than from 1.5 s to "
-      "2.5 s, or is 0.3 m off.";
+      "than that from 0.5 s to 1.0 s and than 0.05 m; a wedge whose path is shorter than that has stopped, and its two "
+      "paths are rounding. At rest: fails if it moves by 0.5 mm more from 2.5 s to 3.5 s than from 1.5 s to 2.5 s, or "
+      "is "
+      "0.3 m off.";
   p.words.protocol =
       "Kinetic: full gravity from the start. At rest: gravity grows in its own direction from nothing to full within 1 "
       "s "

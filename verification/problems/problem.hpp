@@ -82,6 +82,7 @@ struct Criterion {
   std::string block;  // "any block" for falls
   std::vector<double> times;
   double excess = 5e-4, far = 0.3;  // m
+  double stopped = 0.05;            // m, gets faster: a path below it in the later interval is that of a stopped block
 };
 
 // a number that is asked, with one sentence on how it is measured

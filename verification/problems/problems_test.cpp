@@ -167,6 +167,22 @@ TEST(Problems, KeepToTheSchema) {
   }
 }
 
+// a stopped block's two paths are rounding, so the rule needs its own length, in the file and in the words
+TEST(Problems, GetsFasterStatesWhenABlockHasStopped) {
+  const Json schema =
+      Json::parse(verification::read_text(VOUSSOIR_SOURCE_DIR "/verification/problems/blocks.schema.json"));
+  Json json = Json::parse(blocks_json(wedge()).dump());
+  EXPECT_EQ(json["criterion"]["stopped_m"], 0.05);
+  EXPECT_NE(task_text(wedge()).find("0.05 m"), std::string::npos);
+  for (const char* key : {"stopped_m", "times_s", "block"}) {
+    Json without = json;
+    without["criterion"].erase(key);
+    EXPECT_FALSE(schema_violations(without, schema).empty()) << key;
+  }
+  json["criterion"]["far_m"] = 0.3;  // belongs to the other criteria
+  EXPECT_FALSE(schema_violations(json, schema).empty());
+}
+
 TEST(Problems, AskWhatTheyJudgeAndStayBelowFiveMegabytes) {
   std::size_t bytes = 0;
   for (const Problem& problem : all()) {

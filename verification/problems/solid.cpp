@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/geometry/polytope.hpp"
+
 namespace voussoir::problems {
 namespace {
 
@@ -42,25 +44,20 @@ void require_convex(const Solid& block) {
   }
 }
 
-// second moments of the volume about the centre, density 1; sets mass (as volume) and centre
-Axes integrate(Solid& block) {
+// about the centre, density 1, with the centre in the world
+MassProperties<3> volume_of(const Solid& block) {
   const Point origin = block.vertices.front();  // near the block: far from the world's origin digits would be lost
-  double volume = 0;
-  Point first = Point::Zero();
-  Axes second = Axes::Zero();
+  std::vector<Vector<3>> local;
+  for (const Point& v : block.vertices)
+    local.push_back(v - origin);
+  std::vector<std::vector<int>> loops;
   for (const Face& face : block.faces)
-    for (std::size_t k = 1; k + 1 < face.corners.size(); ++k) {
-      const Point a = block.vertices[face.corners[0]] - origin, b = block.vertices[face.corners[k]] - origin,
-                  c = block.vertices[face.corners[k + 1]] - origin, sum = a + b + c;
-      const double v = a.dot(b.cross(c)) / 6;
-      volume += v;
-      first += v / 4 * sum;
-      second += v / 20 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
-    }
-  const Point centre = first / volume;
-  block.mass = volume;
-  block.centre = origin + centre;
-  return second - volume * centre * centre.transpose();
+    loops.push_back(face.corners);
+  MassProperties<3> volume = integrate<3>(local, loops);
+  const Point centre = volume.centroid;
+  volume = moved_origin<3>(volume, centre);
+  volume.centroid = origin + centre;
+  return volume;
 }
 
 Axes principal(const Axes& moments) {
@@ -92,9 +89,10 @@ Solid solid(std::string name, double density, std::vector<Point> vertices, std::
   for (std::vector<int>& corners : faces)
     block.faces.push_back(face_of(block, std::move(corners)));
   require_convex(block);
-  const Axes second = integrate(block);
-  const Axes moments = density * (second.trace() * Axes::Identity() - second);
-  block.mass *= density;
+  const MassProperties<3> volume = volume_of(block);
+  const Axes moments = density * inertia_tensor(volume);
+  block.mass = density * volume.volume;
+  block.centre = volume.centroid;
   block.axes = axes ? *axes : principal(moments);
   const Axes own = block.axes.transpose() * moments * block.axes;
   for (int k = 0; k < 3; ++k)

@@ -93,7 +93,10 @@ Json criterion_json(const std::optional<Criterion>& criterion) {
   if (!criterion->block.empty()) out["block"] = criterion->block;
   if (!criterion->times.empty()) out["times_s"] = criterion->times;
   if (criterion->kind == "accelerates") out["excess_m"] = criterion->excess;
-  if (criterion->kind != "gets faster") out["far_m"] = criterion->far;
+  if (criterion->kind == "gets faster")
+    out["stopped_m"] = criterion->stopped;
+  else
+    out["far_m"] = criterion->far;
   return out;
 }
 

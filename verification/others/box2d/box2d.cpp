@@ -31,6 +31,8 @@ class PlaneWorld {
     world_.SetContactListener(&friction_);
     for (const SceneBlock& block : scene.blocks)
       add(block);
+    for (const SceneWeld& weld : scene.welds)
+      add_weld(weld);
   }
 
   void step(const Triple& gravity) {
@@ -42,6 +44,11 @@ class PlaneWorld {
       bodies_[i]->ApplyTorque(static_cast<float>(-(*f)[4]), true);
     }
     world_.Step(dt_, iterations_, positions_);
+    for (std::size_t w = 0; w < rods_.size(); ++w)
+      if (!rods_[w].empty() && scene_.welds[w].breaks(motion(scene_.welds[w].block))) {
+        std::ranges::for_each(rods_[w], [this](b2Joint* rod) { world_.DestroyJoint(rod); });
+        rods_[w].clear();
+      }
   }
 
   BlockMotion motion(std::size_t i) const {
@@ -56,30 +63,42 @@ class PlaneWorld {
   }
 
  private:
+  // A bonded face as elastic rods of 1 m: one along the normal at each spring, one along the face at its middle.
+  void add_weld(const SceneWeld& weld) {
+    const b2Vec2 normal = in_plane(weld.normal), along(-normal.y, normal.x);
+    b2Vec2 middle(0, 0);
+    auto& rods = rods_.emplace_back();
+    const auto rod = [&](const b2Vec2& at, const b2Vec2& direction, double stiffness, double damping) {
+      b2DistanceJointDef definition;
+      definition.Initialize(bodies_[weld.fixed], bodies_[weld.block], at - direction, at);
+      definition.minLength = 0;
+      definition.maxLength = 2;
+      definition.stiffness = static_cast<float>(stiffness);
+      definition.damping = static_cast<float>(damping);
+      rods.push_back(world_.CreateJoint(&definition));
+    };
+    const double mass = scene_.blocks[weld.block].mass;
+    for (const Triple& point : weld.points) {
+      rod(in_plane(point), normal, weld.normal_stiffness, std::sqrt(weld.normal_stiffness * mass));
+      middle += 0.25f * in_plane(point);
+    }
+    rod(middle, along, 4 * weld.shear_stiffness, 4 * std::sqrt(weld.shear_stiffness * mass));
+  }
+
   static b2Vec2 in_plane(const Triple& a) { return {static_cast<float>(a[0]), static_cast<float>(a[2])}; }
 
   // The section's corners in the world's axes at the start, from the centre: the principal axes of a prism are any
   // permutation of section and length, so the block's own turn is put into the corners.
   static std::vector<b2Vec2> section(const SceneBlock& block) {
     std::vector<b2Vec2> corners;
-    const Quaternion& q = block.turn;
-    for (const Triple& p : block.vertices) {
-      const double x = (1 - 2 * (q[2] * q[2] + q[3] * q[3])) * p[0] + 2 * (q[1] * q[2] - q[0] * q[3]) * p[1] +
-                       2 * (q[1] * q[3] + q[0] * q[2]) * p[2];
-      const double y = 2 * (q[1] * q[2] + q[0] * q[3]) * p[0] + (1 - 2 * (q[1] * q[1] + q[3] * q[3])) * p[1] +
-                       2 * (q[2] * q[3] - q[0] * q[1]) * p[2];
-      const double z = 2 * (q[1] * q[3] - q[0] * q[2]) * p[0] + 2 * (q[2] * q[3] + q[0] * q[1]) * p[1] +
-                       (1 - 2 * (q[1] * q[1] + q[2] * q[2])) * p[2];
-      if (y > 0) corners.push_back(in_plane({x, y, z}));
-    }
+    for (const Triple& vertex : block.vertices)
+      if (const Triple corner = turned(block.turn, vertex); corner[1] > 0) corners.push_back(in_plane(corner));
     return corners;
   }
 
   // the moment about the section's normal: that of the axis which the turn brings to y
   static double moment_about_y(const SceneBlock& block) {
-    const Quaternion& q = block.turn;
-    const Triple row{2 * (q[1] * q[2] + q[0] * q[3]), 1 - 2 * (q[1] * q[1] + q[3] * q[3]),
-                     2 * (q[2] * q[3] - q[0] * q[1])};
+    const Triple row = turned_back(block.turn, {0, 1, 0});
     double moment = 0;
     for (int k = 0; k < 3; ++k)
       moment += row[k] * row[k] * block.moments[k];
@@ -115,6 +134,7 @@ class PlaneWorld {
   SameFriction friction_;
   b2World world_{b2Vec2(0, 0)};
   std::vector<b2Body*> bodies_;
+  std::vector<std::vector<b2Joint*>> rods_;  // of a weld; none once it is broken
 };
 
 }  // namespace

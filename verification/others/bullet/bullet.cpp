@@ -35,23 +35,22 @@ class BulletWorld {
     info.m_erp = info.m_erp2 = scene.setting("erp", 0.2);
     info.m_splitImpulse = scene.setting("split", 1) != 0;
     info.m_splitImpulsePenetrationThreshold = -1e-5;
-    info.m_leastSquaresResidualThreshold = 0;
-    info.m_restitutionVelocityThreshold = 0;
-    if (scene.setting("directions", 1) == 2)
-      info.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
-    else
-      info.m_solverMode &= ~SOLVER_USE_2_FRICTION_DIRECTIONS;
+    info.m_leastSquaresResidualThreshold = info.m_restitutionVelocityThreshold = 0;
+    if (scene.setting("directions", 1) == 2) info.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
     world_->getDispatchInfo().m_enableSatConvex = scene.setting("sat", 0) != 0;
     for (const SceneBlock& block : scene.blocks)
       add(block);
+    for (const SceneWeld& weld : scene.welds)
+      add(weld);
   }
 
   ~BulletWorld() {
+    for (const auto& spring : springs_)
+      world_->removeConstraint(spring.get());
     for (const auto& body : bodies_)
       world_->removeRigidBody(body.get());
   }
-  BulletWorld(const BulletWorld&) = delete;
-  BulletWorld& operator=(const BulletWorld&) = delete;
+  BulletWorld(BulletWorld&&) = delete;
 
   void step(const Triple& gravity) {
     world_->setGravity(vector(gravity));
@@ -63,6 +62,9 @@ class BulletWorld {
     }
     world_->stepSimulation(dt_, 0);
     world_->clearForces();
+    for (std::size_t w = 0; w < springs_.size(); ++w)
+      if (springs_[w]->isEnabled() && scene_.welds[w].breaks(motion(scene_.welds[w].block)))
+        springs_[w]->setEnabled(false);
   }
 
   BlockMotion motion(std::size_t i) const {
@@ -102,6 +104,31 @@ class BulletWorld {
     world_->addRigidBody(&body);
   }
 
+  // a bonded face: the engine's springs along three axes and about them, in place of contacts
+  void add(const SceneWeld& weld) {
+    const btVector3 middle = 0.5 * (vector(weld.points[0]) + vector(weld.points[3])), normal = vector(weld.normal),
+                    side = (vector(weld.points[1]) - vector(weld.points[0])).normalized(),
+                    axes[] = {normal, side, normal.cross(side)};
+    const btTransform frame(btMatrix3x3(axes[0], axes[1], axes[2]).transpose(), middle);
+    btRigidBody &fixed = *bodies_[weld.fixed], &block = *bodies_[weld.block];
+    springs_.push_back(std::make_unique<btGeneric6DofSpring2Constraint>(
+        fixed, block, fixed.getWorldTransform().inverse() * frame, block.getWorldTransform().inverse() * frame));
+    for (int k = 0; k < 6; ++k) {
+      double stiffness = 0;  // N/m, Nm/rad
+      for (const Triple& point : weld.points) {
+        const btVector3 way = k < 3 ? axes[k] : axes[k - 3].cross(vector(point) - middle);
+        const double out = std::pow(way.dot(normal), 2);
+        stiffness += weld.normal_stiffness * out + weld.shear_stiffness * (way.length2() - out);
+      }
+      springs_.back()->setLimit(k, 1, -1);  // none
+      springs_.back()->enableSpring(k, true);
+      springs_.back()->setStiffness(k, stiffness, false);
+      springs_.back()->setDamping(k, std::sqrt(stiffness * scene_.blocks[weld.block].mass), false);
+    }
+    springs_.back()->setEquilibriumPoint();
+    world_->addConstraint(springs_.back().get(), true);
+  }
+
   const EngineScene& scene_;
   double dt_;
   btDefaultCollisionConfiguration configuration_;
@@ -112,6 +139,7 @@ class BulletWorld {
   std::unique_ptr<btDiscreteDynamicsWorld> world_;
   std::vector<std::unique_ptr<btCollisionShape>> shapes_;
   std::vector<std::unique_ptr<btRigidBody>> bodies_;
+  std::vector<std::unique_ptr<btGeneric6DofSpring2Constraint>> springs_;
 };
 
 }  // namespace

@@ -1,7 +1,7 @@
 // Jolt (WebAssembly, float). Settings: dt; iterations (of velocities); positions (iterations); radius (m, of rounded
 // edges within a shape); slop and speculative (m); baumgarte; box (1: native boxes)
 import init from "jolt-physics/wasm-compat";
-import { runScenes } from "../scene.mjs";
+import { breaks, rodsOf, runScenes } from "../scene.mjs";
 
 const J = await init();
 const vector = (a) => new J.Vec3(...a);
@@ -9,13 +9,13 @@ const triple = (a) => [a.GetX(), a.GetY(), a.GetZ()];
 
 function makeSystem(scene) {
   const settings = new J.JoltSettings();
-  const pairs = new J.ObjectLayerPairFilterTable(2), layers = new J.BroadPhaseLayerInterfaceTable(2, 2);
+  const pairs = new J.ObjectLayerPairFilterTable(3), layers = new J.BroadPhaseLayerInterfaceTable(3, 2);
   pairs.EnableCollision(0, 1);
   pairs.EnableCollision(1, 1);
-  [0, 1].forEach((layer) => layers.MapObjectToBroadPhaseLayer(layer, new J.BroadPhaseLayer(layer)));
+  [0, 1, 1].forEach((broad, layer) => layers.MapObjectToBroadPhaseLayer(layer, new J.BroadPhaseLayer(broad)));  // 2: bonded, meets nothing
   settings.mObjectLayerPairFilter = pairs;
   settings.mBroadPhaseLayerInterface = layers;
-  settings.mObjectVsBroadPhaseLayerFilter = new J.ObjectVsBroadPhaseLayerFilterTable(layers, 2, pairs, 2);
+  settings.mObjectVsBroadPhaseLayerFilter = new J.ObjectVsBroadPhaseLayerFilterTable(layers, 2, pairs, 3);
   const jolt = new J.JoltInterface(settings), system = jolt.GetPhysicsSystem(), physics = system.GetPhysicsSettings();
   physics.mNumVelocitySteps = scene.setting("iterations", 10);
   physics.mNumPositionSteps = scene.setting("positions", 2);
@@ -60,9 +60,33 @@ function addBlock(scene, block, bodies) {
   return body;
 }
 
+function addWeld(system, weld, bodyOf) {
+  system.GetBodyInterface().SetObjectLayer(bodyOf(weld.block).GetID(), 2);
+  return rodsOf(weld).map((rod) => {
+    const rodSettings = new J.DistanceConstraintSettings(), spring = rodSettings.mLimitsSpringSettings;
+    rodSettings.mSpace = J.EConstraintSpace_LocalToBodyCOM;
+    rodSettings.mPoint1 = new J.RVec3(...rod.onFixed);
+    rodSettings.mPoint2 = new J.RVec3(...rod.onBlock);
+    rodSettings.mMinDistance = rodSettings.mMaxDistance = 1;
+    spring.mMode = J.ESpringMode_StiffnessAndDamping;
+    spring.mStiffness = rod.stiffness;
+    spring.mDamping = rod.damping;
+    const constraint = rodSettings.Create(bodyOf(weld.fixed), bodyOf(weld.block));
+    system.AddConstraint(constraint);
+    return constraint;
+  });
+}
+
 function makeWorld(scene) {
   const { jolt, system } = makeSystem(scene), dt = scene.setting("dt", 0.002), gravity = vector([0, 0, 0]);
   const bodies = scene.blocks.map((block) => addBlock(scene, block, system.GetBodyInterface()));
+  const bodyOf = (block) => bodies[scene.blocks.indexOf(block)];
+  const bonds = scene.welds.map((weld) => addWeld(system, weld, bodyOf));
+  const motionOf = (body) => {
+    const q = body.GetRotation();
+    return { centre: triple(body.GetCenterOfMassPosition()), turn: [q.GetW(), q.GetX(), q.GetY(), q.GetZ()],
+      velocity: triple(body.GetLinearVelocity()), spin: triple(body.GetAngularVelocity()) };
+  };
   const pushed = scene.blocks.flatMap((block, i) => {
     const force = scene.forces[block.name];
     return force ? [[bodies[i], force, vector([0, 0, 0]), vector([0, 0, 0])]] : [];
@@ -78,12 +102,13 @@ function makeWorld(scene) {
         body.AddTorque(moment);
       }
       jolt.Step(dt, 1);
+      scene.welds.forEach((weld, k) => {
+        if (bonds[k].length === 0 || !breaks(weld, motionOf(bodyOf(weld.block)))) return;
+        bonds[k].splice(0).forEach((rod) => system.RemoveConstraint(rod));
+        system.GetBodyInterface().SetObjectLayer(bodyOf(weld.block).GetID(), 1);
+      });
     },
-    motion(i) {
-      const body = bodies[i], q = body.GetRotation();
-      return { centre: triple(body.GetCenterOfMassPosition()), turn: [q.GetW(), q.GetX(), q.GetY(), q.GetZ()],
-        velocity: triple(body.GetLinearVelocity()), spin: triple(body.GetAngularVelocity()) };
-    },
+    motion: (i) => motionOf(bodies[i]),
     free() { J.destroy(jolt); },
   };
 }

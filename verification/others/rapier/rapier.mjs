@@ -1,7 +1,7 @@
 // Rapier 3-D, deterministic build (WebAssembly, float). Settings: dt; iterations; inner (internal iterations); slop and
 // prediction (m); frequency (of contacts, 1/s); box (1: native boxes)
 import R from "@dimforge/rapier3d-deterministic-compat";
-import { runScenes } from "../scene.mjs";
+import { breaks, rodsOf, runScenes } from "../scene.mjs";
 
 const xyz = ([x, y, z]) => ({ x, y, z });
 const triple = ({ x, y, z }) => [x, y, z];
@@ -22,6 +22,15 @@ function addBlock(world, scene, block) {
   return body;
 }
 
+function addWeld(world, weld, bodyOf) {
+  return rodsOf(weld).map((rod) => {
+    const spring = R.JointData.spring(1, rod.stiffness, rod.damping, xyz(rod.onFixed), xyz(rod.onBlock));
+    const joint = world.createImpulseJoint(spring, bodyOf(weld.fixed), bodyOf(weld.block), true);
+    joint.setContactsEnabled(false);
+    return joint;
+  });
+}
+
 function makeWorld(scene) {
   const world = new R.World(xyz([0, 0, 0])), parameters = world.integrationParameters;
   parameters.dt = scene.setting("dt", 0.002);
@@ -31,7 +40,13 @@ function makeWorld(scene) {
   parameters.normalizedPredictionDistance = scene.setting("prediction", 0.002);
   parameters.contact_natural_frequency = scene.setting("frequency", 30);
   const bodies = scene.blocks.map((block) => addBlock(world, scene, block));
+  const bodyOf = (block) => bodies[scene.blocks.indexOf(block)];
+  const bonds = scene.welds.map((weld) => addWeld(world, weld, bodyOf));
   const pushed = scene.blocks.flatMap((block, i) => (scene.forces[block.name] ? [[bodies[i], scene.forces[block.name]]] : []));
+  const motionOf = (body) => {
+    const q = body.rotation();
+    return { centre: triple(body.translation()), turn: [q.w, q.x, q.y, q.z], velocity: triple(body.linvel()), spin: triple(body.angvel()) };
+  };
   return {
     step(gravity, share) {
       world.gravity = xyz(gravity);
@@ -43,12 +58,12 @@ function makeWorld(scene) {
         body.addTorque(xyz(present.slice(3)), true);
       }
       world.step();
+      scene.welds.forEach((weld, k) => {
+        if (!breaks(weld, motionOf(bodyOf(weld.block)))) return;
+        bonds[k].splice(0).forEach((joint) => world.removeImpulseJoint(joint, true));
+      });
     },
-    motion(i) {
-      const q = bodies[i].rotation();
-      return { centre: triple(bodies[i].translation()), turn: [q.w, q.x, q.y, q.z], velocity: triple(bodies[i].linvel()),
-        spin: triple(bodies[i].angvel()) };
-    },
+    motion: (i) => motionOf(bodies[i]),
     free() { world.free(); },
   };
 }

@@ -54,6 +54,7 @@ def add_blocks(scene, setting, nsds, manager, kept):
         body.setUseContactorInertia(False)
         body.setContactors(contactors)
         body.setFExtPtr(b["mass"] * gravity_at(scene, 0))
+        body.setIsMextExpressedInInertialFrame(True)
         nsds.insertDynamicalSystem(body)
         free.append((b, body))
     return free
@@ -99,7 +100,10 @@ def run(scene, setting):
     for i in range(1, steps + 1):
         gravity, begun = gravity_at(scene, i * dt), time.process_time()
         for b, body in free:
-            body.setFExtPtr(b["mass"] * gravity + force_at(scene, b["name"], i * dt))  # copies: set at every step
+            force = force_at(scene, b["name"], i * dt)
+            body.setFExtPtr(b["mass"] * gravity + force[:3])  # copies: set at every step
+            if np.any(force[3:]):
+                body.setMExtPtr(force[3:])
         simulation.computeOneStep()
         simulation.nextStep()
         simulation.clearNSDSChangeLog()
