@@ -60,12 +60,7 @@ double size_of(const SurveyRow<3>& row) {
 // One block free and translating only, its neighbours fixed, the rest gone: as `fix`, `restrain` and `remove` of a
 // scene.
 LoadedScene alone(const Mass& mass, const SurveyRow<3>& row, const Joints& joints) {
-  LoadedScene scene;  // made once for all sources, it has no copies
-  scene.title = mass.scene.title;
-  scene.text = mass.scene.text;
-  scene.hash = mass.scene.hash;
-  scene.stated = mass.scene.stated;
-  scene.prepared = mass.scene.prepared;
+  LoadedScene scene = mass.scene;
   Prepared<3>& prepared = std::get<Prepared<3>>(scene.prepared);
   const int body = row.bodies[0];
   std::vector<char> near(prepared.model.bodies.size(), 0);
