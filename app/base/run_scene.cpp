@@ -52,6 +52,8 @@ LoadedScene load(Scene scene, int threads) {
 }  // namespace
 
 LoadedScene::LoadedScene() = default;
+LoadedScene::LoadedScene(const LoadedScene&) = default;
+LoadedScene& LoadedScene::operator=(const LoadedScene&) = default;
 LoadedScene::LoadedScene(LoadedScene&&) noexcept = default;
 LoadedScene& LoadedScene::operator=(LoadedScene&&) noexcept = default;
 LoadedScene::~LoadedScene() = default;

@@ -30,6 +30,8 @@ struct LoadedScene {
 
   // defined in one source: every other one would spend seconds on those of both models
   LoadedScene();
+  LoadedScene(const LoadedScene&);
+  LoadedScene& operator=(const LoadedScene&);
   LoadedScene(LoadedScene&&) noexcept;
   LoadedScene& operator=(LoadedScene&&) noexcept;
   ~LoadedScene();
