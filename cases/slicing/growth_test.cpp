@@ -138,6 +138,7 @@ struct Growth {
   std::string name, file;
   std::vector<double> intensities;  // 1/m
   std::size_t culled_too;           // so many of them also without culling
+  std::size_t overlaps_of;          // the one whose pairs are searched: a linear program for each pair of neighbours
 };
 
 void study(CaseReport& report, const Growth& growth) {
@@ -189,7 +190,7 @@ void study(CaseReport& report, const Growth& growth) {
                  .source = "conservation of volume: blocks tile the box",
                  .tolerance = {.absolute = 0.5},
                  .because = "a count"},
-                static_cast<double>(overlapping_pairs(runs.back().blocks)));
+                static_cast<double>(overlapping_pairs(runs[growth.overlaps_of].blocks)));
   report.record({.quantity = of + "memory of a block",
                  .unit = "B",
                  .kind = Kind::limit,
@@ -218,15 +219,15 @@ void study(CaseReport& report, const Growth& growth) {
 
 TEST(SlicingGrowth, ProgramsGrowAsTheNumberOfBlocks) {
   CaseReport report("slicing");
-  study(report, {"persistent", "table_4_1_persistent.toml", {0.07, 0.1, 0.15, 0.2}, 3});
-  study(report, {"finite", "table_4_1.toml", {0.005, 0.01, 0.016, 0.03}, 2});
+  study(report, {"persistent", "table_4_1_persistent.toml", {0.07, 0.1, 0.15, 0.2}, 3, 1});
+  study(report, {"finite", "table_4_1.toml", {0.005, 0.01, 0.016, 0.03}, 2, 1});
 }
 
-// to more than a hundred thousand blocks, and without culling at twenty thousand
+// to more than a hundred thousand blocks, of which no two overlap, and without culling at twenty thousand
 TEST(SlicingGrowthLong, ToAHundredThousandBlocks) {
   CaseReport report("slicing");
-  study(report, {"persistent", "table_4_1_persistent.toml", {0.1, 0.2, 0.26, 0.4, 0.55}, 3});
-  study(report, {"finite", "table_4_1.toml", {0.005, 0.015, 0.042, 0.09, 0.15}, 3});
+  study(report, {"persistent", "table_4_1_persistent.toml", {0.1, 0.2, 0.26, 0.4, 0.55}, 3, 4});
+  study(report, {"finite", "table_4_1.toml", {0.005, 0.015, 0.042, 0.09, 0.15}, 3, 4});
 }
 
 TEST(SlicingGrowth, PersistentSetsMakeTheCountedNumberOfBlocks) {
