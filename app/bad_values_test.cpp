@@ -181,6 +181,8 @@ const Harmless harmless[] = {
     {"motion", "angular_velocity", "negative", "an ordinary direction"},
     {"blocks", "angular_velocity", "negative", "an ordinary direction"},
     {"record", "direction", "any", "another direction; of one no length counts, and zero is refused"},
+    {"damping", "joint_ratio", "0", is_default},
+    {"time", "error_m", "0", is_default},
     {"record", "from_s", "0", is_default},
     {"record", "from_s", "times 1e-3", "hardly anything is cut or added"},
     {"record", "from_s", "times 1e-6", "hardly anything is cut or added"},

@@ -1,8 +1,6 @@
 #include "core/step.hpp"
 
 #include "core/implicit/implicit_step.hpp"
-#include "core/implicit/step_points.hpp"
-#include "core/step/contacts.hpp"
 #include "core/step/joint_forces.hpp"
 #include "core/step/loads.hpp"
 #include "core/step/motion.hpp"
@@ -25,12 +23,8 @@ void find_forces(const Model<Dim>& model, const Settings& settings, State<Dim>& 
   // pairs that do: point, normal, overlap and area of each candidate pair, each in its own slot; and the force of its
   // joint from overlap and slip, with its new history, while all of it is in the cache
   const JointStep last = joint_step(settings, now.time_step, now.relaxation);
-  if (settings.time.integration == Integration::explicit_steps || now.relaxation.under_way) {
-    find_joint_forces(model, settings, now.schedule, last, bodies, contacts, ledger, counters);
-  } else {
-    find_contacts(model, settings, 0, bodies, contacts, counters);
-    find_point_forces(model, settings, now.schedule, now.bodies, contacts, ledger.energy);
-  }
+  const auto find = by_implicit_steps(settings, now) ? find_point_forces<Dim> : find_joint_forces<Dim>;
+  find(model, settings, now.schedule, last, bodies, contacts, ledger, counters);
 
   // forces of bolts at the displaced anchors, and of linings at the displaced rock
   for (const StepSupport<Dim>& row : step_supports<Dim>)
@@ -46,13 +40,12 @@ void step(const Model<Dim>& model, const Settings& settings, State<Dim>& state,
   find_forces(model, settings, state);
   if (with_forces) with_forces(state);
 
-  // motion: velocities, then positions and rotations; or the next trial of a static increment, which changes nearly
-  // everything
+  // motion: velocities, then positions and rotations; or the next trial of a static increment
   const State<Dim>& now = state;
   auto& [bodies, contacts, supports, loads, schedule, ledger, counters, time_step, relaxation, increment] = state;
   if (increment.under_way)
     iterate(model, settings, state);
-  else if (settings.time.integration == Integration::implicit_steps && !relaxation.under_way)
+  else if (by_implicit_steps(settings, now))
     move_implicitly(model, settings, state);
   else
     move_bodies(model, settings, now.counters, bodies, contacts, loads, schedule, ledger, time_step, relaxation);

@@ -65,6 +65,7 @@ voussoir_test(unit.joint_sets LABEL unit SOURCES joint_sets/*_test.cpp exchange/
 voussoir_test(unit.probability LONG LABEL unit SOURCES probability/*_test.cpp testing/limit_states.cpp
   LIBS voussoir_core Boost::headers fmt::fmt)
 voussoir_test(unit.key_blocks LABEL unit SOURCES key_blocks/*_test.cpp LIBS voussoir_core fmt::fmt)
+voussoir_test(unit.implicit LABEL unit SOURCES implicit/*_test.cpp LIBS voussoir_core fmt::fmt)
 voussoir_test(unit.support LABEL unit SOURCES support/*_test.cpp LIBS voussoir_core voussoir_oracle_algebra Boost::headers)
 voussoir_test(unit.contact LONG OPTIMISED LABEL unit SOURCES contact/*_test.cpp
   LIBS voussoir_core voussoir_oracle_algebra Boost::headers)

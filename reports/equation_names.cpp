@@ -192,8 +192,8 @@ void read_programs(const std::string& text, std::set<std::string>& programs) {
 }  // namespace
 
 SourceNames read_source_names(const fs::path& repository) {
-  static constexpr std::array rooms{"app",  "benchmarks", "cases",     "core",         "docs", "examples",
-                                    "fuzz", "reports",    "reference", "verification", "text"};
+  static constexpr std::array rooms{"app",  "benchmarks", "cases",   "core",      "docs",         "examples",
+                                    "fuzz", "library",    "reports", "reference", "verification", "text"};
   std::vector<fs::path> files{repository / "README.md", repository / "CONTRIBUTING.md"};
   for (const char* room : rooms)
     if (fs::is_directory(repository / room))

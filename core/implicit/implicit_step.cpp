@@ -10,6 +10,7 @@
 #include "core/implicit/advance.hpp"
 #include "core/implicit/load_bounds.hpp"
 #include "core/implicit/step_points.hpp"
+#include "core/step/contacts.hpp"
 #include "core/step/motion.hpp"
 #include "core/step/static_solver_base.hpp"
 
@@ -138,6 +139,28 @@ bool try_step(const Model<Dim>& model, const Settings& settings, double h, doubl
 }  // namespace
 
 template <int Dim>
+void find_point_forces(const Model<Dim>& model, const Settings& settings, const Schedule& schedule, const JointStep&,
+                       BodiesState<Dim>& bodies, ContactsState<Dim>& contacts, Ledger& ledger, Counters& counters) {
+  find_contacts(model, settings, 0, bodies, contacts, counters);
+  const std::vector<MeanMotion<Dim>> still(model.bodies.size());
+  const StepPoints<Dim> all = find_step_points<Dim>(model, settings, schedule, bodies, contacts, histories_of(contacts),
+                                                    {still, 0, 0}, counters);
+  contacts.loads.assign(contacts.list.size(), {});
+  ledger.energy.elastic = 0;
+  for (const StepPoint<Dim>& p : all.points) {
+    const double pressed = std::max(p.law.overlap, 0.0);
+    ledger.energy.elastic += 0.5 * p.law.normal * pressed * pressed;
+    if (p.law.shear > 0) ledger.energy.elastic += 0.5 * p.from.squaredNorm() / p.law.shear;
+    const Vector<Dim> force = p.law.normal * pressed * p.normal + p.from;
+    ContactLoad<Dim>& load = contacts.loads[p.contact];
+    load.second = p.body_b;
+    load.force += force;
+    load.about_first += moment(p.point, force);
+    load.about_second += moment(Vector<Dim>(p.point - between(bodies.poses[p.body_a], bodies.poses[p.body_b])), force);
+  }
+}
+
+template <int Dim>
 void move_implicitly(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
   catch_up(model, state);
   add_ramps(model, settings, state.bodies, state.loads, state.schedule, state.ledger.energy, state.relaxation);
@@ -189,9 +212,11 @@ std::string not_followed_implicitly(const Model<Dim>& model, const Settings& set
   return {};
 }
 
-#define VOUSSOIR_INSTANTIATE(Dim)                                                      \
-  template void move_implicitly<Dim>(const Model<Dim>&, const Settings&, State<Dim>&); \
-  template double default_step_error<Dim>(const Model<Dim>&);                          \
+#define VOUSSOIR_INSTANTIATE(Dim)                                                                             \
+  template void find_point_forces<Dim>(const Model<Dim>&, const Settings&, const Schedule&, const JointStep&, \
+                                       BodiesState<Dim>&, ContactsState<Dim>&, Ledger&, Counters&);           \
+  template void move_implicitly<Dim>(const Model<Dim>&, const Settings&, State<Dim>&);                        \
+  template double default_step_error<Dim>(const Model<Dim>&);                                                 \
   template std::string not_followed_implicitly<Dim>(const Model<Dim>&, const Settings&);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)

@@ -7,6 +7,7 @@
 #include "core/base/settings.hpp"
 #include "core/model/model.hpp"
 #include "core/model/state.hpp"
+#include "core/step/joint_forces.hpp"
 
 namespace voussoir {
 
@@ -14,6 +15,18 @@ namespace voussoir {
 // of the state are those at its positions, found without slip (JointStep::length 0).
 template <int Dim>
 void move_implicitly(const Model<Dim>& model, const Settings& settings, State<Dim>& state);
+
+template <int Dim>
+bool by_implicit_steps(const Settings& settings, const State<Dim>& state) {
+  return settings.time.integration == Integration::implicit_steps && !state.relaxation.under_way;
+}
+
+// Finds the contacts, and their joints' forces as implicit steps take them: loads of the contacts, and the energy of
+// the springs. In place of find_joint_forces; without slip.
+template <int Dim>
+void find_point_forces(const Model<Dim>& model, const Settings& settings, const Schedule& schedule,
+                       const JointStep& step, BodiesState<Dim>& bodies, ContactsState<Dim>& contacts, Ledger& ledger,
+                       Counters& counters);
 
 // m: the tolerance of a step if none is stated: 1e-5 of the smallest free block
 template <int Dim>

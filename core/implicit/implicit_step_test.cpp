@@ -129,8 +129,8 @@ TEST(ImplicitStep, AnImpactIsTheJointsWhereItIsResolvedAndPlasticElsewhere) {
 
 // 10 degrees, friction 30 degrees, 2 Hz and 0.4 m/s, first down the slope: in three cycles of 0.5 s a slip of 7.905576
 // mm each
-Prepared<2> shaken(double stiffness, const std::string& time, double duration = 1.5) {
-  return scene_of<2>(fmt::format(R"(
+std::string shaken_text(double stiffness, const std::string& time, double duration = 1.5) {
+  return fmt::format(R"(
 dimension = 2
 gravity = [-1.7034885, -9.6609640]
 density = 2000
@@ -154,7 +154,11 @@ bodies = ["base"]
 velocity = [-0.4, 0]
 frequency_hz = 2
 )",
-                                 stiffness, duration, time));
+                     stiffness, duration, time);
+}
+
+Prepared<2> shaken(double stiffness, const std::string& time) {
+  return scene_of<2>(shaken_text(stiffness, time));
 }
 
 double slip_of(const Progress<2>& end) {
@@ -342,6 +346,60 @@ TEST(ImplicitStep, ABlockOnAPlaneThatCirclesIsOfSecondOrder) {
     if (steps == 40) EXPECT_NEAR(error, 0, 1.3e-3);
     last = error;
   }
+}
+
+// ---- blocks of three sizes ------------------------------------------------------------------------------------------
+
+// 1, 0.03 and 0.001 m high, dropped together by 20 mm; the explicit limit is 16 µs
+TEST(ImplicitStep, AColumnThatDropsNeverGainsEnergy) {
+  std::string blocks;
+  double height = 0.02, mass = 0;
+  for (const double size : {1.0, 0.001, 0.03, 0.001, 1.0, 0.03}) {
+    blocks += fmt::format(", {{ name = \"h{0}\", box = {{ min = [0, {1:.17g}], max = [1, {2:.17g}] }} }}",
+                          blocks.size(), height, height + size);
+    height += size;
+    mass += 2600 * size;
+  }
+  for (const double h : {2e-3, 10e-3}) {
+    const Prepared<2> scene = scene_of<2>(fmt::format(R"(
+dimension = 2
+gravity = [0, -9.81]
+density = 2600
+blocks = [{{ name = "base", box = {{ min = [-2, -1], max = [3, 0] }}, fixed = true }}{0}]
+joint_properties = [{{ name = "rock", normal_stiffness = 1e10, shear_stiffness = 1e10, friction_deg = 30 }}]
+[[stage]]
+name = "drop"
+kind = "run"
+duration_s = 0.12
+damping = {{ local = 0, viscous_ratio = 0.1 }}
+time = {{ integration = "implicit", step_s = {1} }}
+)",
+                                                      blocks, h));
+    const Followed<2> run = followed(scene);
+    EXPECT_EQ(run.end.results.outcome, Outcome::done) << run.end.results.message;
+    EXPECT_LE(run.energy.most, run.energy.start + 1e-12 * mass * g * 0.02) << h;
+    EXPECT_LT(run.energy.end, run.energy.start - 0.9 * mass * g * 0.02) << h;
+    EXPECT_LT(run.end.state.ledger.energy.relative_error(), 1e-10) << h;
+  }
+}
+
+// ---- what every run keeps -------------------------------------------------------------------------------------------
+
+TEST(ImplicitStep, AResumedRunHasTheSameBits) {
+  const Prepared<2> scene = shaken(1e12, "error_m = 1e-5");
+  const Progress<2> whole = whole_run(scene), resumed = continued(scene, 90);
+  EXPECT_EQ(whole.results.state_hash, resumed.results.state_hash);
+  EXPECT_EQ(whole.state.counters.contact_evaluations, resumed.state.counters.contact_evaluations);
+}
+
+TEST(ImplicitStep, RefusesWhatItDoesNotFollow) {
+  const auto message = [](const std::vector<std::string>& overrides) {
+    return simulated(prepare<2>(parse_scene(shaken_text(1e12, "error_m = 1e-5"), "scene.toml", overrides)))
+        .results.message;
+  };
+  EXPECT_NE(message({"joint_properties.rock.sub_contacts=4"}).find("leave it out"), std::string::npos);
+  EXPECT_NE(message({"joint_properties.rock.cohesion=1e5"}).find("law beyond elastic springs"), std::string::npos);
+  EXPECT_NE(message({"stage.shake.damping.local=0.5"}).find("damping.local = 0"), std::string::npos);
 }
 
 }  // namespace

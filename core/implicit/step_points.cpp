@@ -276,28 +276,6 @@ StepPoints<Dim> find_step_points(const Model<Dim>& model, const Settings& settin
   return all;
 }
 
-template <int Dim>
-void find_point_forces(const Model<Dim>& model, const Settings& settings, const Schedule& schedule,
-                       const BodiesState<Dim>& bodies, ContactsState<Dim>& contacts, EnergyBalance& energy) {
-  const std::vector<MeanMotion<Dim>> still(model.bodies.size());
-  Counters unused;
-  const StepPoints<Dim> all =
-      find_step_points<Dim>(model, settings, schedule, bodies, contacts, histories_of(contacts), {still, 0, 0}, unused);
-  contacts.loads.assign(contacts.list.size(), {});
-  energy.elastic = 0;
-  for (const StepPoint<Dim>& p : all.points) {
-    const double pressed = std::max(p.law.overlap, 0.0);
-    energy.elastic += 0.5 * p.law.normal * pressed * pressed;
-    if (p.law.shear > 0) energy.elastic += 0.5 * p.from.squaredNorm() / p.law.shear;
-    const Vector<Dim> force = p.law.normal * pressed * p.normal + p.from;
-    ContactLoad<Dim>& load = contacts.loads[p.contact];
-    load.second = p.body_b;
-    load.force += force;
-    load.about_first += moment(p.point, force);
-    load.about_second += moment(Vector<Dim>(p.point - between(bodies.poses[p.body_a], bodies.poses[p.body_b])), force);
-  }
-}
-
 std::string not_followed_implicitly(const JointProperties& properties, const ContactSettings& contact) {
   if (!is_integrated(contact, properties) && properties.sub_contacts > 1)
     return "they have sub_contacts; implicit steps take faces at points of their own: leave it out";
@@ -305,12 +283,10 @@ std::string not_followed_implicitly(const JointProperties& properties, const Con
   return {};
 }
 
-#define VOUSSOIR_INSTANTIATE(Dim)                                                                                    \
-  template StepPoints<Dim> find_step_points<Dim>(const Model<Dim>&, const Settings&, const Schedule&,                \
-                                                 const BodiesState<Dim>&, const ContactsState<Dim>&,                 \
-                                                 const JointHistories<Dim>&, const StepMotion<Dim>&, Counters&);     \
-  template void find_point_forces<Dim>(const Model<Dim>&, const Settings&, const Schedule&, const BodiesState<Dim>&, \
-                                       ContactsState<Dim>&, EnergyBalance&);
+#define VOUSSOIR_INSTANTIATE(Dim)                                                                     \
+  template StepPoints<Dim> find_step_points<Dim>(const Model<Dim>&, const Settings&, const Schedule&, \
+                                                 const BodiesState<Dim>&, const ContactsState<Dim>&,  \
+                                                 const JointHistories<Dim>&, const StepMotion<Dim>&, Counters&);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)
 #undef VOUSSOIR_INSTANTIATE

@@ -75,12 +75,6 @@ StepPoints<Dim> find_step_points(const Model<Dim>& model, const Settings& settin
                                  const BodiesState<Dim>& bodies, const ContactsState<Dim>& contacts,
                                  const JointHistories<Dim>& before, const StepMotion<Dim>& motion, Counters& counters);
 
-// The joints' forces at the present poses, where the contacts have been found, as implicit steps take them: loads of
-// the contacts, and the energy of the springs.
-template <int Dim>
-void find_point_forces(const Model<Dim>& model, const Settings& settings, const Schedule& schedule,
-                       const BodiesState<Dim>& bodies, ContactsState<Dim>& contacts, EnergyBalance& energy);
-
 // Why implicit steps do not follow a joint of these properties, as a clause; empty: they do.
 std::string not_followed_implicitly(const JointProperties& properties, const ContactSettings& contact);
 

@@ -22,7 +22,7 @@ KeyTable time_keys() {
      .meaning = "true motion, in stages of kind run. explicit: leapfrog, whose step follows the stiffest joint; implicit: the "
          "energy-momentum midpoint rule with dissipation of what a step does not resolve, whose step follows the motion (error_m, or step_s)"},
     {.key = "error_m", .members = {in(&TimeSettings::error)}, .unit = "m", .range = {0, 1e3},
-     .plausible = {.low = 1e-9, .high = 1e-2, .or_zero = true}, .example = "1e-5",
+     .plausible = {.low = 1e-7, .high = 1e-3, .or_zero = true}, .example = "1e-5",
      .meaning = "integration = \"implicit\": a step moves no block by more than this otherwise than two halves of it would; 0: 1e-5 of the "
          "smallest free block's inscribed radius",
      .breaks = "too large: impacts and onsets of slip are not resolved", .mistake = "was it given in mm?"},
