@@ -18,14 +18,14 @@ int evaluate(double x, const double* y, double* slope, void* right) {
 }  // namespace
 
 std::vector<double> integrate_ode(const OdeRight& right, std::vector<double> y, double x_begin, double x_end,
-                                  double relative_tolerance) {
+                                  double relative_tolerance, double first_step) {
   if (x_begin == x_end) return y;
   gsl_set_error_handler_off();
   OdeRight copy = right;
   gsl_odeiv2_system system{evaluate, nullptr, y.size(), &copy};
-  const double first_step = (x_end - x_begin) / 1000;  // signed: it gives the direction
+  const double step = first_step * (x_end - x_begin);  // signed: it gives the direction
   const std::unique_ptr<gsl_odeiv2_driver, decltype(&gsl_odeiv2_driver_free)> driver(
-      gsl_odeiv2_driver_alloc_y_new(&system, gsl_odeiv2_step_rk8pd, first_step, relative_tolerance * 1e-3,
+      gsl_odeiv2_driver_alloc_y_new(&system, gsl_odeiv2_step_rk8pd, step, relative_tolerance * 1e-3,
                                     relative_tolerance),
       gsl_odeiv2_driver_free);
   if (!driver) throw std::runtime_error("ode: no memory, or a tolerance that is not positive");
