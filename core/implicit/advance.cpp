@@ -27,8 +27,6 @@ constexpr double with_margin = 1.5;
 
 template <int Dim>
 class Advance {
-  static constexpr int F = freedoms<Dim>, S = spin_freedoms<Dim>;
-
  public:
   Advance(const Model<Dim>& m, const Settings& s, State<Dim>& now, double step, double geometry_within)
       : model(m), settings(s), state(now), h(step), within(geometry_within), unknowns(m), mean(m.bodies.size()) {}
@@ -201,12 +199,26 @@ class Advance {
       keep_history(whole);
   }
 
+  // the rest of a pair's turns from half of the motion, where the points stand: of both bodies, and the mean
+  struct SecondHalf {
+    Matrix<Dim> of_a, of_b, both;
+  };
+  SecondHalf second_half(const StepPoint<Dim>& p) const {
+    const auto half_turn = [&](const Spin<Dim>& spin) {
+      return Matrix<Dim>(matrix(turned(Rotation<Dim>{}, Spin<Dim>(0.5 * turn_of_step<Dim>(spin, h)))));
+    };
+    const Spin<Dim>&a = mean[p.body_a].spin, &b = mean[p.body_b].spin;
+    return {half_turn(a), half_turn(b), half_turn(Spin<Dim>(0.5 * (a + b)))};
+  }
+
   // of one contact: its points' springs become one again, whose stress is uniform but for a turn about the centre
   void keep_history(const StepContact<Dim>& whole) {
     EnergyFlows& flows = state.ledger.energy.flows;
     JointState<Dim> kept;
     double slipped = 0, elastic = 0, shear_stiffness = 0;
     ends.clear();
+    if (whole.count == 0) return;
+    const SecondHalf to_end = second_half(found.points[whole.first]);
     for (std::size_t k = whole.first; k < whole.first + whole.count; ++k) {
       const StepPoint<Dim>& p = found.points[k];
       const Vector<Dim> motion = p.motion(mean);
@@ -222,7 +234,8 @@ class Advance {
       slipped = std::max(slipped, end.plastic_slip);
       if (p.law.shear > 0) elastic += 0.5 * end.shear.squaredNorm() / p.law.shear;
       shear_stiffness = p.law.shear / p.area;
-      closed.push_back({&p, p.law.chi_normal * p.law.normal, end.stuck ? p.law.chi_shear * p.law.shear : 0});
+      closed.push_back({p.body_a, p.body_b, to_end.both * p.normal, to_end.of_a * p.point, to_end.of_b * p.from_b,
+                        p.law.chi_normal * p.law.normal, end.stuck ? p.law.chi_shear * p.law.shear : 0});
     }
     flows[Source::lost_area] += whole.lost + elastic;
     if (kept.normal.isZero(0)) return;
@@ -230,7 +243,9 @@ class Advance {
       const StepPoint<Dim>& p = found.points[whole.first + k];
       kept.twist += moment_about<Dim>(kept.normal, Vector<Dim>(p.point - whole.end.centre), ends[k]);
     }
-    kept.point = whole.end.centre;
+    kept.normal = to_end.both * kept.normal;
+    kept.shear_force = to_end.both * kept.shear_force;
+    kept.point = to_end.of_a * whole.end.centre;
     kept.area = whole.end.area;
     kept.polar = whole.end.polar;
     kept.plastic_slip = histories.contacts[whole.contact].history.plastic_slip + slipped;

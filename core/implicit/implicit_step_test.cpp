@@ -383,6 +383,45 @@ time = {{ integration = "implicit", step_s = {1} }}
   }
 }
 
+// ---- a turntable ----------------------------------------------------------------------------------------------------
+
+// A block held by friction on a plate that turns once in four seconds: its joint's shear turns with it, so that the
+// block stays as far out as the joint's elasticity lets it, turn after turn.
+TEST(ImplicitStep, ShearTurnsWithTheBodies) {
+  const double rate = std::numbers::pi / 2, out = 2, stiffness = 2e6, mass = 520;
+  const Prepared<3> scene = scene_of<3>(fmt::format(R"(
+dimension = 3
+gravity = [0, 0, -9.81]
+density = 2600
+blocks = [{{ name = "plate", box = {{ min = [-5, -5, -1], max = [5, 5, 0] }}, fixed = true }},
+          {{ name = "block", box = {{ min = [1.5, -0.5, 0], max = [2.5, 0.5, 0.2] }} }}]
+joint_properties = [{{ name = "rock", normal_stiffness = 1e10, shear_stiffness = {0}, friction_deg = 60 }}]
+[[stage]]
+name = "settle"
+kind = "settle"
+gravity_ramp_s = 0.2
+[[stage]]
+name = "turn"
+kind = "run"
+duration_s = 17
+damping = {{ local = 0, joint_ratio = 0.1, joint_frequency_hz = 5 }}
+time = {{ integration = "implicit", step_s = 0.025 }}
+[[stage.move]]
+bodies = ["plate"]
+velocity = [0, 0, 0]
+angular_velocity = [0, 0, {1:.17g}]
+times_s = [0, 2, 17]
+factors = [0, 1, 1]
+)",
+                                                    stiffness, rate));
+  const Progress<3> end = whole_run(scene);
+  const Vector<3> moved = end.state.bodies.motions[1].displacement;
+  const double radius = std::hypot(out + moved[0], moved[1]);
+  // k (r - 2 m) = m ω² r on 1 m²
+  const double expected = out / (1 - mass * rate * rate / stiffness);
+  EXPECT_NEAR(radius - out, expected - out, 0.02 * (expected - out));
+}
+
 // ---- what every run keeps -------------------------------------------------------------------------------------------
 
 TEST(ImplicitStep, AResumedRunHasTheSameBits) {

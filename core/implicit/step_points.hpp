@@ -18,6 +18,7 @@ struct StepPoint {
   int contact = 0;  // place in ContactsState::list
   int body_a = 0, body_b = 0;
   Vector<Dim> normal, point;  // at half of the motion; the point from the first centroid, m
+  Vector<Dim> from_b;         // m: the same from the second
   Vector<Dim> arm_a, arm_b;   // m: the means of those before and after the step
   double area = 0;            // m²; of a constant stiffness the share of the contact's 1
   PointStep law;

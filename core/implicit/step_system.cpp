@@ -30,9 +30,9 @@ PointMotion<Dim> velocity_by_motion(const Vector<Dim>& arm) {
 
 // blocks for the unknown bodies of all pairs
 template <int Dim>
-BlockMatrix<freedoms<Dim>> laid_out(const StepUnknowns<Dim>& unknowns, const std::vector<StepPoint<Dim>>& points) {
+BlockMatrix<freedoms<Dim>> laid_out(const StepUnknowns<Dim>& unknowns, const auto& points) {
   std::vector<std::vector<int>> columns(unknowns.bodies.size());
-  for (const StepPoint<Dim>& p : points) {
+  for (const auto& p : points) {
     const int a = unknowns.place[p.body_a], b = unknowns.place[p.body_b];
     if (a < 0 || b < 0) continue;
     columns[a].push_back(b);
@@ -60,8 +60,8 @@ void restrain(const StepUnknowns<Dim>& unknowns, BlockMatrix<freedoms<Dim>>& mat
 
 // adds scale Bᵀ C B of a pair
 template <int Dim>
-void add_pair(const StepUnknowns<Dim>& unknowns, const StepPoint<Dim>& p, const Vector<Dim>& arm_a,
-              const Vector<Dim>& arm_b, const Matrix<Dim>& c, double scale, BlockMatrix<freedoms<Dim>>& matrix) {
+void add_pair(const StepUnknowns<Dim>& unknowns, const auto& p, const Vector<Dim>& arm_a, const Vector<Dim>& arm_b,
+              const Matrix<Dim>& c, double scale, BlockMatrix<freedoms<Dim>>& matrix) {
   const int a = unknowns.place[p.body_a], b = unknowns.place[p.body_b];
   const PointMotion<Dim> of_a = velocity_by_motion<Dim>(arm_a), of_b = velocity_by_motion<Dim>(arm_b);
   if (a >= 0) matrix.at(a, a) += scale * (of_a.transpose() * c * of_a);
@@ -85,7 +85,7 @@ class StepEquations {
         loads(l),
         points(p),
         mean(y),
-        matrix(laid_out(u, p)),
+        matrix(laid_out<Dim>(u, p)),
         plan(neighbours_in(matrix)) {}
 
   StepSolution solve() {
@@ -214,8 +214,7 @@ Vector<Dim> velocity_of_point(const Model<Dim>& model, const std::vector<Motion<
 // kg: h²/4 χ K of a closed point
 template <int Dim>
 Matrix<Dim> mass_of(const ClosedPoint<Dim>& c, double h) {
-  const Vector<Dim>& n = c.point->normal;
-  const Matrix<Dim> along = n * n.transpose();
+  const Matrix<Dim> along = c.direction * c.direction.transpose();
   return 0.25 * h * h * (c.normal * along + c.shear * (Matrix<Dim>::Identity() - along));
 }
 
@@ -223,9 +222,8 @@ Matrix<Dim> mass_of(const ClosedPoint<Dim>& c, double h) {
 template <int Dim>
 Vector<Dim> impulse_of(const Model<Dim>& model, const std::vector<Motion<Dim>>& motions, const ClosedPoint<Dim>& c,
                        double h) {
-  const StepPoint<Dim>& p = *c.point;
   return mass_of(c, h) *
-         (velocity_of_point(model, motions, p.body_a, p.arm_a) - velocity_of_point(model, motions, p.body_b, p.arm_b));
+         (velocity_of_point(model, motions, c.body_a, c.arm_a) - velocity_of_point(model, motions, c.body_b, c.arm_b));
 }
 
 // J: of what holds the restrained directions of a body, which moves along them only if that is prescribed
@@ -247,10 +245,7 @@ template <int Dim>
 Calmed calm_unresolved(const Model<Dim>& model, const StepUnknowns<Dim>& unknowns, double h,
                        const std::vector<ClosedPoint<Dim>>& closed, std::vector<Motion<Dim>>& after) {
   constexpr int F = freedoms<Dim>, S = spin_freedoms<Dim>;
-  std::vector<StepPoint<Dim>> points;
-  for (const ClosedPoint<Dim>& c : closed)
-    points.push_back(*c.point);
-  BlockMatrix<F> matrix = laid_out(unknowns, points);
+  BlockMatrix<F> matrix = laid_out<Dim>(unknowns, closed);
   for (auto& block : matrix.blocks)
     block.setZero();
   // M (v' - v) + h²/4 Σ χ Bᵀ K B v' = 0
@@ -262,12 +257,11 @@ Calmed calm_unresolved(const Model<Dim>& model, const StepUnknowns<Dim>& unknown
     block.template bottomRightCorner<S, S>() += world_inertia<Dim>(model.bodies[b], after[b].rotation);
   }
   for (const ClosedPoint<Dim>& c : closed) {
-    const StepPoint<Dim>& p = *c.point;
     const Vector<Dim> impulse = impulse_of(model, after, c, h);
-    const int a = unknowns.place[p.body_a], b = unknowns.place[p.body_b];
-    if (a >= 0) rhs.segment<F>(F * a) -= velocity_by_motion<Dim>(p.arm_a).transpose() * impulse;
-    if (b >= 0) rhs.segment<F>(F * b) += velocity_by_motion<Dim>(p.arm_b).transpose() * impulse;
-    add_pair<Dim>(unknowns, p, p.arm_a, p.arm_b, mass_of(c, h), 1, matrix);
+    const int a = unknowns.place[c.body_a], b = unknowns.place[c.body_b];
+    if (a >= 0) rhs.segment<F>(F * a) -= velocity_by_motion<Dim>(c.arm_a).transpose() * impulse;
+    if (b >= 0) rhs.segment<F>(F * b) += velocity_by_motion<Dim>(c.arm_b).transpose() * impulse;
+    add_pair<Dim>(unknowns, c, c.arm_a, c.arm_b, mass_of(c, h), 1, matrix);
   }
   restrain(unknowns, matrix, rhs);
   const EliminationPlan plan(neighbours_in(matrix));
@@ -287,12 +281,11 @@ Calmed calm_unresolved(const Model<Dim>& model, const StepUnknowns<Dim>& unknown
     m.angular_momentum = angular_momentum(model.bodies[b], m.rotation, spin);
   }
   for (const ClosedPoint<Dim>& c : closed) {
-    const StepPoint<Dim>& p = *c.point;
     const Vector<Dim> impulse = impulse_of(model, after, c, h);
-    calmed.taken += impulse.dot(velocity_of_point(model, after, p.body_a, p.arm_a) -
-                                velocity_of_point(model, after, p.body_b, p.arm_b));
-    calmed.driven += work_of_restraint<Dim>(model.bodies[p.body_b], after[p.body_b], p.arm_b, impulse) +
-                     work_of_restraint<Dim>(model.bodies[p.body_a], after[p.body_a], p.arm_a, -impulse);
+    calmed.taken += impulse.dot(velocity_of_point(model, after, c.body_a, c.arm_a) -
+                                velocity_of_point(model, after, c.body_b, c.arm_b));
+    calmed.driven += work_of_restraint<Dim>(model.bodies[c.body_b], after[c.body_b], c.arm_b, impulse) +
+                     work_of_restraint<Dim>(model.bodies[c.body_a], after[c.body_a], c.arm_a, -impulse);
   }
   return calmed;
 }

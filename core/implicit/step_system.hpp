@@ -38,8 +38,9 @@ StepSolution solve_step(const Model<Dim>& model, const StepUnknowns<Dim>& unknow
 // where they stuck). `after`: by body, at the end of the step; bodies that are not unknown keep their velocities.
 template <int Dim>
 struct ClosedPoint {
-  const StepPoint<Dim>* point;
-  double normal = 0, shear = 0;  // N/m: χ k, 0 where it is open or slipped
+  int body_a = 0, body_b = 0;
+  Vector<Dim> direction, arm_a, arm_b;  // its normal and arms at the end of the step
+  double normal = 0, shear = 0;         // N/m: χ k, 0 where it is open or slipped
 };
 struct Calmed {
   double taken = 0;   // J: out of the motion, never negative
