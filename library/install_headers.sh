@@ -5,7 +5,7 @@ set -euo pipefail
 source=$1 destination=$2
 # not public: tests and their oracles; arithmetic whose rounding depends on our own flags; what needs integers of Boost or a
 # library for JSON
-internal='/testing/|_test\.hpp$|/glpk[^/]*\.hpp$|/ipopt\.hpp$|_inl\.hpp$|^core/step/|^core/run/(fields|twin)\.hpp$'
+internal='/testing/|_test\.hpp$|/glpk[^/]*\.hpp$|/ipopt\.hpp$|_inl\.hpp$|^core/(step|implicit)/|^core/run/(fields|twin)\.hpp$'
 internal+='|^core/contact/separation\.hpp$|^core/solvers/(symmetric_system|cone_scaling|double_double)\.hpp$'
 internal+='|^core/limit/(follow_envelope|exact_.*|proof)\.hpp$|^core/output/json_parts\.hpp$|^core/scene/scene_schema\.hpp$'
 

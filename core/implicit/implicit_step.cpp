@@ -11,6 +11,7 @@
 #include "core/implicit/load_bounds.hpp"
 #include "core/implicit/step_points.hpp"
 #include "core/step/contacts.hpp"
+#include "core/step/joint_forces.hpp"
 #include "core/step/motion.hpp"
 #include "core/step/static_solver_base.hpp"
 

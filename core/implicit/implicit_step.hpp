@@ -7,9 +7,10 @@
 #include "core/base/settings.hpp"
 #include "core/model/model.hpp"
 #include "core/model/state.hpp"
-#include "core/step/joint_forces.hpp"
 
 namespace voussoir {
+
+struct JointStep;
 
 // Moves the bodies on by a step whose own error is within the settings' tolerance, or of the stated length. The forces
 // of the state are those at its positions, found without slip (JointStep::length 0).
