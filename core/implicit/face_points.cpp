@@ -18,19 +18,6 @@ constexpr double surely_larger = 1 + 1e-9;
 // Simpson's rule on so many pieces of a length
 constexpr int pieces = 2;
 
-double area_of(const Polytope<2>& part, int face) {
-  const std::vector<int>& loop = part.loops[face];
-  return (part.vertices[loop[1]] - part.vertices[loop[0]]).norm();
-}
-double area_of(const Polytope<3>& part, int face) {
-  const std::vector<int>& loop = part.loops[face];
-  Vector<3> twice = Vector<3>::Zero();
-  for (std::size_t k = 1; k + 1 < loop.size(); ++k)
-    twice += (part.vertices[loop[k]] - part.vertices[loop[0]])
-                 .cross(Vector<3>(part.vertices[loop[k + 1]] - part.vertices[loop[0]]));
-  return 0.5 * twice.norm();
-}
-
 // of n·(turn × y) by y
 Vector<2> gradient_along(const Vector<2>& normal, const Spin<2>& turn) {
   return turn[0] * Vector<2>(normal[1], -normal[0]);
@@ -185,7 +172,7 @@ bool find_face_points(const Pair<Dim>& pair, const Vector<Dim>& inside, int face
   const int of_b = static_cast<int>(pair.a->faces.size()) + face_b;
   const HalfSpace<Dim> a = planes[face_a], b = planes[of_b];
   if (!(-a.normal.dot(b.normal) > nearly_parallel)) return false;
-  const bool first_is_larger = area_of(*pair.a, face_a) > surely_larger * area_of(*pair.b, face_b);
+  const bool first_is_larger = face_area(*pair.a, face_a) > surely_larger * face_area(*pair.b, face_b);
   const HalfSpace<Dim>&small = first_is_larger ? b : a, &large = first_is_larger ? a : b;
   planes.erase(planes.begin() + of_b);
   planes.erase(planes.begin() + face_a);

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include "core/implicit/advance.hpp"
 #include "core/implicit/load_bounds.hpp"
@@ -77,12 +76,6 @@ void balance_now(const Model<Dim>& model, State<Dim>& state) {
   balance(state.ledger.energy);
 }
 
-// equal steps end exactly at the end of the run
-double fitted(double step, double left) {
-  constexpr double rounding = 1e-6;
-  return std::isfinite(left) ? left / std::max(1.0, std::ceil(left / step - rounding)) : step;
-}
-
 // what an implicit step left of the counters that a refused one cost
 void add_cost(const Counters& before, const Counters& after, Counters& total) {
   for (long long Counters::*const count : {&Counters::contact_evaluations, &Counters::implicit_solutions,
@@ -127,12 +120,11 @@ bool try_step(const Model<Dim>& model, const Settings& settings, double h, doubl
   const bool taken = solved && error <= tolerance;
   if (taken) {
     state = std::move(halves);
-    add_cost(before, whole.counters, state.counters);
   } else {
-    add_cost(before, whole.counters, state.counters);
     add_cost(before, halves.counters, state.counters);
     ++(solved ? state.counters.implicit_refused : state.counters.implicit_halved);
   }
+  add_cost(before, whole.counters, state.counters);
   state.time_step.allowed = factor * h;
   return taken;
 }
@@ -157,7 +149,7 @@ void find_point_forces(const Model<Dim>& model, const Settings& settings, const 
     load.second = p.body_b;
     load.force += force;
     load.about_first += moment(p.point, force);
-    load.about_second += moment(Vector<Dim>(p.point - between(bodies.poses[p.body_a], bodies.poses[p.body_b])), force);
+    load.about_second += moment(p.from_b, force);
   }
 }
 
@@ -172,7 +164,7 @@ void move_implicitly(const Model<Dim>& model, const Settings& settings, State<Di
   const double left = ends_at - state.schedule.time;
   const double tolerance = settings.time.error > 0 ? settings.time.error : default_step_error(model);
   if (settings.time.step) {
-    const double h = fitted(*settings.time.step, left);
+    const double h = equal_step(*settings.time.step, left);
     const double ends = h == left ? ends_at : state.schedule.time + h;
     go(model, settings, h, settled_geometry * tolerance, state);
     state.schedule.time = ends;
@@ -182,7 +174,7 @@ void move_implicitly(const Model<Dim>& model, const Settings& settings, State<Di
   if (!(state.time_step.allowed > 0)) state.time_step.allowed = std::isfinite(left) ? first_part * left : longest;
   for (int k = 0; k < most_refusals; ++k) {
     const bool by_load = state.time_step.allowed >= longest;
-    const double h = fitted(std::min(state.time_step.allowed, longest), left);
+    const double h = equal_step(std::min(state.time_step.allowed, longest), left);
     const double ends = h == left ? ends_at : state.schedule.time + h;
     if (!try_step(model, settings, h, tolerance, state)) continue;
     ++(by_load ? state.counters.implicit_by_load : state.counters.implicit_by_error);

@@ -124,37 +124,47 @@ TEST(ImplicitStep, AnImpactIsTheJointsWhereItIsResolvedAndPlasticElsewhere) {
     EXPECT_LT(restitution(limits, 0), 0.3) << limits;
 }
 
+// ---- a block on ground that moves -----------------------------------------------------------------------------------
+
+// 1 m, 2000 kg, at rest on ground that carries it, without rotation. `more`: further keys.
+std::string settled_block(const Vector<2>& gravity, double stiffness, double friction_deg,
+                          const std::string& more = {}) {
+  return fmt::format(R"(
+dimension = 2
+gravity = [{0:.17g}, {1:.17g}]
+density = 2000
+blocks = [{{ name = "base", box = {{ min = [-5, -1], max = [5, 0] }}, fixed = true }},
+          {{ name = "block", box = {{ min = [0, 0], max = [1, 1] }} }}]
+joint_properties = [{{ name = "rock", normal_stiffness = {2:g}, shear_stiffness = {2:g}, friction_deg = {3:.17g} }}]
+restrain = [{{ bodies = ["block"], rotation = true }}]
+{4}
+[[stage]]
+name = "settle"
+kind = "settle"
+gravity_ramp_s = 0.2
+)",
+                     gravity[0], gravity[1], stiffness, friction_deg, more);
+}
+
 // ---- a block on a shaken incline
 // -------------------------------------------------------------------------------------
 
 // 10 degrees, friction 30 degrees, 2 Hz and 0.4 m/s, first down the slope: in three cycles of 0.5 s a slip of 7.905576
 // mm each
-std::string shaken_text(double stiffness, const std::string& time, double duration = 1.5) {
-  return fmt::format(R"(
-dimension = 2
-gravity = [-1.7034885, -9.6609640]
-density = 2000
-blocks = [{{ name = "base", box = {{ min = [-5, -1], max = [5, 0] }}, fixed = true }},
-          {{ name = "block", box = {{ min = [0, 0], max = [1, 1] }} }}]
-joint_properties = [{{ name = "rock", normal_stiffness = {0:g}, shear_stiffness = {0:g}, friction_deg = 30 }}]
-restrain = [{{ bodies = ["block"], rotation = true }}]
-contact = {{ face = "point" }}
-[[stage]]
-name = "settle"
-kind = "settle"
-gravity_ramp_s = 0.2
+std::string shaken_text(double stiffness, const std::string& time) {
+  return settled_block({-1.7034885, -9.6609640}, stiffness, 30, "contact = { face = \"point\" }") + fmt::format(R"(
 [[stage]]
 name = "shake"
 kind = "run"
-duration_s = {1}
+duration_s = 1.5
 damping = {{ local = 0 }}
-time = {{ integration = "implicit", {2} }}
+time = {{ integration = "implicit", {} }}
 [[stage.move]]
 bodies = ["base"]
 velocity = [-0.4, 0]
 frequency_hz = 2
 )",
-                     stiffness, duration, time);
+                                                                                                                time);
 }
 
 Prepared<2> shaken(double stiffness, const std::string& time) {
@@ -203,18 +213,8 @@ TEST(ImplicitStep, ARectangularPulseIsExact) {
   const double slip = speed * speed / (2 * g) * (1 / 0.1 - 1 / 0.5);
   for (const double h : {ramp / 10, ramp / 40}) {
     const double duration = 14 * ramp;
-    const Prepared<2> scene = scene_of<2>(fmt::format(R"(
-dimension = 2
-gravity = [0, -9.81]
-density = 2000
-blocks = [{{ name = "base", box = {{ min = [-5, -1], max = [5, 0] }}, fixed = true }},
-          {{ name = "block", box = {{ min = [0, 0], max = [1, 1] }} }}]
-joint_properties = [{{ name = "rock", normal_stiffness = 1e12, shear_stiffness = 1e12, friction_deg = 5.710593137499643 }}]
-restrain = [{{ bodies = ["block"], rotation = true }}]
-[[stage]]
-name = "settle"
-kind = "settle"
-gravity_ramp_s = 0.2
+    const Prepared<2> scene =
+        scene_of<2>(settled_block({0, -g}, 1e12, 5.710593137499643) + fmt::format(R"(
 [[stage]]
 name = "shake"
 kind = "run"
@@ -226,7 +226,7 @@ velocity = [{2}, 0]
 times_s = [0, {3:.17g}]
 factors = [0, 1]
 )",
-                                                      duration, h, speed, ramp));
+                                                                                  duration, h, speed, ramp));
     const Progress<2> end = whole_run(scene);
     expect_sound(end);
     EXPECT_NEAR(slip_of(end), slip, 4e-6 * slip) << h;
@@ -239,32 +239,22 @@ TEST(ImplicitStep, SlipUnderAGrowingNormalForceIsCoulombs) {
   const double angle = std::numbers::pi / 6, mu = std::tan(25 * std::numbers::pi / 180), time = 2;
   const double expected = (std::sin(angle) - mu * std::cos(angle)) * g * time * time / 2;
   for (const double h : {2e-3, 10e-3, 20e-3}) {
-    const Prepared<2> scene = scene_of<2>(fmt::format(R"(
-dimension = 2
-gravity = [{0:.17g}, {1:.17g}]
-density = 2000
-blocks = [{{ name = "base", box = {{ min = [-5, -1], max = [5, 0] }}, fixed = true }},
-          {{ name = "block", box = {{ min = [0, 0], max = [1, 1] }} }}]
-joint_properties = [{{ name = "rock", normal_stiffness = 1e12, shear_stiffness = 1e12, friction_deg = 40 }}]
-restrain = [{{ bodies = ["block"], rotation = true }}]
-[[stage]]
-name = "settle"
-kind = "settle"
-gravity_ramp_s = 0.2
+    const Vector<2> up(std::sin(angle), std::cos(angle));
+    const double speed = 0.5 * g / (2 * std::numbers::pi);
+    const Prepared<2> scene =
+        scene_of<2>(settled_block(-g * up, 1e12, 40) + fmt::format(R"(
 [[stage]]
 name = "slide"
 friction_deg = 25
 kind = "run"
-duration_s = {2}
-time = {{ integration = "implicit", step_s = {3} }}
+duration_s = {0}
+time = {{ integration = "implicit", step_s = {1} }}
 [[stage.move]]
 bodies = ["base"]
-velocity = [{4:.17g}, {5:.17g}]
+velocity = [{2:.17g}, {3:.17g}]
 frequency_hz = 1
 )",
-                                                      -g * std::sin(angle), -g * std::cos(angle), time, h,
-                                                      0.5 * g / (2 * std::numbers::pi) * std::sin(angle),
-                                                      0.5 * g / (2 * std::numbers::pi) * std::cos(angle)));
+                                                                   time, h, speed * up[0], speed * up[1]));
     const Progress<2> end = whole_run(scene);
     expect_sound(end);
     EXPECT_NEAR(slip_of(end), expected, 2e-6 * expected) << h;

@@ -8,6 +8,7 @@
 
 #include "core/contact/integrable.hpp"
 #include "core/contact/integrated_contact.hpp"
+#include "core/contact/separation.hpp"
 #include "core/implicit/face_points.hpp"
 #include "core/joint_laws/elastic_coulomb.hpp"
 #include "core/step/face_forces.hpp"
@@ -19,17 +20,6 @@ namespace {
 // m over the bodies' size: by how much a pair that may meet is drawn into each other, to see where
 constexpr double probe_of_size = 1e-5;
 
-template <int Dim>
-double gap_along(const Pair<Dim>& pair, const Vector<Dim>& direction) {
-  double high = -std::numeric_limits<double>::infinity(), low = std::numeric_limits<double>::infinity();
-  const Vector<Dim> of_b = pair.rotation.transpose() * direction;
-  for (const Vector<Dim>& v : pair.a->vertices)
-    high = std::max(high, direction.dot(v));
-  for (const Vector<Dim>& v : pair.b->vertices)
-    low = std::min(low, of_b.dot(v));
-  return low + direction.dot(pair.offset) - high;
-}
-
 // a direction of the first part's frame along which the pair is separated, and by how much
 template <int Dim>
 struct Separation {
@@ -40,7 +30,8 @@ template <int Dim>
 Separation<Dim> separation_of(const Pair<Dim>& pair, const Contact<Dim>& c) {
   Separation<Dim> best;
   const auto look = [&](const Vector<Dim>& direction) {
-    if (const double gap = gap_along(pair, direction); gap > best.gap) best = {direction, gap};
+    if (const double gap = gap_behind(pair, direction, support(*pair.a, direction)); gap > best.gap)
+      best = {direction, gap};
   };
   if (c.proof.kind == ProofKind::separating_axis) look(c.proof.axis);
   for (const HalfSpace<Dim>& face : pair.a->faces)

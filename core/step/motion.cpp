@@ -14,14 +14,6 @@
 namespace voussoir {
 namespace {
 
-// The next step of a motion: as long as allowed, or shorter so that equal steps end exactly at the end of the run.
-double next_step(const Schedule& schedule, const TimeStep& time_step) {
-  if (!std::isfinite(schedule.ends)) return time_step.allowed;
-  constexpr double rounding = 1e-6;  // of a step: a million steps do not add up to one more
-  const double left = schedule.ends - schedule.time;
-  return left / std::max(1.0, std::ceil(left / time_step.allowed - rounding));
-}
-
 template <int Dim>
 void add_gravity_ramp(const Model<Dim>& model, const BodiesState<Dim>& bodies, Schedule& schedule,
                       EnergyBalance& energy) {
@@ -71,6 +63,12 @@ void add_water_change(const Model<Dim>& model, int threads, const BodiesState<Di
 
 }  // namespace
 
+double equal_step(double longest, double left) {
+  if (!std::isfinite(left)) return longest;
+  constexpr double rounding = 1e-6;  // of a step: a million steps do not add up to one more
+  return left / std::max(1.0, std::ceil(left / longest - rounding));
+}
+
 template <int Dim>
 void add_ramps(const Model<Dim>& model, const Settings& settings, const BodiesState<Dim>& bodies,
                const LoadsState<Dim>& loads, Schedule& schedule, EnergyBalance& energy, Relaxation<Dim>& relaxation) {
@@ -95,7 +93,7 @@ void move_bodies(const Model<Dim>& model, const Settings& settings, const Counte
     time_step.allowed = time_step.allowed > 0 ? std::min(time_step.allowed, renewed->step) : renewed->step;
     demand_time_step(time_step);
   }
-  time_step.length = next_step(schedule, time_step);
+  time_step.length = equal_step(time_step.allowed, schedule.ends - schedule.time);
 
   add_ramps(model, settings, bodies, loads, schedule, ledger.energy, relaxation);
   const StepTimes times{0.5 * (last + time_step.length), time_step.length};

@@ -7,6 +7,10 @@
 
 namespace voussoir {
 
+// s: the next step of a motion, as long as allowed, or shorter so that equal steps end exactly when `left` has passed;
+// infinity: the motion has no end
+double equal_step(double longest, double left);
+
 // Increasing gravity changes the potential energy of displaced bodies, and rising water that of submerged ones: counted
 // in their present position. Relaxation receives the change of loads that the water has imposed.
 template <int Dim>
