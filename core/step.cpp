@@ -5,13 +5,13 @@
 #include "core/step/loads.hpp"
 #include "core/step/motion.hpp"
 #include "core/step/neighbours.hpp"
+#include "core/step/open_sides.hpp"
 #include "core/step/static_solver.hpp"
 #include "core/step/support_table.hpp"
 
 namespace voussoir {
 
-// Parts of the state that a line only reads are written `now.part`; the parts that it changes are written without
-// `now`.
+// Parts of the state that a line only reads are written `now.part`.
 template <int Dim>
 void find_forces(const Model<Dim>& model, const Settings& settings, State<Dim>& state) {
   const State<Dim>& now = state;
@@ -20,15 +20,15 @@ void find_forces(const Model<Dim>& model, const Settings& settings, State<Dim>& 
   // pairs that may touch: bounding boxes with a skin, renewed only when a body has left it
   find_neighbours(model, settings, bodies, contacts, counters);
 
-  // pairs that do: point, normal, overlap and area of each candidate pair, each in its own slot; and the force of its
-  // joint from overlap and slip, with its new history, while all of it is in the cache
+  // pairs that do: point, normal, overlap and area of each, and the force of its joint, with its new history
   const JointStep last = joint_step(settings, now.time_step, now.relaxation);
   const auto find = by_implicit_steps(settings, now) ? find_point_forces<Dim> : find_joint_forces<Dim>;
   find(model, settings, now.schedule, last, bodies, contacts, ledger, counters);
 
-  // forces of bolts at the displaced anchors, and of linings at the displaced rock
+  // forces of bolts at the displaced anchors, of linings at the displaced rock, and through sides that waves leave
   for (const StepSupport<Dim>& row : step_supports<Dim>)
     row.find_forces(model, now.schedule, last, now.bodies, supports, ledger, counters);
+  find_open_sides(model, now.schedule, now.bodies, now.contacts, loads, ledger);
 
   // loads on each body: joint forces in the order of the contacts, then gravity
   sum_loads(model, settings, now.schedule, now.bodies, now.contacts, now.supports, loads);

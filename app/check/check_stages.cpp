@@ -91,12 +91,30 @@ std::string move_text(const MovePlan& move) {
   return text + factor_text(move.factor);
 }
 
+std::string open_side_text(const BoundaryPlan& plan) {
+  const std::string side = fmt::format("{}", fmt::join(plan.bodies.sides, ", "));
+  if (plan.free_field) return fmt::format("; free field beyond {}", side);
+  std::string text = fmt::format("; waves leave through {}", side);
+  const char* const share = plan.quiet->upgoing == 1 ? "" : ", half of which enters";
+  if (!plan.quiet->records.empty())
+    text += fmt::format(", {} record{} enter{}{}", plan.quiet->records.size(),
+                        plan.quiet->records.size() == 1 ? "" : "s", plan.quiet->records.size() == 1 ? "s" : "", share);
+  else if (!plan.quiet->velocity.empty())
+    text +=
+        fmt::format(", {} m/s enter{}", numbers_text(plan.quiet->velocity), share) + factor_text(plan.quiet->factor);
+  return text;
+}
+
 // changes of the model before the stage, and motions and loads prescribed during it
 std::string change_text(const Change& change) {
   std::string text;
   for (const MovePlan& move : change.move)
     text += "; moves blocks " + move_text(move);
   for (const BoundaryPlan& plan : change.boundary) {
+    if (plan.lets_waves_leave()) {
+      text += open_side_text(plan);
+      continue;
+    }
     text += fmt::format("; stress {} = {} on outer faces of blocks",
                         plan.stress.size() == 3 ? "(xx, yy, xy)" : "(xx, yy, zz, yz, zx, xy)",
                         numbers_text(plan.stress, "Pa"));

@@ -20,6 +20,9 @@ enum class Source {
   contacts,
   gravity,
   boundary_stress,
+  boundary_reactions,
+  plates,
+  free_field,
   applied_forces,
   water,
   water_pressure,
@@ -42,6 +45,8 @@ enum class Source {
   lining_slip,
   gravity_ramp,
   water_change,
+  incoming_waves,
+  outgoing_waves,
   stage_changes
 };
 inline constexpr std::size_t load_count = static_cast<std::size_t>(Source::friction);
@@ -63,6 +68,10 @@ inline constexpr std::array<SourceRow, source_count> source_table{{
     {Source::contacts, "contacts", "contact_load", 1, 1, 0, 0, 0},
     {Source::gravity, "gravity", "gravity_load", 1, 0, -1, 0, 0},
     {Source::boundary_stress, "boundary_stress", "boundary_load", 1, 0, 0, 0, 1},
+    {Source::boundary_reactions, "boundary_reactions", "boundary_load", 1, 0, 0, 0, 1},  // of supports that a quiet
+                                                                                         // side has replaced
+    {Source::plates, "plates", "boundary_load", 1, 1, 0, 0, 0},          // of quiet sides, behind half a joint
+    {Source::free_field, "free_field", "boundary_load", 1, 0, 0, 0, 1},  // stress that waves make in its column
     {Source::applied_forces, "applied_forces", "applied_load", 1, 0, 0, 0, 1},
     {Source::water, "water", "water_load", 1, 0, -1, 0, 0},  // one table on all faces: it has a potential
     {Source::water_pressure, "water_pressure", "water_load", 1, 0, 0, 0, 1},  // others: on some faces, or several
@@ -85,6 +94,8 @@ inline constexpr std::array<SourceRow, source_count> source_table{{
     {Source::lining_slip, "lining_slip", "", 0, 1, 0, 0, 0},    // lost when a lining slips on rock, or its bond breaks
     {Source::gravity_ramp, "gravity_ramp", "", 0, 0, 1, 0, 1},  // put in by gravity that grows
     {Source::water_change, "water_change", "", 0, 0, 1, 0, 1},  // put in by a table on all faces that rises
+    {Source::incoming_waves, "incoming_waves", "", 0, -1, 0, 0, 1},  // put in at quiet sides and free fields
+    {Source::outgoing_waves, "outgoing_waves", "", 0, 1, 0, 0, -1},  // left through their dashpots; never negative
     {Source::stage_changes, "stage_changes", "", 0, 0, 0, 0, 1},  // put in by changes of the model between stages, and
                                                                   // when a motion is stopped to relax
 }};

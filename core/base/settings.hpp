@@ -226,11 +226,31 @@ struct InSituPlan {
   std::optional<double> unit_weight;  // N/m³; once a scene is read it is stated
 };
 
-// A stress on the faces of bodies that no joint made, from the stage on; it replaces the stress on these bodies before.
+// The rock beyond a side that waves leave; empty: as the blocks of that side make it.
+struct MediumPlan {
+  std::optional<double> normal_impedance, shear_impedance;  // Pa s/m: density times the speed of waves
+  std::optional<double> normal_stiffness, shear_stiffness;  // Pa/m: of the joints along the side
+};
+
+// A side that waves leave, and one that may enter.
+struct QuietPlan {
+  MediumPlan medium{};
+  std::vector<double> velocity{};         // m/s, of the entering motion; empty: none enters, but records
+  double upgoing = 1;                     // the upgoing wave's share of it: half of the motion of an outcrop
+  TimeFactor factor{};                    // of the time since the stage began
+  std::vector<RecordedMotion> records{};  // the sum of these motions instead; then the velocity is zero
+};
+
+// On the faces of bodies that no joint made, from the stage on: a stress, which replaces the stress on these bodies
+// before; or one of the two kinds of sides that waves leave.
 struct BoundaryPlan {
   Selector bodies;
   std::vector<double> stress;           // Pa, compression positive: 2-D xx, yy, xy; 3-D xx, yy, zz, yz, zx, xy
   std::optional<InSituPlan> in_situ{};  // and this
+  std::optional<QuietPlan> quiet{};
+  std::optional<MediumPlan> free_field{};  // beyond it a column of rock moves as if the model were not there
+
+  bool lets_waves_leave() const { return quiet || free_field; }
 };
 
 // A force on bodies, from the stage on, until a later stage states one of the same name. Its factor runs while the

@@ -201,6 +201,9 @@ std::string not_followed_implicitly(const Model<Dim>& model, const Settings& set
            "damping.local = 0; viscous_ratio acts";
   if (!model.bolts.empty() || !model.linings.empty())
     return "implicit steps do not follow bolts and linings yet: use time.integration = \"explicit\" in this stage";
+  if (!model.open_faces.empty() || !model.column_bodies.empty())
+    return "implicit steps do not follow quiet sides and free fields yet: use time.integration = \"explicit\" in this "
+           "stage";
   if (model.particles) return "implicit steps do not follow potential particles";
   return {};
 }

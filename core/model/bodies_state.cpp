@@ -59,7 +59,7 @@ void cache_poses(const Model<Dim>& model, int threads, BodiesState<Dim>& bodies)
                        matrix(motion.rotation),
                        motion.velocity,
                        angular_velocity(body, motion),
-                       body.fixed ? 0 : 1 / body.mass};
+                       body.fixed && !body.image ? 0 : 1 / body.mass};
   });
 }
 

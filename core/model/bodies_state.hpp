@@ -32,7 +32,7 @@ struct CachedPose {
   Matrix<Dim> axes;                     // its frame in world axes
   Vector<Dim> velocity;                 // m/s
   Spin<Dim> spin;                       // rad/s, world axes
-  double inverse_mass;                  // 1/kg; 0: fixed
+  double inverse_mass;                  // 1/kg; 0: fixed, and no image of a free body
 };
 
 template <int Dim>

@@ -111,6 +111,11 @@ std::span<const int> contacts_of(const ContactsState<Dim>& contacts, int body) {
   return std::span(places).subspan(first[body], first[body + 1] - first[body]);
 }
 
+// A contact seen from its other body; points stay relative to the one that was first.
+template <int Dim>
+void turn_round(const Model<Dim>& model, Contact<Dim>& c, std::span<SubContact<Dim>> subs,
+                std::span<JointRise<Dim>> rises);
+
 // ContactsState::by_body from its list
 template <int Dim>
 void list_by_body(const Model<Dim>& model, ContactsState<Dim>& contacts);

@@ -183,9 +183,37 @@ void visit_fields(Either<ReliefLoad> auto& r, auto&& visit) {
   visit(Saved{}, begun);
 }
 
+void visit_fields(Either<PlateState> auto& p, auto&& visit) {
+  auto& [face, plate, face_of_column, face_origin, column_origin, force] = p;
+  visit(Hashed{}, face, plate);
+  visit(Saved{}, face_of_column, face_origin, column_origin, force);
+}
+
+void visit_fields(Either<ConstantLoad> auto& l, auto&& visit) {
+  auto& [body, load] = l;
+  visit(Hashed{}, body, load);
+}
+
+void visit_fields(Either<ColumnLoad> auto& l, auto&& visit) {
+  auto& [at_begin, now] = l;
+  visit(Hashed{}, at_begin);
+  visit(Saved{}, now);
+}
+
+void visit_fields(Either<ImageOffset> auto& o, auto&& visit) {
+  auto& [displacement, rotation] = o;
+  visit(Hashed{}, displacement, rotation);
+}
+
+void visit_fields(Either<OpenSidesState> auto& o, auto&& visit) {
+  auto& [time, plates, reactions, columns, images] = o;
+  visit(Hashed{}, plates, reactions, columns, images);
+  visit(Saved{}, time);
+}
+
 void visit_fields(Either<LoadsState> auto& l, auto&& visit) {
-  auto& [total, by_source, stiffened, relief] = l;
-  visit(Hashed{}, relief);
+  auto& [total, by_source, stiffened, relief, open_sides] = l;
+  visit(Hashed{}, relief, open_sides);
   visit(Saved{}, total);
   visit(Found{}, by_source, stiffened);
 }

@@ -71,6 +71,7 @@ NamedSide side_named(const Model<Dim>& model, const std::string& name) {
   NamedSide side{.axis = static_cast<int>(number / 2), .sign = number % 2 == 0 ? -1.0 : 1.0};
   side.place = -side.sign * std::numeric_limits<double>::infinity();
   for (const Body<Dim>& body : model.bodies) {
+    if (body.column) continue;
     each_outer_face(body, side.axis, side.sign, [&](double place) {
       side.place = side.sign < 0 ? std::min(side.place, place) : std::max(side.place, place);
     });
@@ -90,7 +91,7 @@ bool touches(const Body<Dim>& body, const NamedSide& side) {
 
 template <int Dim>
 bool chosen(const Model<Dim>& model, const Body<Dim>& body, const Selector& s, const std::vector<NamedSide>& sides) {
-  if (!body.present) return false;
+  if (!body.present || body.column) return false;
   if (!sides.empty() && std::ranges::none_of(sides, [&](const NamedSide& side) { return touches(body, side); }))
     return false;
   for (std::size_t k = 0; k < s.low.size(); ++k) {

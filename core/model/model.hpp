@@ -12,6 +12,7 @@
 #include "core/joint_laws/joint_properties.hpp"
 #include "core/load/boundary_stress.hpp"
 #include "core/load/load.hpp"
+#include "core/load/quiet_plate.hpp"
 #include "core/solvers/solvers.hpp"
 #include "core/support/bolt.hpp"
 #include "core/support/lining.hpp"
@@ -32,6 +33,8 @@ struct Body {
   bool fixed = false;                                    // held, except for the motion in Model::prescribed
   bool prescribed = false;                               // moves as Model::prescribed states
   bool present = true;                                   // false once excavated: ids never change
+  bool column = false;                                   // of a free-field column: no selector chooses it
+  bool image = false;                                    // of such a column: repeats the motion of another body
   std::array<bool, Dim> free_translation;                // world axes; all true unless restrained
   std::array<bool, spin_freedoms<Dim>> free_rotation;
 
@@ -55,6 +58,7 @@ struct PrescribedMotion {
   Spin<Dim> angular_velocity = Spin<Dim>::Zero();  // rad/s, world axes
   TimeFactor factor;                               // of the time since the stage began
   std::vector<RecordedAxis<Dim>> records{};        // velocities that are added, without the factor
+  int repeats = -1;                                // instead: the body whose motion it repeats
   std::array<bool, Dim> free_translation{};        // of the body when the motion ends
   std::array<bool, spin_freedoms<Dim>> free_rotation{};
 };
@@ -65,6 +69,57 @@ struct BoundaryForces {
   int body = 0;
   std::vector<DeadLoad<Dim>> forces;
   DepthStress<Dim> stress{};
+};
+
+// a motion that enters at a quiet side
+template <int Dim>
+struct EnteringWave {
+  Vector<Dim> velocity = Vector<Dim>::Zero();  // m/s, at a factor of 1
+  TimeFactor factor{};                         // of the time since the stage began
+  std::vector<RecordedAxis<Dim>> records{};    // velocities that are added, without the factor
+  double upgoing = 1;                          // share of the sum that is the upgoing wave
+};
+
+// the rock beyond a side, and how it was found
+struct Medium {
+  double normal_speed = 0, shear_speed = 0;  // m/s: of waves along the side's normal; of the slower shear wave
+  bool stated = false;                       // its impedances are the scene's
+  bool regular = false;                      // the joint sets' own: else an estimate from the side's blocks
+};
+
+// a side that waves leave
+template <int Dim>
+struct OpenSide {
+  std::string name;  // "bottom", …
+  bool free_field = false;
+  Medium medium;
+  EnteringWave<Dim> wave{};
+};
+
+// A face of a body on such a side. Before a free field its plate is moved by the face of the column's body.
+template <int Dim>
+struct OpenFace {
+  int body = 0, side = 0;                   // side: of Model::open_sides
+  Vector<Dim> place = Vector<Dim>::Zero();  // its centroid, body frame, m
+  QuietPlate<Dim> plate;
+  int column = -1;  // the body of the column at the same height; -1: ground that carries the entering wave
+};
+
+// A body of a free-field column beside the model, which repeats a body of the side with the same joints.
+template <int Dim>
+struct ColumnBody {
+  int side = 0;  // of Model::open_sides
+  int body = 0, of_side = 0;
+};
+
+// Its image in the next column, by which the column is joined to itself.
+template <int Dim>
+struct ColumnImage {
+  int body = 0, of_column = 0;  // bodies
+  int of_model = -1;            // the body of the model that stands beside the side's body as the image does beside the
+                                // column's; or the opposite, if it is mirrored; -1: none
+  bool mirrored = false;
+  bool outside = false;  // it stands where the model has ended
 };
 
 // a force that the scene puts on a body
@@ -122,6 +177,11 @@ struct Model {
   std::vector<JointProperties> properties;
   std::vector<PrescribedMotion<Dim>> prescribed;  // of this stage, by ascending body, at most one for each
   std::vector<BoundaryForces<Dim>> boundary;      // by ascending body, at most one for each
+  std::vector<OpenSide<Dim>> open_sides;          // in the order of the scene
+  std::vector<OpenFace<Dim>> open_faces;          // as sides were opened; those of a stage never leave the list
+  std::vector<ColumnBody<Dim>> column_bodies;     // by side, then by the side's body
+  std::vector<ColumnImage<Dim>> column_images;    // by column body
+  std::vector<int> unsupported;                   // bodies that this stage released for an open side, ascending
   std::vector<AppliedForce<Dim>> applied;         // by ascending body
   std::vector<Water> waters;
   std::vector<int>

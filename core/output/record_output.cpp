@@ -39,11 +39,17 @@ nlohmann::ordered_json record_json(const RecordRow& row) {
 
 std::vector<RecordRow> record_rows(const std::vector<StagePlan>& stages) {
   std::vector<RecordRow> rows;
-  for (const StagePlan& stage : stages)
-    for (const MovePlan& move : stage.change.move)
-      for (const RecordedMotion& record : move.records)
+  for (const StagePlan& stage : stages) {
+    const auto add = [&](const std::vector<RecordedMotion>& records) {
+      for (const RecordedMotion& record : records)
         rows.push_back({static_cast<int>(rows.size()) + 1, stage.name, record.direction, record.motion,
                         measures_of(*record.motion)});
+    };
+    for (const MovePlan& move : stage.change.move)
+      add(move.records);
+    for (const BoundaryPlan& boundary : stage.change.boundary)
+      if (boundary.quiet) add(boundary.quiet->records);
+  }
   return rows;
 }
 

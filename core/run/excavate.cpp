@@ -30,34 +30,6 @@ void carry_motions(const Model<Dim>& before, const Model<Dim>& model, const Exca
   }
 }
 
-// a contact seen from its other body
-template <int Dim>
-void turn_round(const Model<Dim>& model, Contact<Dim>& c, std::span<SubContact<Dim>> subs,
-                std::span<JointRise<Dim>> rises) {
-  const auto reverse = [](JointState<Dim>& history) {
-    history.shear_force = -history.shear_force;
-    history.normal = -history.normal;
-  };
-  if (c.divided_face >= 0) {
-    const int faces_a = static_cast<int>(model.polytope(c.part_a).faces.size()),
-              faces_b = static_cast<int>(model.polytope(c.part_b).faces.size());
-    c.divided_face = c.divided_face < faces_a ? faces_b + c.divided_face : c.divided_face - faces_a;
-  }
-  std::swap(c.part_a, c.part_b);
-  std::swap(c.geometry.face_a, c.geometry.face_b);
-  c.geometry.normal = -c.geometry.normal;
-  c.force = -c.force;
-  reverse(c.history);
-  for (SubContact<Dim>& s : subs) {
-    s.force = -s.force;
-    reverse(s.history);
-  }
-  for (JointRise<Dim>& rise : rises) {
-    rise.offset = -rise.offset;
-    rise.normal = -rise.normal;
-  }
-}
-
 // the remaining contacts, by their new keys
 template <int Dim>
 void carry_contacts(const Model<Dim>& before, const Model<Dim>& model, const Excavated<Dim>& moved,

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "core/output/support_table.hpp"
+#include "core/run/begin_open_sides.hpp"
 #include "core/run/bonds_as_sliced.hpp"
 #include "core/run/doubts.hpp"
 #include "core/run/excavate.hpp"
@@ -17,6 +18,7 @@
 #include "core/stage/support_table.hpp"
 #include "core/step/free_fall.hpp"
 #include "core/step/joint_forces.hpp"
+#include "core/step/open_sides.hpp"
 #include "core/step/relaxation.hpp"
 
 namespace voussoir {
@@ -128,6 +130,12 @@ void enter_stage(const Prepared<Dim>& scene, Model<Dim>& model, Settings& settin
       carry(moved, end);
     carry(moved, progress.bonded);
   }
+  if (!progress.stage_under_way && !progress.state.loads.open_sides.plates.empty()) {
+    // plates move up to the end of the stage before, whose waves end with it
+    State<Dim>& state = progress.state;
+    cache_poses(model, settings.threads, state.bodies);
+    find_open_sides(model, state.schedule, state.bodies, state.contacts, state.loads, state.ledger);
+  }
   model = apply(std::move(model), plan.change);
 }
 
@@ -148,6 +156,8 @@ void begin_stage(const StageInForce<Dim>& stage, Progress<Dim>& progress) {
   if (change.bond)
     make_bonds(stage.model, stage.settings, state.bodies, state.contacts, state.ledger.bonds, state.counters);
   renew_for_stage(stage.model, state);
+  begin_open_sides(stage, state);
+  std::ranges::copy(estimated_media(stage), std::back_inserter(progress.results.warnings));
   progress.stage_began = state.schedule.time;
   progress.record = {};
   progress.record.interval = stage.scene.output.history_interval;
@@ -167,6 +177,7 @@ void end_stage(const StageInForce<Dim>& stage, const StageOutcome& done, const W
   results.stages.push_back(result_of(stage, done, progress));
   std::ranges::copy(doubts_about(results.at_last_stable_state, plan.name), std::back_inserter(results.warnings));
   warn_of_falling(stage, state, results);
+  std::ranges::copy(creep_of(stage, state), std::back_inserter(results.warnings));
   progress.steps_before = state.counters.steps;
   progress.stage_under_way = false;
   // poses of all bodies, for the monitors that measure from the end of this stage

@@ -32,11 +32,14 @@ void check_stages(const Scene& scene, const Model<Dim>& model) {
     for (const SelectorSpec& spec : stage.chosen_by("boundary"))
       for (const int b : select<Dim>(model, spec.selector))
         if (std::ranges::any_of(model.bodies[b].parts, is_particle<Dim>))
-          refuse(*spec.subject.node, spec.subject.path,
-                 fmt::format("stresses block '{}', a potential particle, which has no faces; choose only blocks of "
-                             "half-spaces, or apply a "
-                             "force to it ([[stage.force]])",
-                             model.bodies[b].name));
+          refuse(
+              *spec.subject.node, spec.subject.path,
+              fmt::format("{} block '{}', a potential particle, which has no faces; choose only blocks of "
+                          "half-spaces, or apply a "
+                          "force to it ([[stage.force]])",
+                          spec.subject.node->find("stress") || spec.subject.node->find("in_situ") ? "stresses"
+                                                                                                  : "opens the side of",
+                          model.bodies[b].name));
 }
 
 }  // namespace

@@ -69,8 +69,8 @@ void judge_azimuth(const RecordSpec& record, std::vector<std::string>& warnings)
 
 void judge_records(const StageSpec& stage, std::vector<std::string>& warnings) {
   std::size_t next = 0;
-  for (const MovePlan& move : stage.plan.change.move)
-    for (const RecordedMotion& recorded : move.records) {
+  const auto judge = [&](const std::vector<RecordedMotion>& records) {
+    for (const RecordedMotion& recorded : records) {
       const RecordSpec& record = stage.records[next++];
       const GroundMotion& motion = *recorded.motion;
       judge_motion(record, motion, warnings);
@@ -84,6 +84,11 @@ void judge_records(const StageSpec& stage, std::vector<std::string>& warnings) {
                                                  "lengthen the stage, or cut the record by to_s",
                                                  ends, run->duration)));
     }
+  };
+  for (const MovePlan& move : stage.plan.change.move)
+    judge(move.records);
+  for (const BoundaryPlan& boundary : stage.plan.change.boundary)
+    if (boundary.quiet) judge(boundary.quiet->records);
 }
 
 }  // namespace voussoir

@@ -73,6 +73,10 @@ void add_stage(Values& values, const StageSpec& spec) {
   for (const BoundaryPlan& boundary : stage.change.boundary) {
     add(values, "boundary", boundary);
     if (boundary.in_situ) add(values, "in_situ", *boundary.in_situ);
+    if (boundary.free_field) add(values, "medium", *boundary.free_field);
+    if (!boundary.quiet) continue;
+    add(values, "medium", boundary.quiet->medium);
+    add(values, "factor", boundary.quiet->factor);
   }
   for (const ForcePlan& force : stage.change.force) {
     add(values, "force", force);

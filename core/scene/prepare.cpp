@@ -15,6 +15,7 @@
 #include "core/scene/draw_joint_sets.hpp"
 #include "core/scene/keys.hpp"
 #include "core/scene/particles.hpp"
+#include "core/scene/read_open_side.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/stage_excavations.hpp"
 #include "core/scene/stated_bodies.hpp"
@@ -452,6 +453,7 @@ Prepared<Dim> prepare(const Scene& scene) {
   add_supports<Dim>(scene, model);
   prepared.state = moving_state<Dim>(scene, model);
   prepared.stages = checked_stages<Dim>(scene, model);
+  check_open_sides<Dim>(scene.stages, model);
   prepared.monitors = find_monitors<Dim>(scene, prepared);
   return prepared;
 }

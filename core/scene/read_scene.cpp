@@ -18,6 +18,7 @@
 #include "core/scene/read_joint_sets.hpp"
 #include "core/scene/read_records.hpp"
 #include "core/scene/read_slicing.hpp"
+#include "core/scene/read_motion.hpp"
 #include "core/scene/read_stages.hpp"
 #include "core/scene/read_water.hpp"
 #include "core/scene/repeat.hpp"

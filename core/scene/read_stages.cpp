@@ -7,6 +7,8 @@
 
 #include "core/load/time_factor.hpp"
 #include "core/scene/keys.hpp"
+#include "core/scene/read_motion.hpp"
+#include "core/scene/read_open_side.hpp"
 #include "core/scene/read_records.hpp"
 #include "core/scene/read_slicing.hpp"
 
@@ -119,21 +121,6 @@ void read_plan(const Subject& table, RunPlan& plan) {
                "without gravity state gravity_to = 0");
 }
 
-TimeFactor read_factor(const Subject& table) {
-  TimeFactor factor;
-  read_keys(*table.node, "factor", factor);
-  if (factor.times.size() != factor.factors.size())
-    refuse(table, factor.times.size() < factor.factors.size() ? "times_s" : "factors",
-           "does not match the " + std::to_string(std::max(factor.times.size(), factor.factors.size())) +
-               " entries of the other; times_s "
-               "and factors need the same number of entries");
-  if (std::adjacent_find(factor.times.begin(), factor.times.end(), std::greater_equal<>()) != factor.times.end())
-    refuse(table, "times_s", "must be ascending; put the times in order, each once, with their factors");
-  if (factor.phase != 0 && factor.frequency == 0)
-    refuse(table, "phase_deg", "is stated without frequency_hz; state the frequency or remove the phase");
-  return factor;
-}
-
 // a prescribed motion that follows records, which are appended to those of the stage
 MovePlan read_recorded_move(const Subject& table, const Selector& bodies, int dimension,
                             std::vector<RecordSpec>& records) {
@@ -190,10 +177,12 @@ InSituPlan read_in_situ(const Subject& table, int dimension, double rock_weight)
   return plan;
 }
 
-BoundaryPlan read_boundary(const Subject& table, const Selector& bodies, int dimension, double rock_weight) {
+BoundaryPlan read_boundary(const Subject& table, const Selector& bodies, int dimension, double rock_weight,
+                           std::vector<RecordSpec>& records) {
   BoundaryPlan plan;
   plan.bodies = bodies;
   read_keys(*table.node, "boundary", plan);
+  if (read_open_side(table, dimension, plan, records)) return plan;
   const std::size_t wanted = dimension == 2 ? 3 : 6;
   const char* components = dimension == 2 ? "xx, yy, xy" : "xx, yy, zz, yz, zx, xy";
   if (const auto item = child(table, "in_situ")) {
@@ -313,7 +302,7 @@ StageSpec read_stage(const Subject& table, const Settings& settings, int dimensi
     change.move.push_back(read_move(at, bodies, dimension, stage.records));
   });
   read_chosen("boundary", [&](const Subject& at, const Selector& bodies) {
-    change.boundary.push_back(read_boundary(at, bodies, dimension, rock_weight));
+    change.boundary.push_back(read_boundary(at, bodies, dimension, rock_weight, stage.records));
   });
   read_chosen("force", [&](const Subject& at, const Selector& bodies) {
     change.force.push_back(read_force(at, bodies, std::get_if<RunPlan>(&stage.plan.plan)));
@@ -414,12 +403,6 @@ std::vector<SelectorSpec> read_selectors(const Subject& table, std::string_view 
   return all;
 }
 
-MotionSpec read_motion(const Subject& table) {
-  MotionSpec motion;
-  read_keys(*table.node, "motion", motion);
-  return motion;
-}
-
 Settings read_settings(const Subject& scene) {
   Settings settings;
   read_keys(*scene.node, "", settings);
@@ -441,6 +424,7 @@ std::vector<StageSpec> read_stages(const Subject& scene, int dimension, const Se
   std::vector<StageSpec> stages;
   for (const Subject& item : children(scene, "stage"))
     stages.push_back(read_stage(item, settings, dimension, rock_weight));
+  check_open_sides(stages);
   chain_gravity(stages);
   free_runs(scene, settings, stages);
   return stages;

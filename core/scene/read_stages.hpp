@@ -9,7 +9,6 @@ namespace voussoir {
 
 SelectorSpec read_selector(const Subject& table);
 std::vector<SelectorSpec> read_selectors(const Subject& table, std::string_view key);
-MotionSpec read_motion(const Subject& table);
 Settings read_settings(const Subject& scene);
 std::vector<StageSpec> read_stages(const Subject& scene, int dimension, const Settings& settings, double rock_weight);
 // refuses a scene without stages: such a scene can only be sliced

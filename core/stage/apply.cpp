@@ -4,6 +4,7 @@
 
 #include "core/model/model.hpp"
 #include "core/stage/excavation.hpp"
+#include "core/stage/open_side.hpp"
 #include "core/stage/support_table.hpp"
 
 namespace voussoir {
@@ -140,15 +141,19 @@ Model<Dim> apply(Model<Dim> model, const Change& change) {
       model.bodies[b].present = false;
       model.bodies[b].fixed = true;
     }
-  for (const BoundaryPlan& plan : change.boundary)
+  for (const BoundaryPlan& plan : change.boundary) {
+    if (plan.lets_waves_leave()) continue;
     for (int b : select(model, plan.bodies))
       load_boundary(model, b, depth_stress_of<Dim>(plan, model.origin[Dim - 1]));
+  }
   apply_forces(model, change.force);
   set_friction(change, model.properties);
   for (const StageSupport<Dim>& row : stage_supports<Dim>)
     if (row.add_bodies) row.add_bodies(model, change.install);
   for (const MovePlan& plan : change.move)
     prescribe(model, plan);
+  open_sides(model, change.boundary);
+  prescribe_columns(model);
   std::sort(model.prescribed.begin(), model.prescribed.end(),
             [](const PrescribedMotion<Dim>& a, const PrescribedMotion<Dim>& b) { return a.body < b.body; });
   return model;

@@ -16,11 +16,12 @@ struct LoadInputs {
   const ContactsState<Dim>& contacts;
   const SupportsState<Dim>& supports;
   const std::vector<ReliefLoad<Dim>>& relief;
+  const OpenSidesState<Dim>& open_sides;
 };
 
 template <int Dim>
 LoadInputs<Dim> load_inputs(const State<Dim>& state) {
-  return {state.schedule, state.bodies, state.contacts, state.supports, state.loads.relief};
+  return {state.schedule, state.bodies, state.contacts, state.supports, state.loads.relief, state.loads.open_sides};
 }
 
 // A load: whether there is any, its forces on the bodies, whose loads are zero before, and, if it changes with the

@@ -3,6 +3,7 @@
 #include "core/base/on_threads.hpp"
 #include "core/load/time_factor.hpp"
 #include "core/model/water_surfaces.hpp"
+#include "core/step/open_sides.hpp"
 #include "core/step/support_table.hpp"
 
 namespace voussoir {
@@ -146,6 +147,9 @@ constexpr LoadRow<Dim> load_table[] = {
      gravity_loads<Dim>},
     {Source::boundary_stress, [](const Model<Dim>& m, const LoadInputs<Dim>&) { return !m.boundary.empty(); },
      boundary_stress_loads<Dim>, nullptr, boundary_stress_tangent<Dim>},
+    {Source::boundary_reactions, has_reactions<Dim>, reaction_loads<Dim>},
+    {Source::plates, has_plates<Dim>, plate_loads<Dim>, add_plate_stiffness<Dim>},
+    {Source::free_field, has_columns<Dim>, column_loads<Dim>},
     {Source::applied_forces, [](const Model<Dim>& m, const LoadInputs<Dim>&) { return !m.applied.empty(); },
      applied_loads<Dim>, applied_stiffness<Dim>, applied_tangent<Dim>},
     {Source::water, has_water_by_volume<Dim>, water_loads<Dim>, add_water_stiffness<Dim>},
@@ -160,7 +164,7 @@ template <int Dim>
 void sum_loads(const Model<Dim>& model, const Settings& settings, const Schedule& schedule,
                const BodiesState<Dim>& bodies, const ContactsState<Dim>& contacts, const SupportsState<Dim>& supports,
                LoadsState<Dim>& sums) {
-  const LoadInputs<Dim> now{schedule, bodies, contacts, supports, sums.relief};
+  const LoadInputs<Dim> now{schedule, bodies, contacts, supports, sums.relief, sums.open_sides};
   const std::size_t count = model.bodies.size();
   sums.stiffened.clear();
   const auto find = [&](const LoadRow<Dim>& row) {

@@ -6,6 +6,7 @@
 #include "core/base/on_threads.hpp"
 #include "core/model/water_surfaces.hpp"
 #include "core/step/integrate.hpp"
+#include "core/step/open_sides.hpp"
 #include "core/step/prescribed.hpp"
 #include "core/step/relaxation.hpp"
 #include "core/step/time_step.hpp"
@@ -61,6 +62,33 @@ void add_water_change(const Model<Dim>& model, int threads, const BodiesState<Di
   }
 }
 
+template <int Dim>
+Kick<Dim> kick_of_image(const Body<Dim>& body, const Motion<Dim>& of_column, const ImageOffset<Dim>& offset,
+                        StepTimes times, Motion<Dim>& motion) {
+  const Vector<Dim> velocity = motion.velocity;
+  const Spin<Dim> spin = angular_velocity(body, motion);
+  place_image(body, of_column, offset, motion);
+  Kick<Dim> kick;
+  kick.path_after = 0.5 * times.worked() * motion.velocity;
+  kick.turn_after = 0.5 * times.worked() * angular_velocity(body, motion);
+  kick.path_before = times.at_start() ? kick.path_after : Vector<Dim>(0.5 * times.worked() * velocity);
+  kick.turn_before = times.at_start() ? kick.turn_after : Spin<Dim>(0.5 * times.worked() * spin);
+  return kick;
+}
+
+// The images of free-field columns follow their bodies, which have moved; what the contacts put on them is taken.
+template <int Dim>
+void repeat_columns(const Model<Dim>& model, LoadsState<Dim>& loads, StepTimes times, std::vector<Motion<Dim>>& motions,
+                    std::vector<Kick<Dim>>& kicks) {
+  for (std::size_t i = 0; i < model.column_images.size(); ++i) {
+    const ColumnImage<Dim>& image = model.column_images[i];
+    const Load<Dim>& load = loads.total[image.body];
+    loads.by_source[Source::prescribed_motion][image.body] = {-load.force, -load.moment};
+    kicks[image.body] = kick_of_image(model.bodies[image.body], motions[image.of_column], loads.open_sides.images[i],
+                                      times, motions[image.body]);
+  }
+}
+
 }  // namespace
 
 double equal_step(double longest, double left) {
@@ -109,8 +137,10 @@ void move_bodies(const Model<Dim>& model, const Settings& settings, const Counte
   std::vector<Load<Dim>>& reactions = loads.by_source[Source::prescribed_motion];
   reactions.assign(model.prescribed.empty() ? 0 : kicks.size(), {});
   for (const PrescribedMotion<Dim>& p : model.prescribed)
-    reactions[p.body] = apply_prescribed_motion(model.bodies[p.body], p, loads.total[p.body], elapsed, times,
-                                                bodies.motions[p.body], kicks[p.body]);
+    if (p.repeats < 0)
+      reactions[p.body] = apply_prescribed_motion(model.bodies[p.body], p, loads.total[p.body], elapsed, times,
+                                                  bodies.motions[p.body], kicks[p.body]);
+  repeat_columns(model, loads, times, bodies.motions, kicks);
 
   add_work(model, settings.threads, kicks, loads, relaxation, ledger.energy);
   const bool ends = time_step.length == schedule.ends - schedule.time;

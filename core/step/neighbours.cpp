@@ -63,7 +63,9 @@ Box<Dim> bounds(const Model<Dim>& model, const BodiesState<Dim>& bodies, int par
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const PartId id = model.parts[part];
   const Body<Dim>& body = model.bodies[id.body];
-  Box<Dim> box{Vector<Dim>::Constant(infinity), Vector<Dim>::Constant(-infinity), id.body, body.immobile()};
+  // images of one column do not meet: only its bodies do
+  Box<Dim> box{Vector<Dim>::Constant(infinity), Vector<Dim>::Constant(-infinity), id.body,
+               body.immobile() || body.image};
   if (!body.present) return box;
   const CachedPose<Dim>& at = bodies.poses[id.body];
   for (const Vector<Dim>& v : body.parts[id.part].vertices) {

@@ -231,7 +231,8 @@ void add_contact(const Model<Dim>& model, const ContactSettings& settings, const
   const int ia = model.parts[c.part_a].body, ib = model.parts[c.part_b].body;
   const bool fixed_a = model.bodies[ia].fixed, fixed_b = model.bodies[ib].fixed;
   const bool updates_a = updated.place[ia] >= 0, updates_b = updated.place[ib] >= 0;
-  const double factor = fixed_a || fixed_b ? 1 : 2;
+  // the image of a column's body moves with it
+  const double factor = (fixed_a && !model.bodies[ia].image) || (fixed_b && !model.bodies[ib].image) ? 1 : 2;
   const auto rate = [&](double area) {
     if (body == ib && updates_a) return;
     // a body that is not updated relies on the rating so far

@@ -397,6 +397,41 @@ direction = [0, 1, 0]
 samples = { values = [0, 0.1, 0, -0.1, 0], interval_s = 10, unit = "g", quantity = "acceleration", component = "UP" }
 )";
 
+// sides that waves leave, which exclude later searches
+inline const std::string of_waves = R"(dimension = 3
+density = 2000
+domain = { box = { min = [0, 0, 0], max = [1, 1, 3] } }
+[[joint_properties]]
+name = "rock"
+normal_stiffness = 1e9
+shear_stiffness = 1e8
+friction_deg = 35
+[[joints]]
+name = "A"
+dip = 0
+point = [0, 0, 1]
+[[joints]]
+name = "B"
+dip = 0
+point = [0, 0, 2]
+[[stage]]
+name = "waves"
+kind = "run"
+duration_s = 1
+[[stage.boundary]]
+side = ["bottom"]
+[stage.boundary.quiet]
+normal_impedance = 5e6
+shear_impedance = 3e6
+normal_stiffness = 1e9
+shear_stiffness = 5e8
+input = "upgoing"
+velocity = [1, 0, 0]
+[[stage.boundary]]
+side = ["west"]
+free_field = { normal_impedance = 5e6, shear_impedance = 3e6, normal_stiffness = 1e9, shear_stiffness = 5e8 }
+)";
+
 // a table of a scene, with the groups of keys that it may have
 struct Holder {
   Subject table;
@@ -445,7 +480,7 @@ inline bool accepts(const Home& home, std::string_view value) {
 // The first table that accepts this value of a row's key. Some values exclude all others: then the first table that
 // states the key, or else may state it.
 inline Home home_of(const KeyRow& row, std::string_view value) {
-  static const std::array scenes{Written(everything), Written(in_the_plane), Written(of_particles)};
+  static const std::array scenes{Written(everything), Written(in_the_plane), Written(of_particles), Written(of_waves)};
   Home stated, allowed;
   for (const Written& scene : scenes)
     for (const Holder& holder : scene.holders) {

@@ -8,8 +8,8 @@ namespace voussoir::keys {
 std::vector<KeyTable> stage_load_keys() {
   return {{"stage", {
     {.key = "boundary", .type = tables, .holds = {"label", "boundary", "selector"},
-     .meaning = "stress on the outer faces of blocks (those that no joint made) from this stage on; it replaces earlier boundary stress on "
-         "these blocks"},
+     .meaning = "on the outer faces of blocks (those that no joint made) from this stage on: a stress, which replaces earlier boundary "
+         "stress on these blocks, or a side that waves leave, by quiet or free_field"},
     {.key = "force", .type = tables, .holds = {"force", "factor", "selector"},
      .meaning = "a force on blocks from this stage on. A time factor, in stages of kind run only, acts during the stage; afterwards the "
          "force keeps its last value"},
@@ -22,6 +22,37 @@ std::vector<KeyTable> stage_load_keys() {
      .breaks = "needs blocks or fixed rock to push against"},
     {.key = "in_situ", .type = table, .holds = {"in_situ"},
      .meaning = "stress due to the rock's own weight, which grows with depth; `stress`, if stated too, is added"},
+    {.key = "quiet", .type = table, .holds = {"medium", "quiet", "motion", "factor"},
+     .meaning = "instead of stress: waves leave through the side, which must be named by `side` alone, and one may enter at the bottom. "
+         "Blocks that were fixed there are released, their reactions stay as constant forces; stages from here on must be of kind run",
+     .breaks = "the side has no spring: a load that changes later makes it creep"},
+    {.key = "free_field", .type = table, .holds = {"medium"},
+     .meaning = "instead of stress: as quiet, and beyond the side a column of its blocks moves as if the model were not there; of a side, "
+         "not bottom or top, whose blocks repeat"},
+  }},
+  {"medium", {
+    {.key = "normal_impedance", .members = {in(&MediumPlan::normal_impedance)}, .unit = "Pa s/m", .range = positive,
+     .plausible = {1e5, 1e8}, .example = "5e6", .no_default = true,
+     .meaning = "density times the speed of compression waves beyond the side; without it of the side's blocks: √(ρ kn a) of joints "
+         "parallel to it at the spacing a", .mistake = "was it given in MPa s/m?"},
+    {.key = "shear_impedance", .members = {in(&MediumPlan::shear_impedance)}, .unit = "Pa s/m", .range = positive,
+     .plausible = {1e5, 1e8}, .example = "3e6", .no_default = true,
+     .meaning = "density times the speed of shear waves; without it of the side's blocks: √(ρ ks a/2) of a square grid", .mistake = "was it given "
+         "in MPa s/m?"},
+    {.key = "normal_stiffness", .members = {in(&MediumPlan::normal_stiffness)}, .unit = "Pa/m", .range = positive,
+     .plausible = {1e7, 2e11}, .example = "1e10", .no_default = true,
+     .meaning = "of the joints along the side, half of one of which is before the dashpot; without it that of the joints of its blocks",
+     .mistake = "was it given in GPa/m or MPa/m?"},
+    {.key = "shear_stiffness", .members = {in(&MediumPlan::shear_stiffness)}, .unit = "Pa/m", .range = positive,
+     .plausible = {1e7, 2e11}, .example = "5e9", .no_default = true,
+     .meaning = "the same along the joint", .mistake = "was it given in GPa/m or MPa/m?"},
+  }},
+  {"quiet", {
+    {.key = "input", .type = choice, .example = "\"outcrop\"", .choices = {"upgoing", "outcrop", "within"},
+     .meaning = "what the motion that enters is, which must be stated with it. upgoing: the wave itself; outcrop: the motion of a free surface, "
+         "twice the wave; within: recorded in the rock, refused, because it contains the wave that comes back"},
+    {.key = "factor", .type = tables, .holds = {"record"},
+     .meaning = "earthquake records that enter, instead of velocities, as factor of [[stage.move]]"},
   }},
   {"in_situ", {
     {.key = "surface", .members = {in(&InSituPlan::surface)}, .unit = "m", .range = sane, .example = "25",

@@ -1,0 +1,13 @@
+// Velocities that a scene states, and the factor by which they vary.
+#pragma once
+
+#include "core/scene/scene_spec.hpp"
+
+namespace voussoir {
+
+MotionSpec read_motion(const Subject& table);
+
+// of velocities or of a force; its times ascend and each has a factor
+TimeFactor read_factor(const Subject& table);
+
+}  // namespace voussoir
