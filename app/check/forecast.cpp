@@ -186,7 +186,7 @@ void forecast_stages(const Prepared<Dim>& prepared, const Model<Dim>& model, Sta
         !std::holds_alternative<RunPlan>(stage.plan))
       forecast.steps = std::max(forecast.steps, linings.steps);
     if (std::holds_alternative<RunPlan>(stage.plan)) {
-      const double load_step = step_of_loads(std::span(stage.change.move));
+      const double load_step = step_of_loads(stage.change);
       forecast.load_step = std::isfinite(load_step) ? load_step : 0;
       forecast.implicit = settings.time.integration == Integration::implicit_steps;
     }

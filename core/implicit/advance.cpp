@@ -11,6 +11,7 @@
 #include "core/step/face_forces.hpp"
 #include "core/step/loads.hpp"
 #include "core/step/neighbours.hpp"
+#include "core/step/open_sides.hpp"
 #include "core/step/prescribed.hpp"
 
 namespace voussoir {
@@ -28,8 +29,16 @@ constexpr double with_margin = 1.5;
 template <int Dim>
 class Advance {
  public:
-  Advance(const Model<Dim>& m, const Settings& s, State<Dim>& now, double step, double geometry_within)
-      : model(m), settings(s), state(now), h(step), within(geometry_within), unknowns(m), mean(m.bodies.size()) {}
+  Advance(const Model<Dim>& m, const Settings& s, State<Dim>& now, double step, double geometry_within,
+          StepPoints<Dim>& points)
+      : model(m),
+        settings(s),
+        state(now),
+        h(step),
+        within(geometry_within),
+        unknowns(m),
+        mean(m.bodies.size()),
+        found(points) {}
 
   // false: the equations were not solved, or a body goes too far; the state is spoilt
   bool carry_out() {
@@ -37,7 +46,8 @@ class Advance {
     for (int k = 0; k < most_geometries; ++k) {
       const std::vector<MeanMotion<Dim>> last = mean;
       find_points(k == 0 ? 0 : 0.5);
-      const StepSolution solution = solve_step(model, unknowns, h, before, loads_at_half(), found.points, mean);
+      const std::vector<Load<Dim>>& loads = loads_at_half();
+      const StepSolution solution = solve_step(model, unknowns, h, before, loads, plates, found.points, mean);
       ++state.counters.implicit_solutions;
       state.counters.implicit_iterations += solution.iterations;
       if (!solution.solved || goes_too_far()) return false;
@@ -60,13 +70,39 @@ class Advance {
     }
     const double from = state.schedule.time - state.schedule.started;
     for (const PrescribedMotion<Dim>& p : model.prescribed) {
+      if (p.repeats >= 0) continue;
       const Vector<Dim> velocity = path_of(p, from, from + h) / h;
       for (int k = 0; k < Dim; ++k)
         if (p.translation[k]) mean[p.body].velocity[k] = velocity[k];
       if (p.rotation) mean[p.body].spin = mean_of(p.factor, from, from + h) * p.angular_velocity;
     }
+    repeat_images(model, mean);
     histories = histories_of(state.contacts);
     list_neighbours();
+    begin_plates(from);
+  }
+
+  // The forces of plates, and what a column's outer image puts on it, are found with the motion of the step: they are
+  // no loads meanwhile.
+  void begin_plates(double from) {
+    OpenSidesState<Dim>& open = state.loads.open_sides;
+    for (ColumnLoad<Dim>& column : open.columns)
+      column.now = {};
+    for (std::size_t i = 0; i < open.plates.size(); ++i) {
+      const OpenFace<Dim>& face = model.open_faces[i];
+      open.plates[i].force.setZero();
+      plates.push_back({&face,
+                        open.plates[i].face,
+                        open.plates[i].plate,
+                        upgoing_between(model.open_sides[face.side].wave, from, from + h),
+                        {},
+                        {}});
+    }
+  }
+
+  Vector<Dim> arm_of(const OpenFace<Dim>& face, int body) const {
+    const Matrix<Dim> axes = matrix(motion_at_half(before[body], mean[body], h).rotation);
+    return mean_arm<Dim>(axes * face.place, mean[body].spin, h);
   }
 
   // All pairs that may meet within the step, as seen from its start. True: the present motion goes beyond those that
@@ -97,8 +133,12 @@ class Advance {
     set_histories(histories, state.contacts);
     cache_poses(model, settings.threads, state.bodies);
     find_contacts(model, settings, 0, state.bodies, state.contacts, state.counters);
-    found = find_step_points<Dim>(model, settings, state.schedule, state.bodies, state.contacts, histories,
-                                  {mean, h, passed}, state.counters);
+    find_step_points<Dim>(model, settings, state.schedule, state.bodies, state.contacts, histories, {mean, h, passed},
+                          state.counters, found);
+    for (StepPlate<Dim>& p : plates) {
+      p.arm = arm_of(*p.face, p.face->body);
+      if (p.face->column >= 0) p.arm_of_column = arm_of(*p.face, p.face->column);
+    }
   }
 
   // without the contacts' forces
@@ -137,12 +177,22 @@ class Advance {
       if (body.fixed) state.bodies.motions[b].velocity = mean[b].velocity;
     }
     set_prescribed_velocities();
+    place_images();
     add_works();
     keep_histories();
     calm();
     state.schedule.time += h;
     state.time_step.length = 0;
     cache_poses(model, settings.threads, state.bodies);
+    find_open_sides(model, state.schedule, state.bodies, state.contacts, state.loads, state.ledger);
+  }
+
+  void place_images() {
+    for (std::size_t i = 0; i < model.column_images.size(); ++i) {
+      const ColumnImage<Dim>& image = model.column_images[i];
+      place_image(model.bodies[image.body], state.bodies.motions[image.of_column], state.loads.open_sides.images[i],
+                  state.bodies.motions[image.body]);
+    }
   }
 
   // Of a prescribed motion: the mean velocity and half of the change of the velocity. With the velocity itself the
@@ -151,6 +201,7 @@ class Advance {
   void set_prescribed_velocities() {
     const double from = state.schedule.time - state.schedule.started;
     for (const PrescribedMotion<Dim>& p : model.prescribed) {
+      if (p.repeats >= 0) continue;
       const Vector<Dim> half = 0.5 * (velocity_at(p, from + h) - velocity_at(p, from));
       Motion<Dim>& m = state.bodies.motions[p.body];
       for (int k = 0; k < Dim; ++k)
@@ -170,6 +221,14 @@ class Advance {
       const Vector<Dim> force = p.force.normal * p.normal + p.force.shear;
       of_points[p.body_b] += {force, moment(p.arm_b, force)};
       of_points[p.body_a] += {-force, -moment(p.arm_a, force)};
+      each_beside(unknowns, p, p.arm_a, p.arm_b, [&](int unknown, double sign, const Vector<Dim>& arm) {
+        const MeanMotion<Dim>& m = mean[unknowns.bodies[unknown]];
+        flows[Source::free_field] += sign * h * force.dot(m.velocity + cross(m.spin, arm));
+      });
+    }
+    for (const StepPlate<Dim>& p : plates) {
+      const MeanMotion<Dim>& m = mean[p.face->body];
+      flows[Source::plates] += h * p.step(mean, h).mean_force.dot(m.velocity + cross(m.spin, p.arm));
     }
     const auto work = [&](const std::vector<Load<Dim>>& loads) {
       double sum = 0;
@@ -257,6 +316,7 @@ class Advance {
     if (closed.empty()) return;
     const Calmed calmed = calm_unresolved(model, unknowns, h, closed, state.bodies.motions);
     state.ledger.energy.flows[Source::prescribed_motion] += calmed.driven;
+    state.ledger.energy.flows[Source::free_field] += calmed.beside;
     state.ledger.energy.flows[Source::unresolved_motion] += calmed.taken;
   }
 
@@ -269,7 +329,8 @@ class Advance {
   std::vector<Motion<Dim>> before;
   JointHistories<Dim> histories;  // at the start, in the order of the last list
   double listed = -1;             // m: the way for which the neighbours are listed
-  StepPoints<Dim> found;
+  std::vector<StepPlate<Dim>> plates;
+  StepPoints<Dim>& found;
   std::vector<ClosedPoint<Dim>> closed;
   std::vector<Vector<Dim>> ends;  // N: the shear of a contact's points after the step
 };
@@ -286,7 +347,8 @@ double smallest_free(const Model<Dim>& model) {
 
 template <int Dim>
 bool advance(const Model<Dim>& model, const Settings& settings, double h, double within, State<Dim>& state) {
-  return Advance<Dim>(model, settings, state, h, within).carry_out();
+  static thread_local StepPoints<Dim> points;  // one memory for all steps
+  return Advance<Dim>(model, settings, state, h, within, points).carry_out();
 }
 
 #define VOUSSOIR_INSTANTIATE(Dim)                        \

@@ -166,7 +166,9 @@ void add_points(const HalfSpaces<3>& planes, const FacePlane<3>& plane, const Ve
 template <int Dim>
 bool find_face_points(const Pair<Dim>& pair, const Vector<Dim>& inside, int face_a, int face_b,
                       const RelativeMotion<Dim>& motion, FacePoints<Dim>& found) {
-  found = {};
+  found.points.clear();
+  found.normal.setZero();
+  found.all = found.begin = found.end = {};
   static thread_local HalfSpaces<Dim> planes;
   assemble<Dim>(pair, inside, planes);
   const int of_b = static_cast<int>(pair.a->faces.size()) + face_b;

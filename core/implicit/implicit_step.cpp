@@ -136,8 +136,9 @@ void find_point_forces(const Model<Dim>& model, const Settings& settings, const 
                        BodiesState<Dim>& bodies, ContactsState<Dim>& contacts, Ledger& ledger, Counters& counters) {
   find_contacts(model, settings, 0, bodies, contacts, counters);
   const std::vector<MeanMotion<Dim>> still(model.bodies.size());
-  const StepPoints<Dim> all = find_step_points<Dim>(model, settings, schedule, bodies, contacts, histories_of(contacts),
-                                                    {still, 0, 0}, counters);
+  static thread_local StepPoints<Dim> all;
+  find_step_points<Dim>(model, settings, schedule, bodies, contacts, histories_of(contacts), {still, 0, 0}, counters,
+                        all);
   contacts.loads.assign(contacts.list.size(), {});
   ledger.energy.elastic = 0;
   for (const StepPoint<Dim>& p : all.points) {
@@ -201,9 +202,6 @@ std::string not_followed_implicitly(const Model<Dim>& model, const Settings& set
            "damping.local = 0; viscous_ratio acts";
   if (!model.bolts.empty() || !model.linings.empty())
     return "implicit steps do not follow bolts and linings yet: use time.integration = \"explicit\" in this stage";
-  if (!model.open_faces.empty() || !model.column_bodies.empty())
-    return "implicit steps do not follow quiet sides and free fields yet: use time.integration = \"explicit\" in this "
-           "stage";
   if (model.particles) return "implicit steps do not follow potential particles";
   return {};
 }

@@ -39,13 +39,17 @@ double step_of_loads(const Model<Dim>& model) {
     longest = std::min(longest, step_of_motion(p.factor, p.records));
   for (const AppliedForce<Dim>& f : model.applied)
     longest = std::min(longest, step_of(f.factor));
+  for (const OpenSide<Dim>& side : model.open_sides)
+    longest = std::min(longest, step_of_motion(side.wave.factor, side.wave.records));
   return longest;
 }
 
-double step_of_loads(std::span<const MovePlan> moves) {
+double step_of_loads(const Change& change) {
   double longest = std::numeric_limits<double>::infinity();
-  for (const MovePlan& move : moves)
+  for (const MovePlan& move : change.move)
     longest = std::min(longest, step_of_motion(move.factor, move.records));
+  for (const BoundaryPlan& plan : change.boundary)
+    if (plan.quiet) longest = std::min(longest, step_of_motion(plan.quiet->factor, plan.quiet->records));
   return longest;
 }
 
@@ -58,14 +62,18 @@ double next_bend(const Model<Dim>& model, const Schedule& schedule) {
     const auto at = std::upper_bound(factor.times.begin(), factor.times.end(), after);
     if (at != factor.times.end()) next = std::min(next, *at);
   };
-  for (const PrescribedMotion<Dim>& p : model.prescribed) {
-    look(p.factor);
-    for (const RecordedAxis<Dim>& record : p.records) {
+  const auto look_at = [&](const auto& motion) {
+    look(motion.factor);
+    for (const RecordedAxis<Dim>& record : motion.records) {
       const GroundMotion& m = *record.motion;
       const double at = m.begins + std::max(std::floor((after - m.begins) / m.interval) + 1, 0.0) * m.interval;
       if (at <= m.begins + m.duration() + 0.5 * m.interval) next = std::min(next, at);
     }
-  }
+  };
+  for (const PrescribedMotion<Dim>& p : model.prescribed)
+    look_at(p);
+  for (const OpenSide<Dim>& side : model.open_sides)
+    look_at(side.wave);
   for (const AppliedForce<Dim>& f : model.applied)
     look(f.factor);
   return schedule.started + next;

@@ -1,21 +1,19 @@
 // What the loads of a model allow an implicit step.
 #pragma once
 
-#include <span>
-
 #include "core/base/settings.hpp"
 #include "core/model/model.hpp"
 #include "core/model/state.hpp"
 
 namespace voussoir {
 
-// s: 1/40 of the shortest period of a prescribed motion or a force, 1/20 of the shortest interval of their tables, the
-// interval of a record; infinity: nothing changes
+// s: 1/40 of the shortest period of a prescribed motion, an entering wave or a force, 1/20 of the shortest interval of
+// their tables, the interval of a record; infinity: nothing changes
 template <int Dim>
 double step_of_loads(const Model<Dim>& model);
 
-// The same of motions that a stage states.
-double step_of_loads(std::span<const MovePlan> moves);
+// The same of motions and entering waves that a stage states.
+double step_of_loads(const Change& change);
 
 // s: the next time at which a table of the loads bends, or a record has a value
 template <int Dim>

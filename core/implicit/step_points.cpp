@@ -230,10 +230,12 @@ double reach_of(const Model<Dim>& model, const StepMotion<Dim>& motion, int a, i
 }  // namespace
 
 template <int Dim>
-StepPoints<Dim> find_step_points(const Model<Dim>& model, const Settings& settings, const Schedule& schedule,
-                                 const BodiesState<Dim>& bodies, const ContactsState<Dim>& contacts,
-                                 const JointHistories<Dim>& before, const StepMotion<Dim>& motion, Counters& counters) {
-  StepPoints<Dim> all;
+void find_step_points(const Model<Dim>& model, const Settings& settings, const Schedule& schedule,
+                      const BodiesState<Dim>& bodies, const ContactsState<Dim>& contacts,
+                      const JointHistories<Dim>& before, const StepMotion<Dim>& motion, Counters& counters,
+                      StepPoints<Dim>& all) {
+  all.points.clear();
+  all.contacts.clear();
   for (std::size_t i = 0; i < contacts.list.size(); ++i) {
     const Contact<Dim>& c = contacts.list[i];
     const int a = model.parts[c.part_a].body, b = model.parts[c.part_b].body, place = static_cast<int>(i);
@@ -264,7 +266,6 @@ StepPoints<Dim> find_step_points(const Model<Dim>& model, const Settings& settin
     PointsOfPair<Dim>(model, settings, schedule, bodies, motion, found, place, Vector<Dim>(drawn * apart.direction))
         .add(pair, history, all);
   }
-  return all;
 }
 
 std::string not_followed_implicitly(const JointProperties& properties, const ContactSettings& contact) {
@@ -274,10 +275,10 @@ std::string not_followed_implicitly(const JointProperties& properties, const Con
   return {};
 }
 
-#define VOUSSOIR_INSTANTIATE(Dim)                                                                     \
-  template StepPoints<Dim> find_step_points<Dim>(const Model<Dim>&, const Settings&, const Schedule&, \
-                                                 const BodiesState<Dim>&, const ContactsState<Dim>&,  \
-                                                 const JointHistories<Dim>&, const StepMotion<Dim>&, Counters&);
+#define VOUSSOIR_INSTANTIATE(Dim)                                                                                    \
+  template void find_step_points<Dim>(const Model<Dim>&, const Settings&, const Schedule&, const BodiesState<Dim>&,  \
+                                      const ContactsState<Dim>&, const JointHistories<Dim>&, const StepMotion<Dim>&, \
+                                      Counters&, StepPoints<Dim>&);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)
 #undef VOUSSOIR_INSTANTIATE

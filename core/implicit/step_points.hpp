@@ -71,10 +71,12 @@ double moment_about(const Vector<Dim>& normal, const Vector<Dim>& arm, const Vec
 
 // All points at the present poses. `before`: the histories at the start of the step, in the order of the contacts,
 // which have been found at these poses. The bodies' poses are cached. Forces are those of springs that do not move on.
+// `all` is replaced.
 template <int Dim>
-StepPoints<Dim> find_step_points(const Model<Dim>& model, const Settings& settings, const Schedule& schedule,
-                                 const BodiesState<Dim>& bodies, const ContactsState<Dim>& contacts,
-                                 const JointHistories<Dim>& before, const StepMotion<Dim>& motion, Counters& counters);
+void find_step_points(const Model<Dim>& model, const Settings& settings, const Schedule& schedule,
+                      const BodiesState<Dim>& bodies, const ContactsState<Dim>& contacts,
+                      const JointHistories<Dim>& before, const StepMotion<Dim>& motion, Counters& counters,
+                      StepPoints<Dim>& all);
 
 // Why implicit steps do not follow a joint of these properties, as a clause; empty: they do.
 std::string not_followed_implicitly(const JointProperties& properties, const ContactSettings& contact);

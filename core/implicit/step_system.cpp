@@ -28,16 +28,26 @@ PointMotion<Dim> velocity_by_motion(const Vector<Dim>& arm) {
   return b;
 }
 
-// blocks for the unknown bodies of all pairs
+// Blocks for the unknown bodies of all pairs. The pattern is symmetric; the values are not where a column loads a side.
 template <int Dim>
-BlockMatrix<freedoms<Dim>> laid_out(const StepUnknowns<Dim>& unknowns, const auto& points) {
+BlockMatrix<freedoms<Dim>> laid_out(const StepUnknowns<Dim>& unknowns, const auto& points,
+                                    const std::vector<StepPlate<Dim>>& plates) {
   std::vector<std::vector<int>> columns(unknowns.bodies.size());
-  for (const auto& p : points) {
-    const int a = unknowns.place[p.body_a], b = unknowns.place[p.body_b];
-    if (a < 0 || b < 0) continue;
+  const auto join = [&](int a, int b) {
+    if (a < 0 || b < 0 || a == b) return;
     columns[a].push_back(b);
     columns[b].push_back(a);
+  };
+  for (const auto& p : points) {
+    const int a = unknowns.moved[p.body_a], b = unknowns.moved[p.body_b];
+    join(a, b);
+    each_beside<Dim>(unknowns, p, {}, {}, [&](int beside, double, const Vector<Dim>&) {
+      join(beside, a);
+      join(beside, b);
+    });
   }
+  for (const StepPlate<Dim>& p : plates)
+    if (p.face->column >= 0) join(unknowns.place[p.face->body], unknowns.place[p.face->column]);
   BlockMatrix<freedoms<Dim>> matrix;
   matrix.lay_out(std::move(columns));
   return matrix;
@@ -62,13 +72,13 @@ void restrain(const StepUnknowns<Dim>& unknowns, BlockMatrix<freedoms<Dim>>& mat
 template <int Dim>
 void add_pair(const StepUnknowns<Dim>& unknowns, const auto& p, const Vector<Dim>& arm_a, const Vector<Dim>& arm_b,
               const Matrix<Dim>& c, double scale, BlockMatrix<freedoms<Dim>>& matrix) {
-  const int a = unknowns.place[p.body_a], b = unknowns.place[p.body_b];
+  const int a = unknowns.moved[p.body_a], b = unknowns.moved[p.body_b];
   const PointMotion<Dim> of_a = velocity_by_motion<Dim>(arm_a), of_b = velocity_by_motion<Dim>(arm_b);
-  if (a >= 0) matrix.at(a, a) += scale * (of_a.transpose() * c * of_a);
-  if (b >= 0) matrix.at(b, b) += scale * (of_b.transpose() * c * of_b);
-  if (a < 0 || b < 0) return;
-  matrix.at(a, b) -= scale * (of_a.transpose() * c * of_b);
-  matrix.at(b, a) -= scale * (of_b.transpose() * c * of_a);
+  each_loaded(unknowns, p, arm_a, arm_b, [&](int row, double sign, const Vector<Dim>& arm) {
+    const PointMotion<Dim> of = velocity_by_motion<Dim>(arm);
+    if (a >= 0) matrix.at(row, a) -= sign * scale * (of.transpose() * c * of_a);
+    if (b >= 0) matrix.at(row, b) += sign * scale * (of.transpose() * c * of_b);
+  });
 }
 
 template <int Dim>
@@ -77,15 +87,17 @@ class StepEquations {
 
  public:
   StepEquations(const Model<Dim>& m, const StepUnknowns<Dim>& u, double step, const std::vector<Motion<Dim>>& start,
-                const std::vector<Load<Dim>>& l, std::vector<StepPoint<Dim>>& p, std::vector<MeanMotion<Dim>>& y)
+                const std::vector<Load<Dim>>& l, const std::vector<StepPlate<Dim>>& q, std::vector<StepPoint<Dim>>& p,
+                std::vector<MeanMotion<Dim>>& y)
       : model(m),
         unknowns(u),
         h(step),
         before(start),
         loads(l),
+        plates(q),
         points(p),
         mean(y),
-        matrix(laid_out<Dim>(u, p)),
+        matrix(laid_out<Dim>(u, p, q)),
         plan(neighbours_in(matrix)) {}
 
   StepSolution solve() {
@@ -131,13 +143,28 @@ class StepEquations {
           linearise<Dim>(p.law, p.normal, p.from, p.overlap_after(motion), p.slip(motion), p.force);
       errors = std::max({errors, line.overlap_error, line.slip_error});
       const Vector<Dim> force = p.force.normal * p.normal + p.force.shear + line.change;
-      const int a = unknowns.place[p.body_a], b = unknowns.place[p.body_b];
-      if (a >= 0) rhs.segment<F>(F * a) -= h * (velocity_by_motion<Dim>(p.arm_a).transpose() * force);
-      if (b >= 0) rhs.segment<F>(F * b) += h * (velocity_by_motion<Dim>(p.arm_b).transpose() * force);
+      each_loaded(unknowns, p, p.arm_a, p.arm_b, [&](int row, double sign, const Vector<Dim>& arm) {
+        rhs.segment<F>(F * row) += sign * h * (velocity_by_motion<Dim>(arm).transpose() * force);
+      });
       add_pair<Dim>(unknowns, p, p.arm_a, p.arm_b, line.slope, h * h, matrix);
     }
+    for (const StepPlate<Dim>& p : plates)
+      add_plate(p, rhs);
     restrain(unknowns, matrix, rhs);
     return rhs;
+  }
+
+  // it loads the side's body alone
+  void add_plate(const StepPlate<Dim>& p, Eigen::VectorXd& rhs) {
+    const int row = unknowns.place[p.face->body];
+    if (row < 0) return;
+    const PlateStep<Dim> step = p.step(mean, h);
+    const PointMotion<Dim> of = velocity_by_motion<Dim>(p.arm);
+    rhs.segment<F>(F * row) += h * (of.transpose() * step.mean_force);
+    matrix.at(row, row) -= h * (of.transpose() * step.by_velocity * of);
+    const int column = p.face->column >= 0 ? unknowns.place[p.face->column] : -1;
+    if (column >= 0)
+      matrix.at(row, column) += h * (of.transpose() * step.by_velocity * velocity_by_motion<Dim>(p.arm_of_column));
   }
 
   // m: the largest change of a body's motion over the step, and what was left of the points' equations, over the step's
@@ -155,6 +182,8 @@ class StepEquations {
       changed = std::max(changed, h * (more[b].velocity.norm() + radius * more[b].spin.norm()));
       moved = std::max(moved, h * (mean[b].velocity.norm() + radius * mean[b].spin.norm()));
     }
+    repeat_images(model, more);
+    repeat_images(model, mean);
     for (std::size_t k = 0; k < points.size(); ++k) {
       StepPoint<Dim>& p = points[k];
       const Vector<Dim> way = p.motion(more), df = lines[k].change - lines[k].slope * way;
@@ -171,6 +200,7 @@ class StepEquations {
   const double h;
   const std::vector<Motion<Dim>>& before;
   const std::vector<Load<Dim>>& loads;
+  const std::vector<StepPlate<Dim>>& plates;
   std::vector<StepPoint<Dim>>& points;
   std::vector<MeanMotion<Dim>>& mean;
   BlockMatrix<F> matrix;
@@ -182,12 +212,20 @@ class StepEquations {
 }  // namespace
 
 template <int Dim>
-StepUnknowns<Dim>::StepUnknowns(const Model<Dim>& model) : place(model.bodies.size(), -1) {
+StepUnknowns<Dim>::StepUnknowns(const Model<Dim>& model)
+    : place(model.bodies.size(), -1), beside(model.bodies.size(), -1), outside(model.bodies.size(), false) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
     if (!model.bodies[b].fixed && model.bodies[b].present) {
       place[b] = static_cast<int>(bodies.size());
       bodies.push_back(static_cast<int>(b));
     }
+  moved = place;
+  for (const ColumnImage<Dim>& image : model.column_images) {
+    moved[image.body] = place[image.of_column];
+    outside[image.body] = image.outside;
+  }
+  for (const ColumnBody<Dim>& column : model.column_bodies)
+    beside[column.body] = place[column.of_side];
   free.resize(freedoms<Dim> * static_cast<Eigen::Index>(bodies.size()));
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const Body<Dim>& body = model.bodies[bodies[i]];
@@ -197,10 +235,17 @@ StepUnknowns<Dim>::StepUnknowns(const Model<Dim>& model) : place(model.bodies.si
 }
 
 template <int Dim>
+void repeat_images(const Model<Dim>& model, std::vector<MeanMotion<Dim>>& mean) {
+  for (const ColumnImage<Dim>& image : model.column_images)
+    mean[image.body] = mean[image.of_column];
+}
+
+template <int Dim>
 StepSolution solve_step(const Model<Dim>& model, const StepUnknowns<Dim>& unknowns, double h,
                         const std::vector<Motion<Dim>>& before, const std::vector<Load<Dim>>& loads,
-                        std::vector<StepPoint<Dim>>& points, std::vector<MeanMotion<Dim>>& mean) {
-  return StepEquations<Dim>(model, unknowns, h, before, loads, points, mean).solve();
+                        const std::vector<StepPlate<Dim>>& plates, std::vector<StepPoint<Dim>>& points,
+                        std::vector<MeanMotion<Dim>>& mean) {
+  return StepEquations<Dim>(model, unknowns, h, before, loads, plates, points, mean).solve();
 }
 
 namespace {
@@ -245,7 +290,7 @@ template <int Dim>
 Calmed calm_unresolved(const Model<Dim>& model, const StepUnknowns<Dim>& unknowns, double h,
                        const std::vector<ClosedPoint<Dim>>& closed, std::vector<Motion<Dim>>& after) {
   constexpr int F = freedoms<Dim>, S = spin_freedoms<Dim>;
-  BlockMatrix<F> matrix = laid_out<Dim>(unknowns, closed);
+  BlockMatrix<F> matrix = laid_out<Dim>(unknowns, closed, {});
   for (auto& block : matrix.blocks)
     block.setZero();
   // M (v' - v) + h²/4 Σ χ Bᵀ K B v' = 0
@@ -258,14 +303,14 @@ Calmed calm_unresolved(const Model<Dim>& model, const StepUnknowns<Dim>& unknown
   }
   for (const ClosedPoint<Dim>& c : closed) {
     const Vector<Dim> impulse = impulse_of(model, after, c, h);
-    const int a = unknowns.place[c.body_a], b = unknowns.place[c.body_b];
-    if (a >= 0) rhs.segment<F>(F * a) -= velocity_by_motion<Dim>(c.arm_a).transpose() * impulse;
-    if (b >= 0) rhs.segment<F>(F * b) += velocity_by_motion<Dim>(c.arm_b).transpose() * impulse;
+    each_loaded(unknowns, c, c.arm_a, c.arm_b, [&](int row, double sign, const Vector<Dim>& arm) {
+      rhs.segment<F>(F * row) += sign * (velocity_by_motion<Dim>(arm).transpose() * impulse);
+    });
     add_pair<Dim>(unknowns, c, c.arm_a, c.arm_b, mass_of(c, h), 1, matrix);
   }
   restrain(unknowns, matrix, rhs);
   const EliminationPlan plan(neighbours_in(matrix));
-  CompleteFactors<F> factors(plan, true);
+  CompleteFactors<F> factors(plan, model.column_images.empty());
   if (!factors.factorise(matrix)) return {};
   const Eigen::VectorXd change = factors.solve(rhs);
   // (v·Mv - v'·Mv')/2 = (v - v')·M(v - v')/2 + v'·C v', C of the points
@@ -280,8 +325,17 @@ Calmed calm_unresolved(const Model<Dim>& model, const StepUnknowns<Dim>& unknown
     m.velocity += change.segment<Dim>(F * i);
     m.angular_momentum = angular_momentum(model.bodies[b], m.rotation, spin);
   }
+  for (const ColumnImage<Dim>& image : model.column_images) {
+    Motion<Dim>& m = after[image.body];
+    m.velocity = after[image.of_column].velocity;
+    m.angular_momentum = angular_momentum(model.bodies[image.body], m.rotation,
+                                          angular_velocity(model.bodies[image.of_column], after[image.of_column]));
+  }
   for (const ClosedPoint<Dim>& c : closed) {
     const Vector<Dim> impulse = impulse_of(model, after, c, h);
+    each_beside(unknowns, c, c.arm_a, c.arm_b, [&](int unknown, double sign, const Vector<Dim>& arm) {
+      calmed.beside += sign * impulse.dot(velocity_of_point(model, after, unknowns.bodies[unknown], arm));
+    });
     calmed.taken += impulse.dot(velocity_of_point(model, after, c.body_a, c.arm_a) -
                                 velocity_of_point(model, after, c.body_b, c.arm_b));
     calmed.driven += work_of_restraint<Dim>(model.bodies[c.body_b], after[c.body_b], c.arm_b, impulse) +
@@ -290,12 +344,14 @@ Calmed calm_unresolved(const Model<Dim>& model, const StepUnknowns<Dim>& unknown
   return calmed;
 }
 
-#define VOUSSOIR_INSTANTIATE(Dim)                                                                       \
-  template struct StepUnknowns<Dim>;                                                                    \
-  template StepSolution solve_step<Dim>(const Model<Dim>&, const StepUnknowns<Dim>&, double,            \
-                                        const std::vector<Motion<Dim>>&, const std::vector<Load<Dim>>&, \
-                                        std::vector<StepPoint<Dim>>&, std::vector<MeanMotion<Dim>>&);   \
-  template Calmed calm_unresolved<Dim>(const Model<Dim>&, const StepUnknowns<Dim>&, double,             \
+#define VOUSSOIR_INSTANTIATE(Dim)                                                                         \
+  template struct StepUnknowns<Dim>;                                                                      \
+  template StepSolution solve_step<Dim>(const Model<Dim>&, const StepUnknowns<Dim>&, double,              \
+                                        const std::vector<Motion<Dim>>&, const std::vector<Load<Dim>>&,   \
+                                        const std::vector<StepPlate<Dim>>&, std::vector<StepPoint<Dim>>&, \
+                                        std::vector<MeanMotion<Dim>>&);                                   \
+  template void repeat_images<Dim>(const Model<Dim>&, std::vector<MeanMotion<Dim>>&);                     \
+  template Calmed calm_unresolved<Dim>(const Model<Dim>&, const StepUnknowns<Dim>&, double,               \
                                        const std::vector<ClosedPoint<Dim>>&, std::vector<Motion<Dim>>&);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)

@@ -13,7 +13,7 @@ PlateStep<Dim> step_of(const QuietPlate<Dim>& constants, const Vector<Dim>& face
   for (int k = 0; k < Dim; ++k) {
     const double K = constants.stiffness[k], C = constants.impedance[k], y = 0.5 * h * K / C;
     path[k] = h * (K / C * (apart[k] + 0.5 * h * v[k]) + 2 * in[k]) / (1 + y);
-    force[k] = -K * (apart[k] + 0.5 * h * v[k] - 0.5 * path[k]);
+    force[k] = -K * (apart[k] + 0.5 * h * v[k] - h * in[k]) / (1 + y);
     slope[k] = -0.5 * h * K / (1 + y);
     step.came_in += 2 * C * in[k] * path[k];
     step.went_out += C * path[k] * path[k] / h;

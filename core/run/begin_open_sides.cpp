@@ -132,8 +132,7 @@ void take_faces(const Model<Dim>& model, const Contact<Dim>& from, Contact<Dim>&
   c.geometry.face_b = face_like(b, from.geometry.face_b, own_b);
   if (from.divided_face < 0) return;
   const bool of_first = from.divided_face < count;
-  const int face =
-      of_first ? face_like(a, from.divided_face, own_a) : face_like(b, from.divided_face - count, own_b);
+  const int face = of_first ? face_like(a, from.divided_face, own_a) : face_like(b, from.divided_face - count, own_b);
   c.divided_face = face < 0 || of_first ? face : own_count + face;
 }
 
@@ -276,9 +275,8 @@ std::vector<std::string> creep_of(const StageInForce<Dim>& stage, const State<Di
     const Vector<Dim> creep = impulse.cwiseQuotient(impedance);
     if (!(creep.norm() > std::max(of_block * size, of_wave * entered))) continue;
     lines.push_back(
-        fmt::format("stage {}: the quiet side {} has crept by ({:.3g}) m: a load that changed since it opened finds no "
-                    "spring there; "
-                    "change loads before, or hold the side",
+        fmt::format("stage {}: the quiet side {} has crept by ({:.3g}) m: it has no spring against loads that change "
+                    "after it opens, or that joints which slip no longer carry; change loads before, or hold the side",
                     stage.plan().name, model.open_sides[s].name, fmt::join(creep, ", ")));
   }
   return lines;

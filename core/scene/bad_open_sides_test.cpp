@@ -68,7 +68,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "stage.waves.boundary.1.free_field", "remove one"},
         BadSide{"free_field_below", bottom + "free_field = {}\n", "stage.waves.boundary.1.free_field", "quiet = {}"},
         BadSide{"negative_impedance", bottom + "quiet = { normal_impedance = -5e6 }\n",
-                "stage.waves.boundary.1.quiet.normal_impedance = -5e6", "must"},
+                "stage.waves.boundary.1.quiet.normal_impedance = -5e+06", "must"},
         BadSide{"within", bottom + "quiet = { input = \"within\", velocity = [1, 0] }\n",
                 "stage.waves.boundary.1.quiet.input", "rigid base"},
         BadSide{"no_input", bottom + "quiet = { velocity = [1, 0] }\n", "stage.waves.boundary.1.quiet.input is missing",
@@ -92,7 +92,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "stage.waves.boundary.2.side", "open already"},
         BadSide{"one_fixed_block",
                 "[[joints]]\nname = \"floor\"\ndip = 0\npoint = [0, 0.5]\nkind = \"boundary\"\nfixed_side = "
-                "\"below\"\n[[joints]]\nname = \"cross\"\ndip = 90\npoint = [0.8, 0]\n" +
+                "\"below\"\n[[joints]]\nname = \"cross\"\ndip = 90\ndip_direction = 90\npoint = [0.8, 0]\n" +
                     bottom + "quiet = {}\n",
                 "stage.waves.boundary.1.side", "end domain.box at y = 0.5"},
         BadSide{"column_that_does_not_repeat",

@@ -38,7 +38,7 @@ const std::string layers =
     "[[joints]]\nname = \"bed\"\ndip = 0\npoint = [0, 0.5]\n[[repeat]]\nname = \"beds\"\njoints = "
     "[\"bed\"]\ncount = 11\nshift = [0, 0.5]\n";
 const std::string grid = layers +
-                         "[[joints]]\nname = \"cross\"\ndip = 90\npoint = [0.5, 0]\n[[repeat]]\nname = "
+                         "[[joints]]\nname = \"cross\"\ndip = 90\ndip_direction = 90\npoint = [0.5, 0]\n[[repeat]]\nname = "
                          "\"crosses\"\njoints = [\"cross\"]\ncount = 7\nshift = [0.5, 0]\n";
 
 TEST(Medium, LayersShearAlongOneFamily) {

@@ -401,32 +401,15 @@ samples = { values = [0, 0.1, 0, -0.1, 0], interval_s = 10, unit = "g", quantity
 inline const std::string of_waves = R"(dimension = 3
 density = 2000
 domain = { box = { min = [0, 0, 0], max = [1, 1, 3] } }
-[[joint_properties]]
-name = "rock"
-normal_stiffness = 1e9
-shear_stiffness = 1e8
-friction_deg = 35
-[[joints]]
-name = "A"
-dip = 0
-point = [0, 0, 1]
-[[joints]]
-name = "B"
-dip = 0
-point = [0, 0, 2]
+joint_properties = [{ name = "rock", normal_stiffness = 1e9, shear_stiffness = 1e8, friction_deg = 35 }]
+joints = [{ name = "A", dip = 0, point = [0, 0, 1] }, { name = "B", dip = 0, point = [0, 0, 2] }]
 [[stage]]
 name = "waves"
 kind = "run"
 duration_s = 1
 [[stage.boundary]]
 side = ["bottom"]
-[stage.boundary.quiet]
-normal_impedance = 5e6
-shear_impedance = 3e6
-normal_stiffness = 1e9
-shear_stiffness = 5e8
-input = "upgoing"
-velocity = [1, 0, 0]
+quiet = { normal_impedance = 5e6, shear_impedance = 3e6, normal_stiffness = 1e9, shear_stiffness = 5e8, input = "upgoing", velocity = [1, 0, 0] }
 [[stage.boundary]]
 side = ["west"]
 free_field = { normal_impedance = 5e6, shear_impedance = 3e6, normal_stiffness = 1e9, shear_stiffness = 5e8 }
