@@ -13,19 +13,44 @@
 #include "core/load/response_spectrum.hpp"
 #include "core/output/record_output.hpp"
 #include "core/scene/judge_values.hpp"
+#include "core/stage/medium.hpp"
 
 namespace voussoir {
 namespace {
 
-// Shear waves through blocks of one width: c = √(k a/ρ). Each block is rigid, so that short waves do not pass.
+// Shear waves that rise through blocks of one width: of the slowest by the joints of a block with a level top, as quiet
+// sides take it, or else c = √(k a/ρ) of one family of joints. Each block is rigid, so that short waves do not pass.
 struct BlockWaves {
-  double stiffness = 0, width = 0, density = 0;  // Pa/m, m, kg/m³
+  double stiffness = 0, width = 0, density = 0;                // Pa/m, m, kg/m³
+  double of_joints = std::numeric_limits<double>::infinity();  // m/s; infinity: not known
   std::string properties;
   std::string unknown;  // why there is no such number
 
-  double speed() const { return std::sqrt(stiffness * width / density); }
+  double speed() const { return std::isfinite(of_joints) ? of_joints : std::sqrt(stiffness * width / density); }
   double frequency(double blocks_per_wave) const { return speed() / (blocks_per_wave * width); }
+  std::string formula() const {
+    if (std::isfinite(of_joints)) return fmt::format("c = {:.4g} m/s, of the joints' compliances together", of_joints);
+    return fmt::format("c = √(k a/ρ) = {:.4g} m/s, k {:g} Pa/m of '{}', ρ {:g} kg/m³", speed(), stiffness, properties,
+                       density);
+  }
 };
+
+// m/s: of shear waves that rise through a block with a level top that a joint made; infinity: it has none
+template <int Dim>
+double rising_speed(const Model<Dim>& model, int body) {
+  const Polytope<Dim>& part = model.bodies[body].parts.front();
+  double slowest = std::numeric_limits<double>::infinity();
+  for (std::size_t f = 0; f < part.faces.size(); ++f) {
+    if (part.joints[f] == no_joint || part.faces[f].normal[Dim - 1] < 1 - 1e-9) continue;
+    try {
+      const Vector<Dim> modulus = wave_stiffness(model, SideFace{body, 0, static_cast<int>(f)}).modulus;
+      const double density = model.bodies[body].mass / volume(model.bodies[body]);
+      slowest = std::sqrt(modulus.template head<Dim - 1>().minCoeff() / density);
+    } catch (const ClosedSide&) {  // joints that do not yield to such waves
+    }
+  }
+  return slowest;
+}
 
 // of the widest block and the softest joint, whose waves are the shortest
 template <int Dim>
@@ -41,6 +66,8 @@ BlockWaves waves_of(const Model<Dim>& model) {
     narrowest = std::min(narrowest, width);
     waves.width = std::max(waves.width, width);
     waves.density = std::max(waves.density, body.mass / volume(body));
+    const int number = static_cast<int>(&body - model.bodies.data());
+    if (body.parts.size() == 1) waves.of_joints = std::min(waves.of_joints, rising_speed(model, number));
   }
   if (blocks < 2) {
     waves.unknown = "one free block has no waves";
@@ -75,9 +102,7 @@ void print_waves(const BlockWaves& waves, const GroundMotion& motion) {
     parts.push_back(fmt::format("{:g} ({} %) up to {:.3g} Hz, above which {:.2g} % of its energy is", blocks, returned,
                                 waves.frequency(blocks), 100 * share_above(spectrum, waves.frequency(blocks))));
   print_line("", fmt::format("blocks a wavelength: {}", fmt::join(parts, "; ")));
-  print_line("", fmt::format("  by c = √(k a/ρ) = {:.4g} m/s of shear waves, k {:g} Pa/m of '{}', a {:.3g} m, ρ {:g} "
-                             "kg/m³",
-                             waves.speed(), waves.stiffness, waves.properties, waves.width, waves.density));
+  print_line("", fmt::format("  shear waves by {}; a {:.3g} m", waves.formula(), waves.width));
 }
 
 void print_measures(const RecordMeasures& m) {
