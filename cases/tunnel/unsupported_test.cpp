@@ -41,7 +41,7 @@ void check_lower_friction(CaseReport& report, const Opening& lower, const Openin
 // The Long ones compare openings of the same blocks with more and with less friction.
 TEST(Unsupported, TheRoofLosesBlocks) {
   CaseReport report("tunnel", {"whether opening 11 loses blocks above the springline"});
-  const Opening opening = dig(row(11), 0, 0.4, "opening_11");
+  const Opening opening = dig(row(11), 0, 0.4, "opening_11", {"time.fraction=0.9"});  // the Long ones: 0.5, and 0.2
   report.report("rock lost in 0.4 s, opening 11", "m2", opening.lost_area(), "roof: " + words(opening, Place::roof),
                 cost(opening));
   report.record({"whether opening 11 loses blocks above the springline",
