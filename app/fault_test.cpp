@@ -60,7 +60,7 @@ class Faults : public FaultTest {
 // ---- kills --------------------------------------------------------------------------------------------------------
 
 // Kills at random moments, between a hundredth of the run's own time and an eighth of it, run after run until there
-// were enough.
+// were enough. Every other one counts from the moment at which there is a checkpoint, however slow the machine.
 void Faults::survive_kills(const std::string& text, int wanted) const {
   const std::string scene = write("scene.toml", text);
   const Clock::time_point began = Clock::now();
@@ -80,6 +80,8 @@ void Faults::survive_kills(const std::string& text, int wanted) const {
       launch.arguments.insert(launch.arguments.end(), {"--threads", starts % 3 == 2 ? "2" : "1"});
       Process process = start(launch);
       if (kills < wanted) {
+        if (kills % 2 == 0)
+          ASSERT_TRUE(wait_until([&] { return fs::exists(out + "/checkpoint") || process.has_ended(); }));
         std::this_thread::sleep_for(Seconds(whole * fraction(random)));
         process.send(SIGKILL);
       }

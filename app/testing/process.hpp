@@ -79,6 +79,12 @@ class Process {
   int pid() const { return pid_; }
   void send(int signal) const { ::kill(pid_, signal); }
 
+  // by itself or by a signal; wait() still has to collect it
+  bool has_ended() const {
+    siginfo_t info{};
+    return ::waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == pid_;
+  }
+
   Ended wait() {
     int status = 0;
     ::waitpid(pid_, &status, 0);
