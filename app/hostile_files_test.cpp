@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <span>
 
 #include "app/base/run_scene.hpp"
 #include "app/testing/program.hpp"
@@ -336,13 +337,16 @@ TEST_F(HostileFiles, TextIsCheckedAtEveryInput) {
 
 TEST_F(HostileFiles, OptionsAreFiniteNumbersAndNamesAreNotEmpty) {
   std::vector<Trial> trials;
-  for (const char* number : {"nan", "-nan", "NAN", "inf", "-inf", "1e999"}) {
+  // all of these at the first option, which all read by the same function; three at each of the others
+  for (const char* number : {"nan", "-inf", "1e999", "-nan", "NAN", "inf"}) {
     const std::pair<const char*, const char*> options[] = {
         {"run scene.toml --out out", "--checkpoint-seconds"},  {"run scene.toml --out out", "--checkpoint-steps"},
         {"joint-test scene.toml --out out", "--stress"},       {"joint-test scene.toml --out out", "--slip"},
         {"joint-test scene.toml --out out", "--surroundings"}, {"joint-test scene.toml --out out", "--dilation"},
         {"study study.toml --out out", "--time-limit"}};
-    for (const auto& [command, option] : options)
+    const bool is_spelling =
+        number == std::string("-nan") || number == std::string("NAN") || number == std::string("inf");
+    for (const auto& [command, option] : std::span(options).first(is_spelling ? 1 : std::size(options)))
       trials.push_back({"a number", fmt::format("{} {}={}", command, option, number), option});
   }
   const std::pair<const char*, const char*> whole[] = {{"run scene.toml --out out", "--threads"},

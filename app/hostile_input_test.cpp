@@ -30,7 +30,12 @@ class Hostile : public Program {
     write("scene.toml", text);
     refused("scene.toml", part);
   }
+  // texts of up to 15 MB, divided by `share`
+  void sizes_are_refused(int share) const;
+  void tables_and_meshes_are_refused(int share) const;
 };
+
+using HostileLong = Hostile;
 
 std::string repeated(const std::string& text, int count) {
   std::string all;
@@ -40,7 +45,7 @@ std::string repeated(const std::string& text, int count) {
   return all;
 }
 
-TEST_F(Hostile, SizesAreRefusedBeforeTheyAreAllocated) {
+void Hostile::sizes_are_refused(int share) const {
   write("sparse.toml", "");
   fs::resize_file(folder_ / "sparse.toml", std::uintmax_t{10} << 30);
   refused("sparse.toml", "larger than 16 MB");
@@ -54,17 +59,25 @@ TEST_F(Hostile, SizesAreRefusedBeforeTheyAreAllocated) {
   refused_text("density = " + repeated("1", 1'000'000), "too long");
   refused_text("density = 0." + repeated("1", 1'000'000), "length");
   refused_text("density = 1e" + repeated("1", 1'000'000), "scene.toml:1");
-  refused_text("dimension = 3\ntitle = \"" + repeated("a", 10'000'000) + "\"", "at most 1000 characters");
-  refused_text("dimension = 3\n" + repeated("a", 10'000'000) + " = 1", "no such key");
-  refused_text("a = [" + repeated("1,", 7'000'000) + "]", "more than a million values");
+  refused_text("dimension = 3\ntitle = \"" + repeated("a", 10'000'000 / share) + "\"", "at most 1000 characters");
+  refused_text("dimension = 3\n" + repeated("a", 10'000'000 / share) + " = 1", "no such key");
+  refused_text("a = [" + repeated("1,", 7'000'000 / share) + "]", "more than a million values");
   refused_text(repeated("[[fix]]\n", 1'500'000), "more than a million values");
   refused_text("dimension = 3\n" + repeated("[[fix]]\n", 400'000), "fix.1.below is missing");
-  refused_text(repeated("\n", 15'000'000), "dimension is missing");
+  refused_text(repeated("\n", 15'000'000 / share), "dimension is missing");
   refused_text("dimension = 3\n[[blocks]]\nname = \"a\"\nvertices = [" + repeated("[0,0,0],", 201) + "]",
                "at most 200 points");
   refused_text("dimension = 3\n[[blocks]]\nname = \"a\"\nplanes = [" + repeated("{},", 201) + "]",
                "at most 200 planes");
   refused_text("dimension = 3\n" + repeated("[[joints]]\n", 10'001), "at most 10000 joints");
+}
+
+TEST_F(Hostile, SizesAreRefusedBeforeTheyAreAllocated) {
+  sizes_are_refused(5);
+}
+
+TEST_F(HostileLong, SizesAreRefusedBeforeTheyAreAllocated) {
+  sizes_are_refused(1);
 }
 
 TEST_F(Hostile, OnlyRegularFilesAreScenes) {
@@ -126,7 +139,7 @@ TEST_F(Hostile, BasesChainSixteenDeepAndEndInNoCircle) {
 }
 
 // files of joints and blocks that a scene names
-TEST_F(Hostile, TablesAndMeshesAreRefusedWithTheirPlace) {
+void Hostile::tables_and_meshes_are_refused(int share) const {
   const std::string stage =
       "joint_properties = [{ name = \"r\", normal_stiffness = 1e9, shear_stiffness = 1e8, friction_deg = 30 }]\n"
       "stage = [{ name = \"s\", kind = \"settle\" }]\n";
@@ -138,27 +151,28 @@ TEST_F(Hostile, TablesAndMeshesAreRefusedWithTheirPlace) {
   const std::string joints = "dip_deg,dip_direction_deg,x_m,y_m,z_m\n";
   const std::string planes = "block,normal_x,normal_y,normal_z,offset_m\n";
   refused_file("joints_file", "a.csv", "", "a.csv:1: is empty");
-  refused_file("joints_file", "a.csv", std::string(1'000'000, '\0'), "a.csv:1:1: a control character");
-  refused_file("joints_file", "a.csv", std::string(15'000'000, ','), "a.csv:1:201: more than 200 columns");
-  refused_file("joints_file", "a.csv", std::string(15'000'000, '"'), "a.csv:1:");
-  refused_file("joints_file", "a.csv", repeated("\n", 15'000'000), "a.csv:1: is empty");
-  refused_file("joints_file", "a.csv", joints + repeated("1,2,3,4,5\n", 1'000'000),
+  refused_file("joints_file", "a.csv", std::string(1'000'000 / share, '\0'), "a.csv:1:1: a control character");
+  refused_file("joints_file", "a.csv", std::string(15'000'000 / share, ','), "a.csv:1:201: more than 200 columns");
+  refused_file("joints_file", "a.csv", std::string(15'000'000 / share, '"'), "a.csv:1:");
+  refused_file("joints_file", "a.csv", repeated("\n", 15'000'000 / share), "a.csv:1: is empty");
+  refused_file("joints_file", "a.csv", joints + repeated("1,2,3,4,5\n", 1'000'000 / share),
                "a.csv:10002: more than 10000 rows");
-  refused_file("joints_file", "a.csv", joints + "1,2,3,4," + repeated("1", 10'000'000) + "\n",
+  refused_file("joints_file", "a.csv", joints + "1,2,3,4," + repeated("1", 10'000'000 / share) + "\n",
                "a.csv:2:9: z_m = '1111");
   refused_file("joints_file", "a.csv", joints + "1,2,3,4\n", "a.csv:2: has 4 cells");
   refused_file("joints_file", "a.csv", joints + "1e400,2,3,4,5\n", "a.csv:2:1: dip_deg = '1e400'");
-  refused_file("blocks_file", "b.csv", planes + repeated("a,1,0,0,1\n", 1'000'000),
+  refused_file("blocks_file", "b.csv", planes + repeated("a,1,0,0,1\n", 1'000'000 / share),
                "b.csv:100002: more than 100000 rows");
   refused_file("blocks_file", "b.csv", planes + repeated("a,1,0,0,1\n", 300), "at most 200 planes");
   refused_file("blocks_file", "b.csv", planes + "a,1,0,0,1\n", "b.csv:2: blocks.a.planes");
   refused_file("blocks_file", "b.csv", planes + "a,0,0,0,1\n", "b.csv:2: blocks.a.planes.1.normal");
-  refused_file("blocks_file", "b.obj", repeated("v 0 0 0\n", 1'500'000), "b.obj:1: contains no face");
-  refused_file("blocks_file", "b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + repeated("f 1 2 3\n", 1'500'000),
+  refused_file("blocks_file", "b.obj", repeated("v 0 0 0\n", 1'500'000 / share), "b.obj:1: contains no face");
+  refused_file("blocks_file", "b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + repeated("f 1 2 3\n", 1'500'000 / share),
                "b.obj:5004: more than 5000 facets");
-  refused_file("blocks_file", "b.obj", "f" + repeated(" 1", 7'000'000), "b.obj:1:2001: more than 1000 words");
+  refused_file("blocks_file", "b.obj", "f" + repeated(" 1", 7'000'000 / share), "b.obj:1:2001: more than 1000 words");
   refused_file("blocks_file", "b.obj", "f -9223372036854775808 1 1\n", "b.obj:1:3: corner");
-  refused_file("blocks_file", "b.stl", "solid" + repeated(" a", 7'000'000), "b.stl:1:2005: more than 1000 words");
+  refused_file("blocks_file", "b.stl", "solid" + repeated(" a", 7'000'000 / share),
+               "b.stl:1:2005: more than 1000 words");
   refused_file("blocks_file", "b.stl", std::string(80, ' ') + "\xff\xff\xff\xff" + std::string(50, 'x'), "is no STL");
   refused_file("blocks_file", "b.stl", std::string(80, '\0') + std::string("\1\0\0\0", 4) + std::string(50, '\xff'),
                "facet 1: a coordinate is not finite");
@@ -170,6 +184,14 @@ TEST_F(Hostile, TablesAndMeshesAreRefusedWithTheirPlace) {
   write("sparse.csv", "");
   fs::resize_file(folder_ / "sparse.csv", std::uintmax_t{10} << 30);
   refused_text("dimension = 3\njoints_file = \"sparse.csv\"\n", "larger than 16 MB");
+}
+
+TEST_F(Hostile, TablesAndMeshesAreRefusedWithTheirPlace) {
+  tables_and_meshes_are_refused(5);
+}
+
+TEST_F(HostileLong, TablesAndMeshesAreRefusedWithTheirPlace) {
+  tables_and_meshes_are_refused(1);
 }
 
 TEST_F(Hostile, JointSetsOfTooManyJointsAreRefusedBeforeTheyAreDrawn) {

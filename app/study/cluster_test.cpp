@@ -42,7 +42,7 @@ class Watch {
 // the rows of planned_study.hpp, and three that run long enough to be disturbed
 class Slurm : public PlannedStudy {
  protected:
-  static constexpr int slow_rows = 3, different_runs = 41 + slow_rows;
+  static constexpr int slow_rows = 3, different_runs = study_runs + slow_rows;
   const std::string array_ = VOUSSOIR_SOURCE_DIR "/examples/cluster/array.sh";
 
   Slurm() {

@@ -57,7 +57,7 @@ TEST_F(StudyFaults, AFolderThatMustNotBeWrittenIsSeven) {
   launch.arguments = {"study", "gather", out};
   expect_one_line(run(launch), 7, "cannot write '" + out);
   launch.arguments = {"study", "status", out};
-  EXPECT_NE(run(launch).out.find("4 of 43 rows done\n"), std::string::npos);
+  EXPECT_NE(run(launch).out.find("4 of 19 rows done\n"), std::string::npos);
   expect_equal(contents_of(out), before, "a folder that must not be written");
   for (const std::string& name : {out, out + "/runs"})
     fs::permissions(name, fs::perms(0755));
@@ -91,10 +91,10 @@ TEST_F(StudyFaults, ARowHasOneWorkerAtATime) {
   const std::string name = fmt::format("process {} ", first.pid());
   const Ended second = Process(VOUSSOIR_PROGRAM, {.arguments = {"study", "run", out}}, at("second")).wait();
   expect_one_line(second, 3, "5 by " + name);
-  EXPECT_NE(second.out.find("43 rows, 0 failed\n"), std::string::npos) << second.out;
+  EXPECT_NE(second.out.find("19 rows, 0 failed\n"), std::string::npos) << second.out;
   const std::string status =
       Process(VOUSSOIR_PROGRAM, {.arguments = {"study", "status", out}}, at("second")).wait().out;
-  EXPECT_TRUE(status.starts_with("42 of 43 rows done\nrunning: 5 by " + name)) << status;
+  EXPECT_TRUE(status.starts_with("18 of 19 rows done\nrunning: 5 by " + name)) << status;
   EXPECT_TRUE(status.ends_with("not run: none\n")) << status;
 
   // a worker prevents others from planning the study again
@@ -154,13 +154,13 @@ TEST_F(StudyFaults, AnotherProgramIsRefusedUnlessRequested) {
   Launch launch{.arguments = {"study", "run", out}};
   expect_one_line(Process(other, launch, at("caught")).wait(), 2, "was planned by another program");
   EXPECT_FALSE(fs::exists(out + "/runs"));
-  EXPECT_EQ(study({"run", out, "--rows", "1-20"}).code, 0);
+  EXPECT_EQ(study({"run", out, "--rows", "1-9"}).code, 0);
   launch.arguments.push_back("--any-program");
   EXPECT_EQ(Process(other, launch, at("caught")).wait().code, 0);
   const Ended gathered = study({"gather", out});
   EXPECT_EQ(gathered.code, 0);
   EXPECT_EQ(table("out"), whole);
-  EXPECT_NE(gathered.out.find("rows 1-20,32 computed by the program that planned them, "), std::string::npos)
+  EXPECT_NE(gathered.out.find("rows 1-9,13 computed by the program that planned them, "), std::string::npos)
       << gathered.out;
   EXPECT_NE(gathered.out.find("computed by program " + digest(read(other)) + ", "), std::string::npos) << gathered.out;
   expect_one_line(gathered, 0, "warning: 2 programs computed these rows");
@@ -206,7 +206,7 @@ class StudyKills : public PlannedStudy {
         EXPECT_TRUE(disturbed.contains(name) && disturbed.at(name) == text) << name;
         ++compared;
       }
-    EXPECT_EQ(compared, 2 * 41);
+    EXPECT_EQ(compared, 2 * study_runs);
     for (const auto& [name, text] : disturbed)
       EXPECT_EQ(name.find("voussoir-part"), std::string::npos) << name;
   }

@@ -317,7 +317,7 @@ TEST_F(Study, ARunThatHangsLosesOneSetting) {
 TEST_F(Study, ARunThatIsKilledLosesOneSetting) {
   write("study.toml", endless);
   // the processor time that each process may take
-  const Ended ended = run("study study.toml --out out --jobs 2", "ulimit -t 2 && ");
+  const Ended ended = run("study study.toml --out out --jobs 2", "ulimit -t 1 && ");
   EXPECT_EQ(ended.code, 1) << ended.err;
   ASSERT_EQ(rows().size(), 4u);
   EXPECT_NE(rows()[2].find("ended by signal"), std::string::npos) << rows()[2];

@@ -7,27 +7,26 @@
 
 namespace voussoir {
 
-// 43 rows, one of them twice as stiff as the scene itself, some the same run under two names
+// 19 rows, one of them twice as stiff as the scene itself, some the same run under two names
 inline const char* const study_plan = R"(
 scene = "scene.toml"
 quantity = "top_displacement_z"
 [[sweep]]
 name = "stiffness"
 key = "joint_properties.rock.normal_stiffness"
-values = [1.0e8, 1.1e8, 1.2e8, 1.3e8, 1.4e8, 1.5e8, 1.6e8, 1.7e8, 1.8e8, 1.9e8,
-          2.0e8, 2.1e8, 2.2e8, 2.3e8, 2.4e8, 2.5e8, 2.6e8, 2.7e8, 2.8e8, 2.9e8]
+values = [1.0e8, 1.1e8, 1.2e8, 1.3e8, 1.4e8, 1.5e8, 1.7e8, 2.0e8]
 extrapolate = { power = 1 }
 [[sweep]]
 name = "density"
 key = "density"
-values = [1000, 1100, 1200, 1300, 1400, 1500, 1600, 1700, 1800, 1900,
-          2000, 2100, 2200, 2300, 2400, 2500, 2600, 2700, 2800, 2900]
+values = [1700, 1800, 1900, 2000, 2100, 2200, 2300, 2400]
 [[sweep]]
 name = "damping"
 key = "statics"
 values = ["local", "adaptive"]
 )";
-inline constexpr int study_rows = 43;
+inline constexpr int study_rows = 19;
+inline constexpr int study_runs = 17;  // that differ
 
 class PlannedStudy : public FaultTest {
  protected:
@@ -64,7 +63,7 @@ class PlannedStudy : public FaultTest {
       const Ended ended = study({at("study.toml"), "--out", at("whole")});
       EXPECT_EQ(ended.code, 0) << ended.err << ended.out;
       Whole all{table("whole"), contents_of(at("whole") + "/runs")};
-      EXPECT_EQ(std::count(all.table.begin(), all.table.end(), '\n'), 1 + study_rows + 19) << "19 extrapolations";
+      EXPECT_EQ(std::count(all.table.begin(), all.table.end(), '\n'), 1 + study_rows + 7) << "7 extrapolations";
       return all;
     }();
     return done;

@@ -79,6 +79,20 @@ class Process {
   int pid() const { return pid_; }
   void send(int signal) const { ::kill(pid_, signal); }
 
+  // by itself or by a signal; wait() still has to collect it
+  bool has_ended() const {
+    siginfo_t info{};
+    return ::waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == pid_;
+  }
+
+  // stops it by SIGSTOP; false: it had ended before
+  bool hold() const {
+    send(SIGSTOP);
+    siginfo_t info{};
+    return ::waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WSTOPPED | WNOWAIT) == 0 &&
+           info.si_code == CLD_STOPPED;
+  }
+
   Ended wait() {
     int status = 0;
     ::waitpid(pid_, &status, 0);

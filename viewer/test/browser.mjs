@@ -18,6 +18,8 @@ const ELEMENT = 'element-6066-11e4-a52e-4f735466cecf';
 const options = (binary, width, height) => ({
   binary,
   args: ['--headless=new', '--no-sandbox', '--disable-gpu-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
+    // the page around the picture is painted without WebGL's software, which took most of the time of a load
+    '--disable-gpu-rasterization', '--disable-gpu-compositing',
     '--hide-scrollbars', '--force-device-scale-factor=0.7', `--window-size=${width},${height}`, '--disable-dev-shm-usage'],
 });
 

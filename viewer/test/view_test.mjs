@@ -75,6 +75,8 @@ const set = (name, value) => js(`
   input.value = arguments[1];
   input.dispatchEvent(new Event(input.type === 'range' ? 'input' : 'change', { bubbles: true }));`, at(name), value);
 const KEY = { right: '\uE014', down: '\uE015', left: '\uE012', end: '\uE010', home: '\uE011', tab: '\uE004', enter: '\uE007', space: ' ', escape: '\uE00C' };
+// restores what a test of the mouse has changed
+const restore = (name) => js('document.querySelector(arguments[0]).click()', at(name));
 const middle = (css) => js(`
   const box = document.querySelector(arguments[0]).getBoundingClientRect();
   return [box.x + box.width / 2, box.y + box.height / 2];`, css);
@@ -118,10 +120,10 @@ async function testPositions(out, frames) {
     found.forEach((p, i) => p.forEach((c, d) =>
       assert.ok(Math.abs(c - wanted[i][d]) <= 4 * 2 ** -24 * size, `body ${body}, frame ${frame}: ${p} is not ${wanted[i]}`)));
     // and the picture shows it there
-    await viewer('v.set({ frame: arguments[0], showFixed: true })', frame + 1);
     const centre = wanted.reduce((s, p) => s.map((c, d) => c + p[d] / wanted.length), [0, 0, 0]);
-    const pixel = await viewer('const o = [...v.run.head.origin, 0]; return v.project(arguments[0].map((c, k) => c - o[k]))', centre);
-    const face = await viewer('const f = v.faceAt(...arguments[0]); return f < 0 ? -1 : v.faces[f].shape', pixel);
+    const face = await viewer(`v.set({ frame: arguments[1], showFixed: true });
+      const o = [...v.run.head.origin, 0], f = v.faceAt(...v.project(arguments[0].map((c, k) => c - o[k])));
+      return f < 0 ? -1 : v.faces[f].shape`, centre, frame + 1);
     assert.ok(face >= 0, 'a block is where the page says');
   }
 }
@@ -146,16 +148,16 @@ async function testControls(out) {
   for (const section of ['x', 'y', 'z', 'joint 0']) await changes(`section ${section}`, () => set('section', section));
   await changes('place of the section', () => set('cutAt', 0.3), { text: /below it/ });
   await changes('other side', () => browser.click(at('cutOther')));
-  await browser.click(at('cutOther'));
+  await restore('cutOther');
   await set('section', 'none');
   await changes('exploded', () => set('exploded', 0.5), { text: /50 %/ });
   for (const group of ['group 0', 'group 1']) await changes(`hide ${group}`, () => browser.click(at(group)));
-  await browser.click(at('group 0'));
-  await browser.click(at('group 1'));
+  await restore('group 0');
+  await restore('group 1');
   await changes('hide fixed blocks', () => browser.click(at('showFixed')));
-  await browser.click(at('showFixed'));
+  await restore('showFixed');
   await changes('no edges', () => browser.click(at('edges')));
-  await browser.click(at('edges'));
+  await restore('edges');
   await set('exploded', 0);
   for (const side of ['top', 'north', 'east', 'south', 'west']) await changes(`from ${side}`, () => browser.click(at(`from ${side}`)));
   await changes('turn', () => browser.mouse([canvas, [canvas[0] + 80, canvas[1] - 40]]));
@@ -243,12 +245,10 @@ async function testAddress(out) {
 // the tabulator alone comes to every control
 async function testKeyboard(out) {
   await open(page(out));
-  const reached = new Set();
-  await js("document.activeElement.blur()");
-  for (let i = 0; i < 60; ++i) {
-    await browser.command('/actions', { actions: [{ type: 'key', id: 'keys', actions: [{ type: 'keyDown', value: KEY.tab }, { type: 'keyUp', value: KEY.tab }] }] });
-    reached.add(await js("const e = document.activeElement; return e.name || e.dataset?.joint && 'pole ' + e.dataset.joint || e.tagName"));
-  }
+  await js("document.activeElement.blur(); window.reached = []; addEventListener('focusin', ({ target: e }) => window.reached.push(e.name || e.dataset?.joint && 'pole ' + e.dataset.joint || e.tagName))");
+  const tabs = Array.from({ length: 60 }, () => [{ type: 'keyDown', value: KEY.tab }, { type: 'keyUp', value: KEY.tab }]).flat();
+  await browser.command('/actions', { actions: [{ type: 'key', id: 'keys', actions: tabs }] });
+  const reached = new Set(await js('return window.reached'));
   const all = await js("return [...document.querySelectorAll('.voussoir :is(input, select, button[name])')].map((e) => e.name)");
   assert.deepEqual([...all, 'pole 0', 'pole 1', 'CANVAS'].filter((name) => !reached.has(name)), [], 'no key reaches these');
 }
