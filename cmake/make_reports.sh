@@ -65,7 +65,10 @@ if [ -d "$reports/studies" ]; then
       failures+=("comparison of the studies")
 fi
 
-# interactive views of the cases' blocks
+# dimensioned sketches and interactive views of the cases' blocks
+if [ -x "$program" ]; then
+  "$source/reports/make_sketches.py" --source "$source" --build "$build" || failures+=("sketches of the cases")
+fi
 "$source/reports/make_views.py" --source "$source" --build "$build" --jobs "$jobs"
 settle $? "views of the cases"
 

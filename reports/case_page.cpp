@@ -124,6 +124,14 @@ std::string blocks(const Page& page) {
                              : "";
 }
 
+// the dimensioned sketch of the scene, written by make_sketches.py; none for scenes of many blocks
+std::string sketch(const Page& page) {
+  const fs::path folder = page.folders.build / "reports" / "sketches";
+  if (!fs::exists(folder / (page.name + ".svg"))) return {};
+  return drawn_figure({folder}, page.name, slug("sketch-" + page.name),
+                      "The blocks of <code>scene.toml</code> as sliced; those that are free in orange.");
+}
+
 }  // namespace
 
 std::string case_title(const Folders& folders, const std::string& case_name) {
@@ -149,6 +157,7 @@ std::string case_page(const Folders& folders, const Verdicts& verdicts, const Ca
   else if (status.state != CaseState::not_modelled)
     text += page.say_missing("This case has no README.md.");
   text += page.render(sections.front(), 1, true);
+  text += sketch(page);
   text += parameter_table(page.case_folder() / "scene.toml", folders.build / "reports" / "scene_keys.md");
   text += readme_sections(page, sections, {"Problem"}) + blocks(page);
   if (const std::string answer = answer_table(verdicts, status.name); !answer.empty())

@@ -32,6 +32,6 @@ print() {
 perl -0pe 's{(<svg[^>]*>).*?</svg>}{$1</svg>}gs' "$page" >"$work/first.html"
 print "$work/first.html" "$work/first.pdf"
 pdfinfo -dests "$work/first.pdf" >"$work/places" || exit 1
-perl -0pe 'BEGIN { open my $places, "<", shift; while (<$places>) { $number{$2} = $1 if /^\s*(\d+).*"(.*)"/ } }
+perl -0pe 'BEGIN { local $/ = "\n"; open my $places, "<", shift; while (<$places>) { $number{$2} = $1 if /^\s*(\d+).*"(.*)"/ } }
            s{<span data-page="([^"]*)"></span>}{<span data-page="$1">$number{$1}</span>}g' "$work/places" "$page" >"$work/second.html"
 print "$work/second.html" "$out"

@@ -50,6 +50,7 @@ reports.mkdir(parents=True)
     "rows": [row(name, {"incline": 29.99917, "wedge": 33.35876}[name]) for name in cases]}))
 (reports / "scene_keys.md").write_text(run(build / "app" / "voussoir", "docs"))
 
+run(source / "reports" / "make_sketches.py", "--source", source, "--build", folder, *(word for name in cases for word in ("--only", name)))
 run(source / "reports" / "make_views.py", "--source", source, "--build", folder, *(word for name in cases for word in ("--only", name)))
 run(build / "reports" / "voussoir_manual", "--source", source, "--build", folder, "--out", manual,
     "--book", source / "reports" / "printed_book.toml")
@@ -58,6 +59,9 @@ expect(page.count('<div class="voussoir"') == len(cases), "each case shows its b
 expect(page.count('<img alt="blocks" src="data:image/webp;base64,') == len(cases), "each case has a poster")
 expect(page.count('id="voussoir-viewer"') == 1, "the page contains the viewer once")
 
+sketch = (folder / "reports" / "sketches" / "wedge.svg").read_text()
+expect(all(f">{words}</text>" in sketch for words in ("8 m", "4 m")), "the sketch of the wedge has the domain's dimensions")
+expect("those that are free" in page, "the sketch is shown")
 viewer = folder / "manual" / "viewer.js"
 expect('id=\\"voussoir-viewer\\"' in viewer.read_text(), "the pages share the viewer")
 for name in cases:
