@@ -160,6 +160,10 @@ TEST(KeyPage, GivesEveryKeyAnAnchorAndANameWithItsTable) {
       parameters, "<td>joint A</td><td><code>dip</code></td><td class=\"number\">40.5</td><td>deg</td><td>angle</td>"));
   EXPECT_TRUE(holds(parameters, "0, 0, -1"));
   EXPECT_TRUE(holds(parameters, "2600"));
+  const fs::path steeper = fs::path(testing::TempDir()) / "voussoir_steeper.toml";
+  write_atomically(steeper, "base = \"voussoir_parameters.toml\"\n[[joints]]\nname = \"A\"\ndip = 50\n");
+  EXPECT_TRUE(holds(parameter_table(steeper, list), "<td class=\"number\">50</td>"));
+  EXPECT_TRUE(holds(parameter_table(steeper, list), "2600"));
   EXPECT_EQ(parameter_table(scene.string() + ".none", list), "");
 }
 

@@ -66,6 +66,42 @@ std::string value_of(const toml::node& node) {
   return list;
 }
 
+toml::table* of_name(toml::array& list, const std::string& name) {
+  for (toml::node& node : list)
+    if (toml::table* table = node.as_table(); table && (*table)["name"].value_or(std::string()) == name) return table;
+  return nullptr;
+}
+
+// `over` in `scene`: tables of a list by their names, as a scene with `base` is read
+void lay(const toml::table& over, toml::table& scene) {
+  for (const auto& [key, node] : over) {
+    toml::array* list = scene[key].as_array();
+    const toml::array* more = node.as_array();
+    if (!list || !more || !list->is_array_of_tables() || !more->is_array_of_tables()) {
+      scene.insert_or_assign(key, node);
+      continue;
+    }
+    for (const toml::node& entry : *more)
+      if (toml::table* known = of_name(*list, (*entry.as_table())["name"].value_or(std::string())))
+        lay(*entry.as_table(), *known);
+      else
+        list->push_back(*entry.as_table());
+  }
+}
+
+toml::table read_scene(const fs::path& file) {
+  try {
+    const toml::table scene = toml::parse_file(file.string());
+    const auto base = scene["base"].value<std::string>();
+    if (!base) return scene;
+    toml::table whole = read_scene(file.parent_path() / *base);
+    lay(scene, whole);
+    return whole;
+  } catch (const toml::parse_error& problem) {
+    throw std::runtime_error(fmt::format("{}: {}", file.string(), problem.description()));
+  }
+}
+
 struct Rows {
   std::map<std::string, Key> keys;
   std::string html = {};
@@ -98,12 +134,7 @@ struct Rows {
 
 std::string parameter_table(const fs::path& scene_file, const fs::path& keys) {
   if (!fs::exists(scene_file)) return {};
-  toml::table scene;
-  try {
-    scene = toml::parse_file(scene_file.string());
-  } catch (const toml::parse_error& problem) {
-    throw std::runtime_error(fmt::format("{}: {}", scene_file.string(), problem.description()));
-  }
+  const toml::table scene = read_scene(scene_file);
   Rows rows{read_keys(keys)};
   rows.add("The top of the file", "scene", scene, {"gravity", "density"});
   if (const toml::array* joints = scene["joints"].as_array(); joints && joints->size() <= most_joints)
