@@ -9,7 +9,7 @@ namespace voussoir::reports {
 // Pages of a chapter that belong together.
 struct PageGroup {
   std::string chapter, title;      // the title is empty if the chapter has one group only
-  std::vector<std::string> pages;  // a text of the repository, cases/NAME, or the name of a computed page
+  std::vector<std::string> pages;  // a text of the repository, the folder of a case, or the name of a computed page
   bool printed = true;             // false: left to a screen, as tables of keys
   bool in_file = true;             // false: left to the folder of pages
 };
