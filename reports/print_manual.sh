@@ -18,7 +18,7 @@ rm -f "$out"
 # print PAGE PDF
 print() {
   # as root, as in a container, Chromium has no sandbox; the page is ours and loads nothing
-  timeout 600 chromium --headless --no-sandbox --disable-gpu --user-data-dir="$work/profile" --no-pdf-header-footer \
+  timeout 1800 chromium --headless --no-sandbox --disable-gpu --user-data-dir="$work/profile" --no-pdf-header-footer \
     --generate-pdf-document-outline --print-to-pdf="$2" "file://$1" >"$work/log" 2>&1
   local status=$?
   if [ $status -ne 0 ] || [ ! -s "$2" ]; then
