@@ -16,7 +16,7 @@ help:
 	@echo "make test-long           the long tests"
 	@echo "make history             test, and store the values as those of this version: verification/history"
 	@echo "make coverage            line coverage of the core's rooms by the unit tests (build-coverage)"
-	@echo "make reports             figures, studies and the verification manual: $(BUILD)/reports/manual-VERSION.html"
+	@echo "make reports             figures, studies and the manual: $(BUILD)/reports/manual-VERSION/index.html, also in one file and as PDF"
 	@echo "make problems            problems for any code, from the verdicts of make test: $(BUILD)/problems (BLIND=1: without references)"
 	@echo "make benchmark           time the kernels and their peers, and twenty thousand falling blocks, an hour on two cores"
 	@echo "                         (VOUSSOIR_FALL_BLOCKS=2000: minutes; VOUSSOIR_BENCHMARK=quick: the contact kernel, a minute)"

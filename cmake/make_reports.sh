@@ -65,7 +65,10 @@ if [ -d "$reports/studies" ]; then
       failures+=("comparison of the studies")
 fi
 
-# interactive views of the cases' blocks
+# dimensioned sketches and interactive views of the cases' blocks
+if [ -x "$program" ]; then
+  "$source/reports/make_sketches.py" --source "$source" --build "$build" || failures+=("sketches of the cases")
+fi
 "$source/reports/make_views.py" --source "$source" --build "$build" --jobs "$jobs"
 settle $? "views of the cases"
 
@@ -122,17 +125,19 @@ if [ -x "$program" ] && ! "$program" docs >"$reports/scene_keys.md"; then
   failures+=("scene keys (voussoir docs)")
 fi
 "$source/library/header_pages.py" "$source" "$reports/library_headers.md" >/dev/null || failures+=("public headers (library/header_pages.py)")
-rm -f "$reports"/manual-*.html "$reports"/manual-*.pdf "$reports/index.html"  # of another version, or without one
+rm -rf "$reports"/manual-*  # of another version
 "$build/reports/voussoir_manual" --source "$source" --build "$build" || failures+=("manual")
 largest_manual=12000000  # bytes: the size limit of e-mail
-for page in "$reports"/manual-*.html; do
-  [ "$(stat -c %s "$page")" -le $largest_manual ] || failures+=("size of the manual: $(stat -c %s "$page") bytes, at most $largest_manual")
-  "$source/reports/print_manual.sh" "$page" "${page%.html}.pdf" &&
-      "$source/reports/same_numbers.py" "$page" "${page%.html}.pdf"
+for page in "$reports"/manual-*.print.html; do
+  file=${page%.print.html}.html
+  [ "$(stat -c %s "$file")" -le $largest_manual ] || failures+=("size of the manual: $(stat -c %s "$file") bytes, at most $largest_manual")
+  "$source/reports/print_manual.sh" "$page" "${page%.print.html}.pdf" &&
+      "$source/reports/same_numbers.py" "$page" "${page%.print.html}.pdf"
   settle $? "printed manual"
+  rm -f "$page"
 done
-manuals=("$reports"/manual-*.html)
-manual=${manuals[0]+$shown/reports/$(basename "${manuals[0]}")}
+manuals=("$reports"/manual-*/index.html)
+manual=${manuals[0]+$shown/reports/$(basename "$(dirname "${manuals[0]}")")/index.html}
 
 for failure in "${failures[@]}"; do
   echo "FAILED: $failure"

@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <initializer_list>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 
 #include "reports/html.hpp"
+#include "reports/parameters.hpp"
 #include "reports/verdict_tables.hpp"
 
 namespace voussoir::reports {
@@ -47,36 +50,52 @@ struct Page {
   std::string show_figure(const std::string& stem, const std::string& caption) {
     shown.insert(stem);
     try {
-      return drawn_figure({folders.build / "reports" / "figures", study_folder()}, stem, slug(name + "-" + stem),
-                          caption);
+      return picture_of(folders, fs::path("cases") / name / "README.md", stem, caption, name, {study_folder()});
     } catch (const std::runtime_error& problem) {
       return say_missing(problem.what());
     }
   }
 
-  // inside the manual a file of the repository is an anchor, or only its name
-  std::optional<std::string> anchor_of(const std::string& target) const {
-    if (target.starts_with("http") || target.starts_with("#")) return target;
-    const fs::path path(target);
-    if (path.extension() == ".toml" && !path.has_parent_path()) return fmt::format("#{}-{}", slug(name), slug(target));
-    if (target == "README.md") return "#" + slug(name);
-    if (target == "NOTES.md") return fmt::format("#{}-notes", slug(name));
-    if (path.parent_path().parent_path() != "..") return std::nullopt;
-    const std::string of_case = "#" + slug(path.parent_path().filename().string());
-    if (path.filename() == "README.md") return of_case;
-    if (path.filename() == "NOTES.md") return of_case + "-notes";
-    return std::nullopt;
-  }
-
   std::string render(const std::string& markdown, int heading_shift, bool leave_out_title) {
     return markdown_to_html(
         markdown, heading_shift, leave_out_title,
-        {[this](const std::string& target) { return anchor_of(target); },
+        {[this](const std::string& target) {
+           return place_of(folders.anchors, fs::path("cases") / name / "README.md", target);
+         },
          [this](const std::string& target, const std::string& caption) -> std::optional<std::string> {
            return show_figure(fs::path(target).stem().string(), caption);
          }});
   }
 };
+
+// a text up to its first heading of the second level, and from each of them to the next
+std::vector<std::string> sections_of(const std::string& markdown) {
+  std::vector<std::string> sections(1);
+  bool fenced = false;
+  std::istringstream lines(markdown);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("```")) fenced = !fenced;
+    if (!fenced && line.starts_with("## ")) sections.emplace_back();
+    sections.back() += line + "\n";
+  }
+  return sections;
+}
+
+// sections of the README.md: those with these titles, in this order, or all others
+std::string readme_sections(Page& page, const std::vector<std::string>& sections,
+                            std::initializer_list<std::string_view> titles, bool all_others = false) {
+  std::string text;
+  const auto is = [](const std::string& section, std::string_view title) {
+    return section.starts_with(fmt::format("## {}\n", title));
+  };
+  for (std::size_t k = 1; all_others && k < sections.size(); ++k)
+    if (std::none_of(titles.begin(), titles.end(), [&](std::string_view title) { return is(sections[k], title); }))
+      text += sections[k];
+  for (const std::string_view title : titles)
+    for (std::size_t k = 1; !all_others && k < sections.size(); ++k)
+      if (is(sections[k], title)) text += sections[k];
+  return page.render(text, 1, false);
+}
 
 std::string scene_files(const Page& page) {
   std::string text;
@@ -105,6 +124,14 @@ std::string blocks(const Page& page) {
                              : "";
 }
 
+// the dimensioned sketch of the scene, written by make_sketches.py; none for scenes of many blocks
+std::string sketch(const Page& page) {
+  const fs::path folder = page.folders.build / "reports" / "sketches";
+  if (!fs::exists(folder / (page.name + ".svg"))) return {};
+  return drawn_figure({folder}, page.name, slug("sketch-" + page.name),
+                      "The blocks of <code>scene.toml</code> as sliced; those that are free in orange.");
+}
+
 }  // namespace
 
 std::string case_title(const Folders& folders, const std::string& case_name) {
@@ -122,16 +149,23 @@ std::string case_page(const Folders& folders, const Verdicts& verdicts, const Ca
   text += fmt::format("<p class=\"quiet\">Case <code class=\"case-name\">{}</code></p>\n", escape(status.name));
   if (status.state != CaseState::run) text += fmt::format("<p>{}</p>\n", badge(name_of(status.state)));
 
-  // first the text: problem, reference, model, quantities, result, limits
+  // question, blocks and values first, then the rest of the text: reference, model, quantities, limits
   const fs::path readme = page.case_folder() / "README.md";
+  std::vector<std::string> sections(1);
   if (fs::exists(readme))
-    text += page.render(read_text(readme), 1, true);
+    sections = sections_of(read_text(readme));
   else if (status.state != CaseState::not_modelled)
     text += page.say_missing("This case has no README.md.");
+  text += page.render(sections.front(), 1, true);
+  text += sketch(page);
+  text += parameter_table(page.case_folder() / "scene.toml", folders.build / "reports" / "scene_keys.md");
+  text += readme_sections(page, sections, {"Problem"}) + blocks(page);
+  if (const std::string answer = answer_table(verdicts, status.name); !answer.empty())
+    text += "<h3>Values against the reference</h3>\n" + answer;
+  text += readme_sections(page, sections, {"Result"}) + readme_sections(page, sections, {"Problem", "Result"}, true);
   const std::string behind = notes(page);  // rendered here, so that a figure of the notes is shown once
 
   if (status.state != CaseState::not_modelled) {
-    text += blocks(page);
     const std::string checks = case_tables(verdicts, status.name);
     text += fmt::format("<h3 id=\"{}-checks\">Checks of this run</h3>\n", id);
     text += checks.empty() ? page.say_missing("No check was recorded: the case did not run.") : checks;

@@ -1,17 +1,13 @@
 #pragma once
-// The page of one case: its README.md, the checks of the last run, its figures, its study, its scenes and its NOTES.md.
-#include <filesystem>
+// The page of one case: parameters, question, blocks, values against the reference, the rest of its README.md, the
+// checks of the last run, its figures, its study, its scenes and its NOTES.md.
 #include <string>
 #include <vector>
 
+#include "reports/links.hpp"
 #include "verification/verdicts.hpp"
 
 namespace voussoir::reports {
-
-struct Folders {
-  std::filesystem::path source;  // the repository
-  std::filesystem::path build;   // folder in which verdicts, figures and studies were written
-};
 
 // Parts that could not be shown are named on the page, and in `missing`, one sentence each.
 std::string case_page(const Folders& folders, const verification::Verdicts& verdicts,

@@ -10,7 +10,6 @@
 #include <cstdlib>
 #include <initializer_list>
 #include <memory>
-#include <regex>
 #include <stdexcept>
 
 #include "verification/verdict_file.hpp"
@@ -234,8 +233,14 @@ std::string inline_svg(const std::filesystem::path& path, const std::string& pre
     throw std::runtime_error(path.filename().string() + " contains no figure");
 
   // every gnuplot file uses the same ids; in one page the first one would win
-  static const std::regex id(R"re((\bid=['"]|href=['"]#|url\(['"]?#))re");
-  return std::regex_replace(compact(text.substr(start, end + 6 - start)), id, "$1" + prefix + "-");
+  std::string svg = compact(text.substr(start, end + 6 - start));
+  for (const std::string_view place : {" id='", " id=\"", "href='#", "href=\"#", "url(#", "url('#", "url(\"#"})
+    replace_all(svg, place, fmt::format("{}{}-", place, prefix));
+  return svg;
+}
+
+std::string section(const std::string& id, const std::string& title, const std::string& content) {
+  return fmt::format("<section class=\"case\" id=\"{}\">\n<h2>{}</h2>\n{}</section>\n", id, title, content);
 }
 
 std::string figure(const std::string& content, const std::string& caption) {

@@ -36,6 +36,9 @@ std::optional<std::string> markdown_title(const std::string& markdown);
 // std::runtime_error when the file has no such element.
 std::string inline_svg(const std::filesystem::path& path, const std::string& prefix);
 
+// A page of the manual: its anchor, its title and the rest, all HTML.
+std::string section(const std::string& id, const std::string& title, const std::string& content);
+
 // <figure> with an optional caption (HTML).
 std::string figure(const std::string& content, const std::string& caption);
 

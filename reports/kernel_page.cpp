@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <stdexcept>
-
 #include "reports/html.hpp"
 #include "verification/verdict_file.hpp"
 
@@ -17,15 +15,7 @@ std::string kernel_page(const Folders& folders, std::vector<std::string>& missin
     missing.push_back("contact kernel: " + text);
     return fmt::format("<p class=\"note\">{}</p>\n", escape(text));
   };
-  const LinkRules rules{[](const std::string&) -> std::optional<std::string> { return std::nullopt; },
-                        [&](const std::string& target, const std::string& caption) -> std::optional<std::string> {
-                          const std::string stem = fs::path(target).stem().string();
-                          try {
-                            return drawn_figure({folders.build / "reports" / "figures"}, stem, slug(stem), caption);
-                          } catch (const std::runtime_error& problem) {
-                            return say_missing(problem.what());
-                          }
-                        }};
+  const LinkRules rules = rules_of(folders, "reports/contact_kernel.md", "contact-kernel", missing);
   const auto show = [&](const fs::path& file, int heading_shift) {
     if (!fs::exists(file))
       return say_missing(fmt::format("{} was not made: the kernel was not timed.", file.filename().string()));

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "reports/case_page.hpp"
+#include "reports/links.hpp"
 
 namespace voussoir::reports {
 

@@ -103,7 +103,7 @@ TEST(TextPage, LinksToCasesAndTheirScenes) {
                    "# Of water\n\n## Loads\n\n[case](../cases/water/README.md), [scene](../cases/water/raft.toml), "
                    "[notes](../cases/water/NOTES.md), [elsewhere](../core/README.md)\n\n![A raft.](raft.svg)\n");
   std::vector<std::string> missing;
-  const std::string page = text_page({root, root / "build"}, "water", "of-water", missing);
+  const std::string page = text_page({root, root / "build"}, "reports/water.md", "of-water", missing);
   EXPECT_TRUE(holds(page, "id=\"of-water\""));
   EXPECT_TRUE(holds(page, "<h2>Of water</h2>"));
   EXPECT_TRUE(holds(page, "<h3>Loads</h3>"));
@@ -111,8 +111,8 @@ TEST(TextPage, LinksToCasesAndTheirScenes) {
   EXPECT_TRUE(holds(page, "href=\"#water-raft-toml\""));
   EXPECT_TRUE(holds(page, "href=\"#water-notes\""));
   EXPECT_FALSE(holds(page, "core/README.md"));
-  EXPECT_TRUE(holds(page, "The figure raft.svg was not drawn."));
-  EXPECT_EQ(missing, std::vector<std::string>{"water: the figure raft.svg was not drawn"});
+  EXPECT_TRUE(holds(page, "The figure raft was not drawn."));
+  EXPECT_EQ(missing, std::vector<std::string>{"of-water: The figure raft was not drawn."});
 }
 
 TEST(CasePage, ShowsExistingPartsAndNamesMissingOnes) {

@@ -60,10 +60,6 @@ std::string table(const std::string& name, const std::vector<std::string>& head,
       heads, body);
 }
 
-std::string section(const std::string& id, const std::string& title, const std::string& content) {
-  return fmt::format("<section class=\"case\" id=\"{}\">\n<h2>{}</h2>\n{}</section>\n", id, title, content);
-}
-
 // subject of a chapter of the thesis
 std::string chapter_title(char chapter) {
   switch (chapter) {
@@ -122,6 +118,24 @@ std::string equations_page(const Matrix& matrix, const Verdicts& verdicts) {
     text += fmt::format("<h3>{}</h3>\n", title) + table("equations", {"Eq.", "subject", "in", "verified by"}, body);
   }
   return section("equations", "Equations by tests", text);
+}
+
+std::string room_equations(const Matrix& matrix, const std::string& room) {
+  const std::string folder = fmt::format("core/{}/", room);
+  std::string body;
+  for (const Equation& equation : matrix.equations) {
+    std::vector<std::string> files;
+    for (const std::string& file : equation_places(matrix, equation).code)
+      if (file.starts_with(folder)) files.push_back(file);
+    if (!files.empty())
+      body += fmt::format(
+          "<tr><td class=\"number\"><a href=\"#eq-{}\">{}</a></td><td>{}<div "
+          "class=\"formula\">{}</div></td><td>{}</td></tr>\n",
+          slug(equation.number), escape(equation.number), escape(equation.subject), equation.formula, codes(files));
+  }
+  if (body.empty()) return {};
+  return "<h3>Equations of this room</h3>\n<p>Numbers are those of Boon (2013).</p>\n" +
+         table("equations", {"Eq.", "equation", "in"}, body);
 }
 
 std::string thesis_page(const Matrix& matrix) {

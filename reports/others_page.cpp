@@ -9,16 +9,13 @@ namespace voussoir::reports {
 
 namespace fs = std::filesystem;
 
-std::string others_page(const Folders& folders) {
+std::string others_page(const Folders& folders, std::vector<std::string>& missing) {
   const fs::path folder = folders.source / "verification" / "others";
-  const LinkRules rules{[](const std::string& target) -> std::optional<std::string> {
-                          if (target == "results.md") return "#other-engines-results";
-                          return std::nullopt;
-                        },
-                        [&](const std::string& target, const std::string& caption) -> std::optional<std::string> {
-                          const std::string stem = fs::path(target).stem().string();
-                          return drawn_figure({folder}, stem, slug(stem), caption);
-                        }};
+  const fs::path text = "verification/others/README.md";
+  LinkRules rules = rules_of(folders, text, "other-engines", missing);
+  rules.link = [&](const std::string& target) -> std::optional<std::string> {
+    return target == "results.md" ? "#other-engines-results" : place_of(folders.anchors, text, target);
+  };
   const auto show = [&](const char* file, int shift) {
     return markdown_to_html(verification::read_text(folder / file), shift, true, rules);
   };

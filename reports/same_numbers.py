@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""same_numbers.py MANUAL.html MANUAL.pdf: whether the printed manual has the text and numbers of the page.
+"""same_numbers.py MANUAL.print.html MANUAL.pdf: whether the printed manual has the text and numbers of the page.
 
 Every title, every row of a table with its numbers, and every line of a scene must be in the PDF's text, and every
-title of the first two levels in its outline. Blanks do not count, since print breaks lines elsewhere. Names the missing
+title of the first two levels in its outline; the list of contents must have the page on which each title is. Blanks do not count, since print breaks lines elsewhere. Names the missing
 ones, and ends with 1; with 77 without poppler-utils.
 """
 import html.parser
@@ -20,11 +20,12 @@ drawn = "\0"  # marks a formula or picture within a text, whose letters the PDF 
 
 
 class Page(html.parser.HTMLParser):
-    """titles: (level, text); rows: texts of table rows; lines: of preformatted text"""
+    """titles: (level, text); rows: texts of table rows; lines: of preformatted text; contents: (anchor, title) of the list that has page numbers"""
 
     def __init__(self):
         super().__init__(convert_charrefs=True)
-        self.titles, self.rows, self.lines = [], [], []
+        self.titles, self.rows, self.lines, self.contents = [], [], [], []
+        self.entry = None
         self.open, self.skipped, self.hidden = [], 0, 0
 
     def handle_starttag(self, tag, attributes):
@@ -32,6 +33,11 @@ class Page(html.parser.HTMLParser):
             self.skipped += 1
             if self.open:
                 self.open[-1][1] += drawn
+        values = dict(attributes)
+        if tag == "li":
+            self.entry = ""
+        elif tag == "span" and "data-page" in values:
+            self.contents.append((values["data-page"], self.entry))
         if tag == "br" or self.skipped:
             return
         if tag in ("h1", "h2", "h3", "h4", "tr", "pre"):
@@ -50,12 +56,24 @@ class Page(html.parser.HTMLParser):
                 self.titles.append((int(tag[1]), text))
 
     def handle_data(self, data):
+        if self.entry is not None and not self.skipped:
+            self.entry += data
         if self.open and not self.skipped:
             self.open[-1][1] += data
 
 
+def wrong_contents(page, pdf, raw):
+    """entries of the list of contents without the number of the page that the place is on, and whose title is not there"""
+    places = subprocess.run(["pdfinfo", "-dests", pdf], capture_output=True, check=True, text=True).stdout
+    number = {name: int(line) for line, name in re.findall(r'^\s*(\d+) .*"(.*)"$', places, re.M)}
+    sheets = [squeezed(text) for text in raw.split("\f")]
+    listed = "".join(sheets[: min(number.values(), default=1)])
+    return [title for anchor, title in page.contents
+            if anchor not in number or squeezed(f"{title}{number[anchor]}") not in listed or squeezed(title) not in sheets[number[anchor] - 1]]
+
+
 def main(manual, pdf):
-    for tool in ("pdftotext", "pdftohtml"):
+    for tool in ("pdftotext", "pdftohtml", "pdfinfo"):
         if not shutil.which(tool):
             print(f"SKIPPED: {tool} is not installed (package poppler-utils), the PDF is not compared")
             return 77
@@ -64,7 +82,7 @@ def main(manual, pdf):
         page.feed(file.read())
     raw = subprocess.run(["pdftotext", "-raw", pdf, "-"], capture_output=True, check=True, text=True).stdout
     # a long line may continue on the next page
-    foot = re.compile(r"\f\d+ / \d+\s*Voussoir, verification manual\s*")
+    foot = re.compile(r"\f\d+ / \d+\s*Voussoir, manual\s*")
     printed = squeezed(foot.sub("", "\f" + raw))
     outline = subprocess.run(["pdftohtml", "-xml", "-i", "-stdout", pdf], capture_output=True, check=True, text=True).stdout
     outline = outline[outline.find("<outline>"):]
@@ -75,9 +93,10 @@ def main(manual, pdf):
                     if any(squeezed(part) not in printed for part in text.split(drawn))]
     in_outline = squeezed(html.unescape(outline))
     missing += [f"outline: {title}" for level, title in page.titles if level <= 2 and squeezed(title) not in in_outline]
+    missing += [f"contents: {title}" for title in wrong_contents(page, pdf, raw)]
     for text in missing[:20]:
         print(f"the PDF lacks {text}")
-    print(f"{len(page.titles)} titles, {len(page.rows)} rows and {len(page.lines)} lines of the manual compared with the PDF, "
+    print(f"{len(page.titles)} titles, {len(page.rows)} rows and {len(page.lines)} lines of the manual, and {len(page.contents)} page numbers, compared with the PDF, "
           f"{len(missing)} missing")
     return 1 if missing else 0
 

@@ -57,10 +57,14 @@ std::string table(const std::string& head, const std::string& body) {
                      body);
 }
 
-std::string failure_list(const Verdicts& verdicts, const std::string& only_case) {
+bool among(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::string failure_list(const Verdicts& verdicts, const std::vector<std::string>& cases) {
   std::string items;
   for (const Failure& failure : verdicts.failures)
-    if (only_case.empty() || failure.case_name == only_case)
+    if (among(cases, failure.case_name))
       items += fmt::format("<li>{} {}: {}</li>\n", badge("FAILED"), escape(failure.case_name), escape(failure.message));
   return items.empty() ? "" : "<h3>Failures outside a check</h3>\n<ul class=\"failures\">\n" + items + "</ul>\n";
 }
@@ -71,9 +75,10 @@ std::string badge(std::string_view verdict) {
   return fmt::format("<span class=\"verdict {}\">{}</span>", slug(verdict), escape(verdict));
 }
 
-std::string case_overview(const Verdicts& verdicts) {
+std::string case_overview(const Verdicts& verdicts, const std::vector<std::string>& cases) {
   std::string body;
   for (const CaseStatus& status : verdicts.cases) {
+    if (!among(cases, status.name)) continue;
     int failed = 0, reported = 0, verified = 0, validated = 0, drift = 0;
     long long contact_evaluations = 0;
     for (const Row& row : verdicts.rows) {
@@ -109,17 +114,36 @@ std::string case_overview(const Verdicts& verdicts) {
       body);
 }
 
-std::string all_tables(const Verdicts& verdicts) {
-  std::string text = failure_list(verdicts, "");
+std::string answer_table(const Verdicts& verdicts, const std::string& case_name) {
+  constexpr int most = 5;
+  int judged = 0;
+  std::string body;
+  for (const Row& row : verdicts.rows)
+    if (row.case_name == case_name && row.check.kind != Kind::reported && ++judged <= most)
+      body += fmt::format(
+          "<tr><td>{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td><td>{}</td><td>{}</td><td>{}</td>"
+          "</tr>\n",
+          escape(row.check.quantity), show(row.computed), show_expected(row.check), escape(row.check.unit),
+          escape(row.check.source), badge(verdict_of(row)));
+  if (judged == 0) return {};
+  return table(
+             "<th>quantity</th><th class=\"number\">computed</th><th class=\"number\">expected</th><th>unit</th>"
+             "<th>source</th><th>verdict</th>",
+             body) +
+         fmt::format("<p class=\"quiet\">{} of {} checks; <a href=\"#{}-checks\">all, with their tolerances</a></p>\n",
+                     std::min(judged, most), judged, slug(case_name));
+}
+
+std::string tables_of(const Verdicts& verdicts, const std::vector<std::string>& cases) {
+  std::string text = failure_list(verdicts, cases);
   for (const VerdictGroup& group : verdict_groups()) {
     std::string body;
     for (const Row& row : verdicts.rows)
-      if (belongs_to(row, group))
+      if (among(cases, row.case_name) && belongs_to(row, group))
         body += fmt::format("<tr><td><a href=\"#{}\">{}</a></td>{}</tr>\n", slug(row.case_name), escape(row.case_name),
                             (is_judged(group) ? judged_cells(row) : reported_cells(row)) + moved_cell(verdicts, row));
     if (body.empty()) continue;
-    text +=
-        fmt::format("<h3 id=\"{}\">{}</h3>\n<p>{}</p>\n", slug(group.title), group.title, escape(group.explanation));
+    text += fmt::format("<h3>{}</h3>\n<p>{}</p>\n", group.title, escape(group.explanation));
     text += table(
         std::string("<th>case</th>") + (is_judged(group) ? judged_head : reported_head) + moved_head(verdicts), body);
   }
@@ -127,7 +151,7 @@ std::string all_tables(const Verdicts& verdicts) {
 }
 
 std::string case_tables(const Verdicts& verdicts, const std::string& case_name) {
-  std::string text = failure_list(verdicts, case_name);
+  std::string text = failure_list(verdicts, {case_name});
   for (const VerdictGroup& group : verdict_groups()) {
     std::string body;
     for (const Row& row : verdicts.rows) {
