@@ -132,9 +132,9 @@ class StepEquations {
       errors = std::max({errors, line.overlap_error, line.slip_error});
       const Vector<Dim> force = p.force.normal * p.normal + p.force.shear + line.change;
       const int a = unknowns.place[p.body_a], b = unknowns.place[p.body_b];
-      if (a >= 0) rhs.segment<F>(F * a) -= h * (velocity_by_motion<Dim>(p.arm_a).transpose() * force);
-      if (b >= 0) rhs.segment<F>(F * b) += h * (velocity_by_motion<Dim>(p.arm_b).transpose() * force);
-      add_pair<Dim>(unknowns, p, p.arm_a, p.arm_b, line.slope, h * h, matrix);
+      if (a >= 0) rhs.segment<F>(F * a) -= h * (velocity_by_motion<Dim>(p.point).transpose() * force);
+      if (b >= 0) rhs.segment<F>(F * b) += h * (velocity_by_motion<Dim>(p.from_b).transpose() * force);
+      add_pair<Dim>(unknowns, p, p.point, p.from_b, line.slope, h * h, matrix);
     }
     restrain(unknowns, matrix, rhs);
     return rhs;
