@@ -30,7 +30,7 @@ struct Progress {
   BondedContacts bonded;              // up to here
   // m: by body, at the end of the stage under way by half of its steps' error; empty: not asked for
   std::vector<Vector<Dim>> by_half_error;
-  Results results;                    // of what has ended
+  Results results;  // of what has ended
 };
 
 }  // namespace voussoir
