@@ -355,6 +355,7 @@ void print_derived(const Forecast& forecast) {
                                  stage.name, stage.steps,
                                  stage.implicit ? "which it takes" : "time = { integration = \"implicit\" }",
                                  stage.load_step, stage.implicit_evaluations()));
+    if (!stage.damping.empty()) print_line("", fmt::format("{}: {}", stage.name, stage.damping));
   }
 }
 

@@ -56,6 +56,21 @@ TEST_F(Check, PrintsMotionsAndLoadsThatAStagePrescribes) {
   says(ground() + box("stone", 0, 0) + rock_properties + settle_stage, "bonds, prescribed motion, boundary stress");
 }
 
+// dashpots in proportion to a stiffness damp in proportion to the frequency; a block of 2 t on 1 GN/m swings at 112.5
+// Hz
+TEST_F(Check, PrintsWhatDampsTrueMotion) {
+  const std::string stone =
+      ground() + box("stone", 0, 0) + rock_properties + "[[stage]]\nname = \"shake\"\nkind = \"run\"\nduration_s = 1\n";
+  const std::string implicit = "time = { integration = \"implicit\" }\n";
+  says(stone, "shake: no dashpot damps the motion (0 % of critical at 1 and 10 Hz); slip takes the rest");
+  says(stone + implicit + "damping = { local = 0, joint_ratio = 0.02, joint_frequency_hz = 5 }\n",
+       "shake: of critical damping: joint_ratio 0.4 % at 1 Hz, 4 % at 10 Hz; slip takes the rest");
+  says(stone + "damping = { local = 0, viscous_ratio = 0.05 }\n",
+       "viscous_ratio, normal to joints, at most 0.044 % at 1 Hz, 0.44 % at 10 Hz; slip");
+  says(stone + "damping = { local = 0.1 }\n", "shake: of critical damping: local 3.2 %; slip takes the rest");
+  silent(ground() + box("stone", 0, 0) + rock_properties + settle_stage, "takes the rest");
+}
+
 TEST_F(Check, PrintsLawsStrengthsAndSubContacts) {
   const std::string scene = ground() + box("stone", 0, 0) + rock_properties +
                             "sub_contacts = 3\nnormal_law = \"linear\"\nnormal_growth = 7e4\nshear_law = \"power\"\n"

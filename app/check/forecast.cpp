@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "app/check/blocks.hpp"
+#include "app/check/motion_damping.hpp"
 #include "core/implicit/load_bounds.hpp"
 #include "core/run/bonds_as_sliced.hpp"
 #include "core/scene/judge_values.hpp"
@@ -189,6 +190,8 @@ void forecast_stages(const Prepared<Dim>& prepared, const Model<Dim>& model, Sta
       const double load_step = step_of_loads(stage.change);
       forecast.load_step = std::isfinite(load_step) ? load_step : 0;
       forecast.implicit = settings.time.integration == Integration::implicit_steps;
+      const double swing = g > 0 && result.overlap > 0 ? std::sqrt(g / result.overlap) / (2 * std::numbers::pi) : 0;
+      forecast.damping = motion_damping_text(settings.damping, swing);
     }
     result.stages.push_back(forecast);
   }

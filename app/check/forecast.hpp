@@ -24,6 +24,7 @@ struct StageForecast {
   // of true motion under prescribed motions: what they allow an implicit step, s; 0: there are none
   double load_step = 0;
   bool implicit = false;  // the stage takes implicit steps
+  std::string damping;    // of true motion: what damps it; empty: the stage seeks equilibrium
 
   // evaluations of each contact by implicit steps that the loads hold
   double implicit_evaluations() const { return load_step > 0 ? evaluations_of_a_step * duration / load_step : 0; }

@@ -99,6 +99,10 @@ void print_stages(const Results& results) {
   int number = 0;
   for (const StageResult& stage : results.stages) {
     fmt::print("  stage {}: {} after {} steps, {:.4g} s simulated\n", stage.name, stage.ended, stage.steps, stage.time);
+    if (const auto& half = stage.half_error)
+      fmt::print("      {} has moved most, {:.4g} m; with half of error_m no block ends more than {:.2g} m elsewhere\n",
+                 half->name.empty() ? fmt::format("body {}", half->body) : half->name, half->displacement,
+                 half->change);
     // that of an incomplete stage ends the message
     if (const std::string sentence = sentence_of(stage.mechanism); !results.message.ends_with(sentence))
       fmt::print("      {}\n", sentence);

@@ -219,5 +219,89 @@ TEST(Bounce, UndampedKeepsItsEnergy) {
   report.report("undamped bounces in 20 s", "1", count, "0.05 of the stable step");
 }
 
+// By implicit steps of so many times 2/ω. Above one the step remains and the joint becomes stiffer.
+struct ImplicitBounce {
+  double stiffness, step;
+  SceneRun run;
+};
+ImplicitBounce by_implicit_steps(double limits, double viscous_ratio) {
+  const double k = stiffness * std::pow(std::max(limits, 1.0), 2), step = std::min(limits, 1.0) * 2 / frequency;
+  return {k, step,
+          cases::run("scene.toml", {"stage.bounce.time.integration=implicit", "stage.bounce.time.step_s=" + text(step),
+                                    "damping.viscous_ratio=" + text(viscous_ratio),
+                                    "joint_properties.rock.normal_stiffness=" + text(k)})};
+}
+
+// over the energy of the fall: what a run has more at any step than at its start, and what the first impact leaves
+struct EnergyOfBounce {
+  double gained = 0, left = 0;
+};
+EnergyOfBounce energy_of(const ImplicitBounce& bounce) {
+  constexpr double after_first = 0.2;  // s: the impacts are at 0.1 and 0.3 s if nothing is lost
+  const std::vector<double> time = column(bounce.run, "time_s"), moved = column(bounce.run, "cube_displacement_z_m"),
+                            speed = column(bounce.run, "cube_velocity_z_m_per_s");
+  const double fall = mass * gravity * gap;
+  EnergyOfBounce found;
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    const double height = gap + moved[i], overlap = std::max(-height, 0.0);
+    const double energy =
+        0.5 * mass * speed[i] * speed[i] + mass * gravity * height + 0.5 * bounce.stiffness * overlap * overlap;
+    found.gained = std::max(found.gained, energy / fall - 1);
+    if (time[i] <= after_first) found.left = energy / fall;
+  }
+  return found;
+}
+
+// The same by implicit steps: the bounce of the joint where they resolve it, and no energy at any step.
+TEST(Bounce, ByImplicitSteps) {
+  CaseReport report("bounce", {"largest overlap, implicit steps", "rebound height, implicit steps"});
+  constexpr double limits = 0.01;
+  const SceneRun run = by_implicit_steps(limits, damping_ratio).run;
+  const std::vector<double> moved = column(run, "cube_displacement_z_m");
+  const auto lowest = std::min_element(moved.begin(), moved.begin() + moved.size() / 4);
+  const auto surface = std::find_if(lowest, moved.end(), [](double d) { return d > -gap; });
+  const auto back = std::find_if(surface, moved.end(), [](double d) { return d < -gap; });
+  const reference::BounceResult expected = reference::bounce({mass, stiffness, damping_ratio, drop_speed, gravity});
+  const double speed = expected.restitution * drop_speed, fraction = 4 * limits * limits;
+  const std::string source = "Schwager & Poschel (2007): spring and dashpot (Eq. 6.9) that cannot pull, with gravity";
+  const std::string second_order =
+      "a step of second order errs by (omega dt)2 at most in speed, where force begins and ends, too";
+  report.record({"largest overlap, implicit steps",
+                 "m",
+                 Kind::exact,
+                 source,
+                 expected.maximum_overlap,
+                 {0, fraction},
+                 second_order},
+                -gap - *lowest, cost(run));
+  report.record({"rebound height, implicit steps",
+                 "m",
+                 Kind::exact,
+                 source + ", then an arc",
+                 speed * speed / (2 * gravity) - expected.end_overlap,
+                 {0, 2.5 * fraction},
+                 second_order + "; twice that on an arc that starts below the surface"},
+                gap + *std::max_element(surface, back), cost(run));
+  std::vector<double> steps, left, gained;
+  for (const double of_limit : {0.01, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 100.0, 1e3, 1e4}) {
+    const ImplicitBounce undamped = by_implicit_steps(of_limit, 0);
+    const EnergyOfBounce energy = energy_of(undamped);
+    steps.push_back(of_limit);
+    left.push_back(energy.left);
+    gained.push_back(energy.gained);
+    if (of_limit != 0.1 && of_limit != 10 && of_limit != 1e4) continue;
+    report.record(
+        {fmt::format("undamped: energy gained by implicit steps of {} of the limit", of_limit),
+         "1",
+         Kind::limit,
+         "conservation of energy",
+         0,
+         {1e-12, 0, Bound::at_most},
+         "the work of a step is the change of the springs' energy and its loss: rounding of some hundred steps"},
+        energy.gained, cost(undamped.run));
+  }
+  write_csv("bounce", "implicit.csv", {"limits", "left", "gained"}, {steps, left, gained});
+}
+
 }  // namespace
 }  // namespace voussoir::cases

@@ -105,6 +105,9 @@ struct TimeSettings {
 
   Integration integration = Integration::explicit_steps;
   double error = 0;  // m: of an implicit step; 0: 1e-5 of the smallest free block
+  // each stage of implicit steps by their own error is run once more with half of it, to see what its displacements owe
+  // to it
+  bool half_error = false;
 };
 
 struct EquilibriumSettings {

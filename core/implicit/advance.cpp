@@ -100,9 +100,11 @@ class Advance {
     }
   }
 
+  // the mean of its arms before and after the step, by which its displacement is exact
   Vector<Dim> arm_of(const OpenFace<Dim>& face, int body) const {
-    const Matrix<Dim> axes = matrix(motion_at_half(before[body], mean[body], h).rotation);
-    return mean_arm<Dim>(axes * face.place, mean[body].spin, h);
+    const Rotation<Dim>& rotation = before[body].rotation;
+    const Rotation<Dim> after = turned(rotation, turn_of_step<Dim>(mean[body].spin, h));
+    return 0.5 * (matrix(rotation) + matrix(after)) * face.place;
   }
 
   // All pairs that may meet within the step, as seen from its start. True: the present motion goes beyond those that
@@ -219,9 +221,9 @@ class Advance {
     std::vector<Load<Dim>> of_points(model.bodies.size());
     for (const StepPoint<Dim>& p : found.points) {
       const Vector<Dim> force = p.force.normal * p.normal + p.force.shear;
-      of_points[p.body_b] += {force, moment(p.arm_b, force)};
-      of_points[p.body_a] += {-force, -moment(p.arm_a, force)};
-      each_beside(unknowns, p, p.arm_a, p.arm_b, [&](int unknown, double sign, const Vector<Dim>& arm) {
+      of_points[p.body_b] += {force, moment(p.from_b, force)};
+      of_points[p.body_a] += {-force, -moment(p.point, force)};
+      each_beside(unknowns, p, p.point, p.from_b, [&](int unknown, double sign, const Vector<Dim>& arm) {
         const MeanMotion<Dim>& m = mean[unknowns.bodies[unknown]];
         flows[Source::free_field] += sign * h * force.dot(m.velocity + cross(m.spin, arm));
       });
@@ -258,16 +260,21 @@ class Advance {
       keep_history(whole);
   }
 
-  // the rest of a pair's turns from half of the motion, where the points stand: of both bodies, and the mean
+  // the rest of a pair's turns from half of the motion, where the points are: of the first body, and the mean of both
   struct SecondHalf {
-    Matrix<Dim> of_a, of_b, both;
+    Matrix<Dim> of_a, both;
   };
   SecondHalf second_half(const StepPoint<Dim>& p) const {
     const auto half_turn = [&](const Spin<Dim>& spin) {
       return Matrix<Dim>(matrix(turned(Rotation<Dim>{}, Spin<Dim>(0.5 * turn_of_step<Dim>(spin, h)))));
     };
     const Spin<Dim>&a = mean[p.body_a].spin, &b = mean[p.body_b].spin;
-    return {half_turn(a), half_turn(b), half_turn(Spin<Dim>(0.5 * (a + b)))};
+    return {half_turn(a), half_turn(Spin<Dim>(0.5 * (a + b)))};
+  }
+
+  // m: of a centroid, when the bodies have moved
+  Vector<Dim> place_after(int body) const {
+    return model.bodies[body].reference + state.bodies.motions[body].displacement;
   }
 
   // of one contact: its points' springs become one again, whose stress is uniform but for a turn about the centre
@@ -293,8 +300,11 @@ class Advance {
       slipped = std::max(slipped, end.plastic_slip);
       if (p.law.shear > 0) elastic += 0.5 * end.shear.squaredNorm() / p.law.shear;
       shear_stiffness = p.law.shear / p.area;
-      closed.push_back({p.body_a, p.body_b, to_end.both * p.normal, to_end.of_a * p.point, to_end.of_b * p.from_b,
-                        p.law.chi_normal * p.law.normal, end.stuck ? p.law.chi_shear * p.law.shear : 0});
+      // one place for both bodies: impulses at two places would turn them
+      const Vector<Dim> arm = to_end.of_a * p.point;
+      const Vector<Dim> from_b = arm + place_after(p.body_a) - place_after(p.body_b);
+      closed.push_back({p.body_a, p.body_b, to_end.both * p.normal, arm, from_b, p.law.chi_normal * p.law.normal,
+                        end.stuck ? p.law.chi_shear * p.law.shear : 0});
     }
     flows[Source::lost_area] += whole.lost + elastic;
     if (kept.normal.isZero(0)) return;

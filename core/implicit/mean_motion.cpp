@@ -78,16 +78,6 @@ Spin<Dim> turn_of_step(const Spin<Dim>& spin, double h) {
 }
 
 template <int Dim>
-Vector<Dim> mean_arm(const Vector<Dim>& at_half, const Spin<Dim>& spin, double h) {
-  // across the axis the mean of the ends is shorter by the cosine of half of the turn
-  const double size = spin.norm(), half = std::atan(0.5 * h * size);
-  if (half < small_turn) return at_half;
-  const Spin<Dim> axis = spin / size;
-  const Vector<Dim> across = -cross(axis, cross(axis, at_half));
-  return at_half - (1 - std::cos(half)) * across;
-}
-
-template <int Dim>
 SpinChange<Dim> spin_change(const Body<Dim>& body, const Motion<Dim>& before, const Spin<Dim>& spin, double h) {
   return change_of_spin(body, before, spin, h);
 }
@@ -124,7 +114,6 @@ double kinetic_energy(const Body<Dim>& body, const Motion<Dim>& motion) {
 
 #define VOUSSOIR_INSTANTIATE(Dim)                                                                               \
   template Spin<Dim> turn_of_step<Dim>(const Spin<Dim>&, double);                                               \
-  template Vector<Dim> mean_arm<Dim>(const Vector<Dim>&, const Spin<Dim>&, double);                             \
   template SpinChange<Dim> spin_change<Dim>(const Body<Dim>&, const Motion<Dim>&, const Spin<Dim>&, double);    \
   template Motion<Dim> motion_after<Dim>(const Body<Dim>&, const Motion<Dim>&, const MeanMotion<Dim>&, double); \
   template Motion<Dim> motion_at_half<Dim>(const Motion<Dim>&, const MeanMotion<Dim>&, double);                 \

@@ -24,10 +24,6 @@ struct MeanMotion {
 template <int Dim>
 Spin<Dim> turn_of_step(const Spin<Dim>& spin, double h);
 
-// the mean of an arm before and after the step, from that at half of the turn
-template <int Dim>
-Vector<Dim> mean_arm(const Vector<Dim>& at_half, const Spin<Dim>& spin, double h);
-
 // Change of a body's moment of momentum in space, N m s, and its derivative by the mean spin.
 template <int Dim>
 struct SpinChange {

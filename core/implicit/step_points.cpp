@@ -181,10 +181,7 @@ class PointsOfPair {
     found.body_b = body_b;
     found.normal = face.normal;
     found.point = point;
-    const MeanMotion<Dim>&a = motion.mean[body_a], &b = motion.mean[body_b];
-    found.arm_a = mean_arm<Dim>(point, a.spin, motion.h);
     found.from_b = point - between(bodies.poses[body_a], bodies.poses[body_b]);
-    found.arm_b = mean_arm<Dim>(found.from_b, b.spin, motion.h);
     found.area = whole * share;
     const double factor = p.constant_stiffness ? c.geometry.stiffness_factor : 1;
     PointStep& law = found.law;

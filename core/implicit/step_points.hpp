@@ -17,10 +17,10 @@ template <int Dim>
 struct StepPoint {
   int contact = 0;  // place in ContactsState::list
   int body_a = 0, body_b = 0;
-  Vector<Dim> normal, point;  // at half of the motion; the point from the first centroid, m
-  Vector<Dim> from_b;         // m: the same from the second
-  Vector<Dim> arm_a, arm_b;   // m: the means of those before and after the step
-  double area = 0;            // m²; of a constant stiffness the share of the contact's 1
+  // At half of the motion; the point from the first centroid and from the second, m. These are the arms of the force,
+  // too: of the points of either body whose mean place over the step is this one, so that a pair's moments cancel.
+  Vector<Dim> normal, point, from_b;
+  double area = 0;  // m²; of a constant stiffness the share of the contact's 1
   PointStep law;
   Vector<Dim> from = Vector<Dim>::Zero();  // N: shear of the spring before the step, in the plane of the point
   PointForce<Dim> force;
@@ -28,7 +28,7 @@ struct StepPoint {
   // m: of the second body relative to the first over the step
   Vector<Dim> motion(const std::vector<MeanMotion<Dim>>& mean) const {
     const MeanMotion<Dim>&a = mean[body_a], &b = mean[body_b];
-    return law.h * (b.velocity + cross(b.spin, arm_b) - a.velocity - cross(a.spin, arm_a));
+    return law.h * (b.velocity + cross(b.spin, from_b) - a.velocity - cross(a.spin, point));
   }
   double overlap_after(const Vector<Dim>& motion_of_step) const { return law.overlap - normal.dot(motion_of_step); }
   Vector<Dim> slip(const Vector<Dim>& motion_of_step) const {

@@ -143,10 +143,10 @@ class StepEquations {
           linearise<Dim>(p.law, p.normal, p.from, p.overlap_after(motion), p.slip(motion), p.force);
       errors = std::max({errors, line.overlap_error, line.slip_error});
       const Vector<Dim> force = p.force.normal * p.normal + p.force.shear + line.change;
-      each_loaded(unknowns, p, p.arm_a, p.arm_b, [&](int row, double sign, const Vector<Dim>& arm) {
+      each_loaded(unknowns, p, p.point, p.from_b, [&](int row, double sign, const Vector<Dim>& arm) {
         rhs.segment<F>(F * row) += sign * h * (velocity_by_motion<Dim>(arm).transpose() * force);
       });
-      add_pair<Dim>(unknowns, p, p.arm_a, p.arm_b, line.slope, h * h, matrix);
+      add_pair<Dim>(unknowns, p, p.point, p.from_b, line.slope, h * h, matrix);
     }
     for (const StepPlate<Dim>& p : plates)
       add_plate(p, rhs);

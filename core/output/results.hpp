@@ -53,6 +53,14 @@ struct Value {
 // properties by name; none: of all.
 std::string divided_by_factor(const std::vector<std::string>& properties, bool cohesion = true);
 
+// What the displacements of a stage of implicit steps owe to their error: against the same with half of it.
+struct HalfErrorResult {
+  int body = -1;            // that has moved most over the stage
+  std::string name = {};    // of the body; may be empty
+  double displacement = 0;  // m: its
+  double change = 0;        // m: the largest of any free body's
+};
+
 struct StageResult {
   std::string name, kind;  // kind: settle, run, reduce
   std::string ended;       // why it stopped, e.g. "equilibrium", "end time", "bracket closed"
@@ -66,6 +74,7 @@ struct StageResult {
   double unbalanced = 0;
   // of a stage that settles or runs: its motion, if it has found no equilibrium or has ended away from its begin
   FailureMechanism mechanism = {};
+  std::optional<HalfErrorResult> half_error = {};  // if the scene asks for it
 };
 
 // Bonds of a joint, or of a set of joints.

@@ -170,6 +170,13 @@ void add_supports(Json& entry, const SupportsCarry& carry, const std::string& pr
   }
 }
 
+Json half_error_json(const HalfErrorResult& half, const std::string& prefix, NumberWriter& number) {
+  return {{"body", half.body},
+          {"name", half.name},
+          {"displacement_m", number(half.displacement, prefix + "displacement_m")},
+          {"change_m", number(half.change, prefix + "change_m")}};
+}
+
 Json stages_json(const Results& results, NumberWriter& number) {
   Json stages = Json::array();
   for (const StageResult& stage : results.stages) {
@@ -184,6 +191,7 @@ Json stages_json(const Results& results, NumberWriter& number) {
              {"time_step_s", number(stage.time_step, prefix + "time_step_s")}};
     if (stage.shortest_step > 0) entry["shortest_step_s"] = number(stage.shortest_step, prefix + "shortest_step_s");
     add_unbalanced(entry, stage.unbalanced, number, prefix + "unbalanced");
+    if (stage.half_error) entry["half_error"] = half_error_json(*stage.half_error, prefix + "half_error.", number);
     if (stage.mechanism.known()) entry["mechanism"] = mechanism_json(stage.mechanism, number);
     add_supports(entry, supports_carry(results, static_cast<int>(stages.size())), prefix, number);
   }

@@ -10,6 +10,7 @@
 #include "core/implicit/implicit_step.hpp"
 #include "core/run/bonds_as_sliced.hpp"
 #include "core/run/failure_watch.hpp"
+#include "core/run/half_error.hpp"
 #include "core/run/record.hpp"
 #include "core/run/trial_record.hpp"
 #include "core/step/free_fall.hpp"
@@ -111,6 +112,8 @@ std::optional<StageOutcome> execute(const RunPlan& timed, const StageInForce<Dim
       fail(stage.plan(), Outcome::incomplete, why, progress.results);
       return StageOutcome{"a motion that implicit steps do not follow"};
     }
+  if (!progress.run.under_way && stage.settings.time.half_error && !run_by_half_error(timed, stage, watcher, progress))
+    return {};
   RunGoal goal;
   goal.end_time = progress.stage_began + timed.duration;
   return run_to(stage, goal, timed.gravity, StopReason::end_time, watcher, progress);

@@ -131,9 +131,14 @@ void visit_fields(Just<Value> auto& v, auto&& visit) {
   visit(Found{}, budget, not_varied);
 }
 
+void visit_fields(Just<HalfErrorResult> auto& h, auto&& visit) {
+  auto& [body, name, displacement, change] = h;
+  visit(Saved{}, body, name, displacement, change);
+}
+
 void visit_fields(Just<StageResult> auto& s, auto&& visit) {
-  auto& [name, kind, ended, relaxed, steps, time, time_step, shortest_step, unbalanced, mechanism] = s;
-  visit(Saved{}, name, kind, ended, relaxed, steps, time, time_step, shortest_step, unbalanced, mechanism);
+  auto& [name, kind, ended, relaxed, steps, time, time_step, shortest_step, unbalanced, mechanism, half_error] = s;
+  visit(Saved{}, name, kind, ended, relaxed, steps, time, time_step, shortest_step, unbalanced, mechanism, half_error);
 }
 
 void visit_fields(Just<History> auto& h, auto&& visit) {
@@ -235,9 +240,9 @@ void visit_fields(Either<StageEnd> auto& e, auto&& visit) {
 
 void visit_fields(Either<Progress> auto& p, auto&& visit) {
   auto& [state, stage, stage_under_way, stage_began, steps_before, run, settle, broken_before_stage, reduction, record,
-         next_frame, frames, trial_frames, ends, bonded, results] = p;
+         next_frame, frames, trial_frames, ends, bonded, by_half_error, results] = p;
   visit(Saved{}, state, stage, stage_under_way, stage_began, steps_before, run, settle, broken_before_stage, reduction,
-        record, next_frame, frames, trial_frames, ends, bonded, results);
+        record, next_frame, frames, trial_frames, ends, bonded, by_half_error, results);
 }
 
 // all bits of it: two objects are the same if these are equal

@@ -28,7 +28,9 @@ struct Progress {
   std::vector<double> trial_frames;   // of those of undone trials: the trials, counted from 1
   std::vector<StageEnd<Dim>> ends;    // of stages that have ended and from which monitors measure
   BondedContacts bonded;              // up to here
-  Results results;                    // of what has ended
+  // m: by body, at the end of the stage under way by half of its steps' error; empty: not asked for
+  std::vector<Vector<Dim>> by_half_error;
+  Results results;  // of what has ended
 };
 
 }  // namespace voussoir

@@ -12,6 +12,7 @@
 #include "core/run/doubts.hpp"
 #include "core/run/excavate.hpp"
 #include "core/run/find_mechanism.hpp"
+#include "core/run/half_error.hpp"
 #include "core/run/history.hpp"
 #include "core/run/record.hpp"
 #include "core/run/stable_state.hpp"
@@ -175,6 +176,8 @@ void end_stage(const StageInForce<Dim>& stage, const StageOutcome& done, const W
   const StagePlan& plan = stage.plan();
   Results& results = progress.results;
   results.stages.push_back(result_of(stage, done, progress));
+  results.stages.back().half_error = judge_half_error(stage.model, progress);
+  progress.by_half_error.clear();
   std::ranges::copy(doubts_about(results.at_last_stable_state, plan.name), std::back_inserter(results.warnings));
   warn_of_falling(stage, state, results);
   std::ranges::copy(creep_of(stage, state), std::back_inserter(results.warnings));

@@ -262,6 +262,12 @@ StageSpec read_stage(const Subject& table, const Settings& settings, int dimensi
     refuse(table, "damping",
            "joint_ratio is above zero: explicit steps would shrink with such dashpots; write time = { integration = "
            "\"implicit\" } in this stage, or damping = { joint_ratio = 0, viscous_ratio = 0.05 }");
+  if (std::holds_alternative<RunPlan>(stage.plan.plan) && time.half_error &&
+      (time.integration == Integration::explicit_steps || time.step))
+    refuse(table, "time",
+           "half_error asks for a second run with half of error_m, which only implicit steps of their own length have; "
+           "write time = { integration = \"implicit\", half_error = true } in this stage, without step_s, or leave "
+           "half_error out");
   if (table.node->find("statics") || table.node->find("static_increments")) {
     stage.plan.statics = settings.statics;
     read_keys(*table.node, "stage", *stage.plan.statics);

@@ -70,4 +70,9 @@ ShakenPosition shaken_block(const ShakenIncline& shaken, double time) {
   return {gone, 0};
 }
 
+double slip_of_pulse(double speed, double acceleration, double held) {
+  if (!(speed > 0 && held > 0)) throw std::invalid_argument("pulse: speed and friction must be positive");
+  return acceleration > held ? 0.5 * speed * speed * (1 / held - 1 / acceleration) : 0;
+}
+
 }  // namespace voussoir::reference

@@ -50,6 +50,25 @@ TEST(ShakenBlock, FirstSlipIsTheDifferenceOfTwoDisplacements) {
   EXPECT_EQ(shaken_block(example, 0).distance, 0);
 }
 
+// Newmark's rectangular pulse of 0.5 m/s at half of gravity, and step by step
+TEST(ShakenBlock, SlipOfARectangularPulse) {
+  const double g = 9.81, speed = 0.5, a = 0.5 * g;
+  EXPECT_NEAR(slip_of_pulse(speed, a, 0.1 * g), 0.10193679918451, 1e-14);
+  EXPECT_NEAR(slip_of_pulse(speed, a, 0.4 * g), 0.0063710499490316, 1e-14);
+  EXPECT_EQ(slip_of_pulse(speed, a, 0.6 * g), 0);
+  constexpr int steps = 400000;
+  const double dt = 0.2 / steps, held = 0.3 * g;
+  double distance = 0, ground = 0, block = 0;
+  for (int k = 0; k < steps; ++k) {
+    const double next = std::min(speed, ground + a * dt), follows = std::min(next, block + held * dt);
+    distance += 0.5 * (ground + next - block - follows) * dt;
+    ground = next;
+    block = follows;
+  }
+  EXPECT_NEAR(slip_of_pulse(speed, a, held), distance, 1e-7);
+  EXPECT_THROW(slip_of_pulse(speed, a, 0), std::invalid_argument);
+}
+
 // from the second cycle on each is like the one before
 TEST(ShakenBlock, CyclesRepeat) {
   const double second = shaken_block(example, 1.2).distance - shaken_block(example, 0.7).distance;

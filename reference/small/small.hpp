@@ -42,6 +42,10 @@ struct ShakenPosition {
 // when the block slides without shaking, or when the plane's acceleration is so great that it slips upwards, too.
 ShakenPosition shaken_block(const ShakenIncline& shaken, double time);
 
+// Slip, m, of a block on level ground that is given a speed (m/s, > 0) at a constant acceleration and keeps it
+// (Newmark's rectangular pulse): V²/2 (1/a - 1/A), a what friction holds, A the acceleration, m/s², 0 < a; 0 if A <= a.
+double slip_of_pulse(double speed, double acceleration, double held);
+
 // By how much a friction angle that falls at `rate` (rad/s, > 0) is below the plane's angle (rad) when the block has
 // slid by `distance` (m, > 0), local damping taking the fraction `damping` (0..<1) of the force that drives it: (6 X
 // cos(angle) r^2/((1 - damping) g))^(1/3), the leading term. With the next one it is 1 + tan(angle) bias/6 times this.

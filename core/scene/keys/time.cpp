@@ -26,6 +26,10 @@ KeyTable time_keys() {
      .meaning = "integration = \"implicit\": a step moves no block by more than this otherwise than two halves of it would; 0: 1e-5 of the "
          "smallest free block's inscribed radius",
      .breaks = "too large: impacts and onsets of slip are not resolved", .mistake = "was it given in mm?"},
+    {.key = "half_error", .members = {in(&TimeSettings::half_error)}, .example = "true",
+     .meaning = "integration = \"implicit\": each such stage is run once more with half of error_m, and the change of its largest "
+         "displacement is reported",
+     .breaks = "the stage takes more than twice the time"},
   }};
 }
 
