@@ -169,13 +169,15 @@ WaveStiffness<Dim> wave_stiffness(const Model<Dim>& model, const SideFace& face)
                                          : 0.5 * face_area(part, static_cast<int>(f)) / part.mass.volume;
     add_family<Dim>(m, per_volume, p, compliance);
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> pairs(Eigen::MatrixXd{compliance});
+  constexpr int entries = tensor_entries<Dim>;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, entries, entries>> pairs(
+      Eigen::Matrix<double, entries, entries>{compliance});
   const double largest = pairs.eigenvalues().maxCoeff();
   constexpr double negligible = 1e-9;
   for (int k = 0; k < Dim; ++k) {
     const Vector<Dim> e = Vector<Dim>::Unit(k);
     const Matrix<Dim> strain = 0.5 * (n * e.transpose() + e * n.transpose());
-    const Eigen::VectorXd along = pairs.eigenvectors().transpose() * vector_of<Dim>(strain);
+    const TensorVector<Dim> along = pairs.eigenvectors().transpose() * vector_of<Dim>(strain);
     double modulus = 0, rigid = 0;
     for (int i = 0; i < along.size(); ++i)
       if (pairs.eigenvalues()[i] > negligible * largest)
