@@ -244,13 +244,13 @@ void find_step_points(const Model<Dim>& model, const Settings& settings, const S
           .add(pair, history, all);
       continue;
     }
-    const double reach = std::max(motion.passed, 1 - motion.passed) * reach_of(model, motion, a, b);
-    if (!(reach > 0)) continue;
+    // also pairs that move as one but hardly have a gap: a block that is stopped stops those upon it in the same step
+    const double probe = probe_of_size * std::min(model.bodies[a].size, model.bodies[b].size),
+                 reach = probe + std::max(motion.passed, 1 - motion.passed) * reach_of(model, motion, a, b);
     const Separation<Dim> apart = separation_of(pair, c);
     if (!(apart.gap < reach)) continue;
     // drawn into each other to see where they meet
-    const double drawn =
-        std::max(apart.gap, 0.0) + probe_of_size * std::min(model.bodies[a].size, model.bodies[b].size);
+    const double drawn = std::max(apart.gap, 0.0) + probe;
     pair.offset -= drawn * apart.direction;
     Contact<Dim> found;
     found.part_a = c.part_a;
