@@ -9,10 +9,9 @@ namespace voussoir {
 
 // Of critical damping, for a swing of a given frequency on the joints.
 struct DampingRatios {
-  double joints = 0;  // dashpots of damping.joint_ratio, normal and shear
-  double viscous =
-      0;             // those of viscous_ratio, normal to the joints: at most, that of the block whose joint is softest
-  double local = 0;  // of local damping, at any frequency
+  double joints = 0;   // dashpots of damping.joint_ratio, normal and shear
+  double viscous = 0;  // those of viscous_ratio, normal to the joints: at most, of the block whose joint is softest
+  double local = 0;    // of local damping, at any frequency
 };
 
 // Dashpots in proportion to a stiffness k, c = 2 ξ k/ω0, have the ratio ξ ω/ω0 at ω. That of a contact is ξ of the

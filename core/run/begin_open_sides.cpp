@@ -8,6 +8,7 @@
 #include <limits>
 #include <numeric>
 
+#include "core/stage/medium.hpp"
 #include "core/step.hpp"
 #include "core/step/open_sides.hpp"
 
@@ -116,10 +117,7 @@ int only_part(const Model<Dim>& model, int body) {
 // the face of another part that looks the same way; -1: none
 template <int Dim>
 int face_like(const Polytope<Dim>& of, int face, const Polytope<Dim>& part) {
-  constexpr double same = 1 - 1e-9;
-  for (std::size_t f = 0; face >= 0 && f < part.faces.size(); ++f)
-    if (part.faces[f].normal.dot(of.faces[face].normal) > same) return static_cast<int>(f);
-  return -1;
+  return face < 0 ? -1 : face_along<Dim>(part, of.faces[face].normal);
 }
 
 // the contact's faces, which its new parts may list in another order

@@ -28,4 +28,10 @@ TimeFactor read_factor(const Subject& table) {
   return factor;
 }
 
+void refuse_beside_records(const Subject& table) {
+  for (const char* key : {"velocity", "angular_velocity", "times_s", "factors", "frequency_hz", "phase_deg"})
+    if (table.node->find(key))
+      refuse(table, key, "is stated together with factor, records that give the velocity; remove one of the two");
+}
+
 }  // namespace voussoir

@@ -43,9 +43,7 @@ void read_wave(const Subject& table, const std::string& side, int dimension, Qui
     plan.factor = read_factor(table);
     return;
   }
-  for (const char* key : {"velocity", "times_s", "factors", "frequency_hz", "phase_deg"})
-    if (table.node->find(key))
-      refuse(table, key, "is stated together with factor, records that give the velocity; remove one of the two");
+  refuse_beside_records(table);
   for (RecordSpec& record : read_records(table)) {
     plan.records.push_back(recorded_motion(record, dimension));
     records.push_back(std::move(record));

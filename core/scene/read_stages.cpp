@@ -124,9 +124,7 @@ void read_plan(const Subject& table, RunPlan& plan) {
 // a prescribed motion that follows records, which are appended to those of the stage
 MovePlan read_recorded_move(const Subject& table, const Selector& bodies, int dimension,
                             std::vector<RecordSpec>& records) {
-  for (const char* key : {"velocity", "angular_velocity", "times_s", "factors", "frequency_hz", "phase_deg"})
-    if (table.node->find(key))
-      refuse(table, key, "is stated together with factor, records that give the velocity; remove one of the two");
+  refuse_beside_records(table);
   MovePlan plan;
   plan.bodies = bodies;
   plan.velocity.assign(dimension, 0);

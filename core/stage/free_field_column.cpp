@@ -36,13 +36,6 @@ double period_between(const Polytope<Dim>& part, int face, int opposite) {
 }
 
 template <int Dim>
-int face_along(const Polytope<Dim>& part, const Vector<Dim>& direction) {
-  for (std::size_t f = 0; f < part.faces.size(); ++f)
-    if (part.faces[f].normal.dot(direction) > 1 - 1e-9) return static_cast<int>(f);
-  return -1;
-}
-
-template <int Dim>
 [[noreturn]] void refuse_column(const Model<Dim>& model, const std::string& side, int body, const std::string& why) {
   throw ClosedSide("free_field",
                    fmt::format("the column of blocks along {} does not repeat: {} {}; a free field needs joint sets "

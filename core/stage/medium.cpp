@@ -13,8 +13,6 @@
 namespace voussoir {
 namespace {
 
-constexpr double parallel = 1 - 1e-9;
-
 // stresses and strains as vectors whose products are those of the tensors: xx, yy, √2 xy; xx, yy, zz, √2 yz, …
 template <int Dim>
 constexpr int tensor_entries = Dim == 2 ? 3 : 6;
@@ -143,9 +141,10 @@ std::vector<SideFace> faces_of_side(const Model<Dim>& model, const std::string& 
 }
 
 template <int Dim>
-int opposite_face(const Polytope<Dim>& part, int face) {
+int face_along(const Polytope<Dim>& part, const Vector<Dim>& direction) {
+  constexpr double parallel = 1 - 1e-9;
   for (std::size_t f = 0; f < part.faces.size(); ++f)
-    if (-part.faces[f].normal.dot(part.faces[face].normal) > parallel) return static_cast<int>(f);
+    if (part.faces[f].normal.dot(direction) > parallel) return static_cast<int>(f);
   return -1;
 }
 
@@ -157,7 +156,7 @@ WaveStiffness<Dim> wave_stiffness(const Model<Dim>& model, const SideFace& face)
   TensorMatrix<Dim> compliance = TensorMatrix<Dim>::Zero();
   WaveStiffness<Dim> found;
   for (std::size_t f = 0; f < part.faces.size(); ++f) {
-    const int other = opposite_face(part, static_cast<int>(f));
+    const int other = face_along<Dim>(part, -part.faces[f].normal);
     found.paired = found.paired && other >= 0;
     if (part.joints[f] == no_joint || model.joints[part.joints[f]].holds) continue;
     const JointProperties& p = properties_of_face(model, part, static_cast<int>(f));
@@ -256,7 +255,7 @@ SideMedium<Dim> medium_of(const Model<Dim>& model, const std::string& side, cons
 #define VOUSSOIR_INSTANTIATE(Dim)                                                                              \
   template Vector<Dim> outward_of<Dim>(const std::string&);                                                    \
   template std::vector<SideFace> faces_of_side<Dim>(const Model<Dim>&, const std::string&);                    \
-  template int opposite_face<Dim>(const Polytope<Dim>&, int);                                                  \
+  template int face_along<Dim>(const Polytope<Dim>&, const Vector<Dim>&);                                      \
   template WaveStiffness<Dim> wave_stiffness<Dim>(const Model<Dim>&, const SideFace&);                         \
   template SideMedium<Dim> medium_of<Dim>(const Model<Dim>&, const std::string&, const std::vector<SideFace>&, \
                                           const MediumPlan&);

@@ -28,9 +28,9 @@ Vector<Dim> outward_of(const std::string& side);
 template <int Dim>
 std::vector<SideFace> faces_of_side(const Model<Dim>& model, const std::string& side);
 
-// The face of the same part that points the other way; -1: none.
+// the part's face with this outward normal, unit; -1: none
 template <int Dim>
-int opposite_face(const Polytope<Dim>& part, int face);
+int face_along(const Polytope<Dim>& part, const Vector<Dim>& direction);
 
 // Pa along the columns of the identity: n·C·n of the mass of which a block with a face on a side is a sample, for waves
 // along the side's normal n. The compliances of the joint families add up, each by 1/(k a) of its spacing a (Gerrard

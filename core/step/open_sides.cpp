@@ -8,11 +8,11 @@
 namespace voussoir {
 namespace {
 
+// images are listed by ascending body
 template <int Dim>
-bool is_outer_image(const Model<Dim>& model, int image, int of_column) {
-  return std::ranges::any_of(model.column_images, [&](const ColumnImage<Dim>& i) {
-    return i.body == image && i.outside && model.bodies[of_column].column;
-  });
+bool is_outer_image(const Model<Dim>& model, int body) {
+  if (!model.bodies[body].image) return false;
+  return std::ranges::lower_bound(model.column_images, body, {}, &ColumnImage<Dim>::body)->outside;
 }
 
 // the relative displacement of a face and its plate, world axes; that of the column's face beside it
@@ -64,7 +64,7 @@ Load<Dim> load_from_outside(const Model<Dim>& model, const ContactsState<Dim>& c
     if (c.second < 0) continue;
     const bool is_second = c.second == column.body;
     const int other = is_second ? model.parts[contacts.list[place].part_a].body : c.second;
-    if (!model.bodies[other].image || !is_outer_image(model, other, column.body)) continue;
+    if (!is_outer_image(model, other)) continue;
     if (is_second)
       sum += {c.force, c.about_second};
     else
