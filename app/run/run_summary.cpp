@@ -137,7 +137,7 @@ void print_cost(const Results& results, const std::vector<AccuracyRound>& rounds
                reasons_of_fallbacks(counters));
   if (counters.implicit_solutions > 0)
     fmt::print(
-        "  implicit steps: {} systems, {:.2g} iterations each; {} held by the load, {} by their error; {} "
+        "  implicit steps: {} systems, {:.2g} iterations each; {} held by load or output, {} by their error; {} "
         "refused, {} halved\n",
         counters.implicit_solutions,
         static_cast<double>(counters.implicit_iterations) / static_cast<double>(counters.implicit_solutions),

@@ -104,7 +104,11 @@ struct TimeSettings {
   std::optional<double> step;
 
   Integration integration = Integration::explicit_steps;
-  double error = 0;  // m: of an implicit step; 0: 1e-5 of the smallest free block
+  double error = 0;  // m: of an implicit step; 0: 1e-5 of the median free block
+  // s: at multiples of these of the run's time rows of the history and frames are due, and implicit steps of their own
+  // length end; 0: none
+  double row_interval = 0, frame_interval = 0;
+
   // each stage of implicit steps by their own error is run once more with half of it, to see what its displacements owe
   // to it
   bool half_error = false;

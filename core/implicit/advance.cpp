@@ -26,6 +26,15 @@ constexpr double most_turn = 1;
 // neighbours are listed for so many times the way of a step
 constexpr double with_margin = 1.5;
 
+// m: the inscribed radius of the smallest body that may move; infinity: there is none
+template <int Dim>
+double smallest_free(const Model<Dim>& model) {
+  double size = std::numeric_limits<double>::infinity();
+  for (const Body<Dim>& body : model.bodies)
+    if (!body.fixed && body.present) size = std::min(size, body.size);
+  return size;
+}
+
 template <int Dim>
 class Advance {
  public:
@@ -307,6 +316,7 @@ class Advance {
                         end.stuck ? p.law.chi_shear * p.law.shear : 0});
     }
     flows[Source::lost_area] += whole.lost + elastic;
+    flows[Source::friction] += whole.slipped;
     if (kept.normal.isZero(0)) return;
     for (std::size_t k = 0; k < whole.count; ++k) {
       const StepPoint<Dim>& p = found.points[whole.first + k];
@@ -348,21 +358,12 @@ class Advance {
 }  // namespace
 
 template <int Dim>
-double smallest_free(const Model<Dim>& model) {
-  double size = std::numeric_limits<double>::infinity();
-  for (const Body<Dim>& body : model.bodies)
-    if (!body.fixed && body.present) size = std::min(size, body.size);
-  return size;
-}
-
-template <int Dim>
 bool advance(const Model<Dim>& model, const Settings& settings, double h, double within, State<Dim>& state) {
   static thread_local StepPoints<Dim> points;  // one memory for all steps
   return Advance<Dim>(model, settings, state, h, within, points).carry_out();
 }
 
-#define VOUSSOIR_INSTANTIATE(Dim)                        \
-  template double smallest_free<Dim>(const Model<Dim>&); \
+#define VOUSSOIR_INSTANTIATE(Dim) \
   template bool advance<Dim>(const Model<Dim>&, const Settings&, double, double, State<Dim>&);
 VOUSSOIR_INSTANTIATE(2)
 VOUSSOIR_INSTANTIATE(3)

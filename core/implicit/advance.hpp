@@ -7,10 +7,6 @@
 
 namespace voussoir {
 
-// m: the inscribed radius of the smallest body that may move; infinity: there is none
-template <int Dim>
-double smallest_free(const Model<Dim>& model);
-
 // Moves everything on by h, s. `within`, m: the geometry of the contacts at half of the motion is found again until
 // that moves no body by more. False: the equations were not solved, their geometry did not settle, or a body goes too
 // far; the state is spoilt, but for the counters.

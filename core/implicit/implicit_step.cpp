@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "core/implicit/advance.hpp"
 #include "core/implicit/load_bounds.hpp"
@@ -141,6 +142,10 @@ void find_point_forces(const Model<Dim>& model, const Settings& settings, const 
                         all);
   contacts.loads.assign(contacts.list.size(), {});
   ledger.energy.elastic = 0;
+  for (Contact<Dim>& c : contacts.list)
+    c.force.setZero();
+  for (const StepContact<Dim>& whole : all.contacts)
+    ledger.energy.elastic += whole.slipped;  // until the step
   for (const StepPoint<Dim>& p : all.points) {
     const double pressed = std::max(p.law.overlap, 0.0);
     ledger.energy.elastic += 0.5 * p.law.normal * pressed * pressed;
@@ -149,6 +154,7 @@ void find_point_forces(const Model<Dim>& model, const Settings& settings, const 
     ContactLoad<Dim>& load = contacts.loads[p.contact];
     load.second = p.body_b;
     load.force += force;
+    contacts.list[p.contact].force += force;
     load.about_first += moment(p.point, force);
     load.about_second += moment(p.from_b, force);
   }
@@ -159,9 +165,9 @@ void move_implicitly(const Model<Dim>& model, const Settings& settings, State<Di
   catch_up(model, state);
   add_ramps(model, settings, state.bodies, state.loads, state.schedule, state.ledger.energy, state.relaxation);
   balance_now(model, state);
-  // by their own length steps end where a table bends
-  const double bend = settings.time.step ? state.schedule.ends : next_bend(model, state.schedule);
-  const double ends_at = std::min(state.schedule.ends, bend);
+  double ends_at = state.schedule.ends;
+  if (!settings.time.step)
+    ends_at = std::min({ends_at, next_bend(model, state.schedule), next_output(settings.time, state.schedule.time)});
   const double left = ends_at - state.schedule.time;
   const double tolerance = settings.time.error > 0 ? settings.time.error : default_step_error(model);
   if (settings.time.step) {
@@ -188,8 +194,13 @@ void move_implicitly(const Model<Dim>& model, const Settings& settings, State<Di
 template <int Dim>
 double default_step_error(const Model<Dim>& model) {
   constexpr double of_block = 1e-5;
-  const double size = smallest_free(model);
-  return of_block * (std::isfinite(size) ? size : 1);
+  std::vector<double> sizes;
+  for (const Body<Dim>& body : model.bodies)
+    if (!body.fixed && body.present) sizes.push_back(body.size);
+  if (sizes.empty()) return of_block;
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::ranges::nth_element(sizes, middle);
+  return of_block * *middle;
 }
 
 template <int Dim>

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/multiples.hpp"
+
 namespace voussoir {
 namespace {
 
@@ -77,6 +79,13 @@ double next_bend(const Model<Dim>& model, const Schedule& schedule) {
   for (const AppliedForce<Dim>& f : model.applied)
     look(f.factor);
   return schedule.started + next;
+}
+
+double next_output(const TimeSettings& time, double now) {
+  double next = std::numeric_limits<double>::infinity();
+  for (const double interval : {time.row_interval, time.frame_interval})
+    if (interval > 0) next = std::min(next, next_multiple(now, interval));
+  return next;
 }
 
 #define VOUSSOIR_INSTANTIATE(Dim)                        \

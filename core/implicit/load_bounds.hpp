@@ -19,4 +19,7 @@ double step_of_loads(const Change& change);
 template <int Dim>
 double next_bend(const Model<Dim>& model, const Schedule& schedule);
 
+// s: the next time at which the scene asks for output; infinity: it states no interval
+double next_output(const TimeSettings& time, double now);
+
 }  // namespace voussoir

@@ -52,6 +52,7 @@ struct StepContact {
   std::size_t first = 0, count = 0;  // of its points
   PressedArea<Dim> end;              // what presses at the end, relative to the first body at half of the motion
   double lost = 0;                   // J: by the springs where they were divided among the points
+  double slipped = 0;                // J: taken at once where friction was lowered before the step
 };
 
 template <int Dim>

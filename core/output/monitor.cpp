@@ -7,6 +7,7 @@
 #include <limits>
 #include <span>
 
+#include "core/base/multiples.hpp"
 #include "core/output/support_table.hpp"
 #include "text/angle.hpp"
 
@@ -296,8 +297,8 @@ std::vector<double> monitor_values(const std::vector<Monitor>& monitors, const M
 
 bool StageRecord::due(double time) {
   if (interval > 0) {
-    if (time < next) return false;
-    next = (std::floor(time / interval) + 1) * interval;
+    if (!is_reached(time, next, interval)) return false;
+    next = next_multiple(time, interval);
     return true;
   }
   return step++ % spacing == 0;

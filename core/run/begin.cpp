@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "core/base/multiples.hpp"
 #include "core/output/monitor.hpp"
 #include "core/output/support_table.hpp"
 #include "core/run/history.hpp"
@@ -144,8 +145,7 @@ Progress<Dim> begin_at_end(const Prepared<Dim>& scene, Progress<Dim> other, cons
   other.frames.clear();
   other.trial_frames.clear();
   const double interval = scene.output.frame_interval;
-  other.next_frame =
-      scene.output.any_frames() && interval > 0 ? (std::floor(other.state.schedule.time / interval) + 1) * interval : 0;
+  other.next_frame = scene.output.any_frames() && interval > 0 ? next_multiple(other.state.schedule.time, interval) : 0;
   return other;
 }
 

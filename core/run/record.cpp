@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/base/multiples.hpp"
 #include "core/run/history.hpp"
 #include "core/run/stable_state.hpp"
 #include "core/step/static_solver.hpp"
@@ -59,7 +60,7 @@ void add_frame(const StageInForce<Dim>& stage, const State<Dim>& state, const Wa
   const double time = state.schedule.time, interval = output.frame_interval;
   if (watcher.frame) watcher.frame(stage.model, state, time);
   progress.frames.push_back(time);
-  if (interval > 0) progress.next_frame = (std::floor(time / interval) + 1) * interval;
+  if (interval > 0) progress.next_frame = next_multiple(time, interval);
 }
 
 template <int Dim>
@@ -92,9 +93,9 @@ RunHooks<Dim> record_run(const StageInForce<Dim>& stage, std::optional<double> e
   const double begin = progress.stage_began;
   return {.with_forces =
               [&, stage](const State<Dim>& state) {
-                const double time = state.schedule.time;
+                const double time = state.schedule.time, frames = stage.scene.output.frame_interval;
                 if (progress.record.due(time)) progress.record.add(row_of(stage, state, progress.ends));
-                if (stage.scene.output.frame_interval > 0 && time >= progress.next_frame)
+                if (frames > 0 && is_reached(time, progress.next_frame, frames))
                   add_frame(stage, state, watcher, progress);
               },
           .after_step =

@@ -124,6 +124,8 @@ template <int Dim>
 void enter_stage(const Prepared<Dim>& scene, Model<Dim>& model, Settings& settings, Progress<Dim>& progress) {
   const StagePlan& plan = scene.stages[progress.stage];
   settings = settings_of(plan, scene.settings);
+  settings.time.row_interval = scene.output.history_interval;
+  settings.time.frame_interval = scene.output.any_frames() ? scene.output.frame_interval : 0;
   if (!progress.stage_under_way && !plan.change.excavate.empty()) {
     const Excavated<Dim> moved =
         excavate(plan.change.excavate, settings, plan.excavation_forces.has_value(), model, progress.state);

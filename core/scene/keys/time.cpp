@@ -24,7 +24,7 @@ KeyTable time_keys() {
     {.key = "error_m", .members = {in(&TimeSettings::error)}, .unit = "m", .range = {0, 1e3},
      .plausible = {.low = 1e-7, .high = 1e-3, .or_zero = true}, .example = "1e-5",
      .meaning = "integration = \"implicit\": a step moves no block by more than this otherwise than two halves of it would; 0: 1e-5 of the "
-         "smallest free block's inscribed radius",
+         "median inscribed radius of the free blocks",
      .breaks = "too large: impacts and onsets of slip are not resolved", .mistake = "was it given in mm?"},
     {.key = "half_error", .members = {in(&TimeSettings::half_error)}, .example = "true",
      .meaning = "integration = \"implicit\": each such stage is run once more with half of error_m, and the change of its largest "
