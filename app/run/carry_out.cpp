@@ -132,6 +132,7 @@ std::optional<ExitCode> carry_out_prepared(const LoadedScene& stated, const Load
   // results.json comes last: if it exists, everything is complete
   Results& results = progress.results;
   write_tables(job.folder, progress);
+  write_monitor_spectra(job.folder, results.history, prepared.stages);
   std::optional<Refinement> next;
   if (!judge_accuracy(stated, scene, job, results, next)) {
     tell("voussoir: interrupted in the error budget: continue with 'voussoir resume {}'\n", job.folder.string());

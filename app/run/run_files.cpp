@@ -74,6 +74,11 @@ void write_record_spectra(const fs::path& folder, const std::vector<StagePlan>& 
     write_file(folder / record_spectra_file, table);
 }
 
+void write_monitor_spectra(const fs::path& folder, const History& history, const std::vector<StagePlan>& stages) {
+  if (const std::string table = monitor_spectra_csv(history, stages); !table.empty())
+    write_file(folder / monitor_spectra_file, table);
+}
+
 void write_page(const fs::path& folder) {
   write_file(folder / page_file, view_page(folder / view_file));
 }

@@ -31,6 +31,8 @@ void write_frames(WrittenSeries& written, const Progress<Dim>& progress, Watcher
 
 // response spectra of the records that the stages prescribe, if there are any
 void write_record_spectra(const std::filesystem::path& folder, const std::vector<StagePlan>& stages);
+void write_monitor_spectra(const std::filesystem::path& folder, const History& history,
+                           const std::vector<StagePlan>& stages);
 
 // a program without the viewer leaves the page to one that has it
 void write_page(const std::filesystem::path& folder);

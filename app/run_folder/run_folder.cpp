@@ -126,7 +126,7 @@ Outputs run_outputs() {
       true};
   for (const std::string& table : support_table_files())
     outputs.files.push_back(table);
-  outputs.files.insert(outputs.files.end(), {search_table, report_file, record_spectra_file});
+  outputs.files.insert(outputs.files.end(), {search_table, report_file, record_spectra_file, monitor_spectra_file});
   return outputs;
 }
 

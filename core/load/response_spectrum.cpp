@@ -101,10 +101,9 @@ std::vector<double> usual_periods(double interval) {
   return periods;
 }
 
-std::vector<ResponseOrdinate> response_spectrum(const GroundMotion& motion, const std::vector<double>& periods,
-                                                double damping) {
+std::vector<ResponseOrdinate> response_spectrum(const std::vector<LinearPiece>& pieces,
+                                                const std::vector<double>& periods, double damping) {
   std::vector<ResponseOrdinate> ordinates;
-  const std::vector<LinearPiece> pieces = acceleration_pieces(motion);
   if (pieces.empty()) return ordinates;
   for (const double period : periods) {
     const double frequency = 2 * std::numbers::pi / period;

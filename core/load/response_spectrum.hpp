@@ -36,8 +36,13 @@ inline constexpr double usual_damping = 0.05;
 // s: twenty a decade, from 0.01 to 10, but for those below two intervals of the values, of which these say nothing
 std::vector<double> usual_periods(double interval);
 
-// The largest displacement is that of the motion in time, not of its values: it is found within the steps.
-std::vector<ResponseOrdinate> response_spectrum(const GroundMotion& motion, const std::vector<double>& periods,
-                                                double damping = usual_damping);
+// The largest displacement is that of the motion in time, not of its values: it is found within the steps. Empty
+// without pieces.
+std::vector<ResponseOrdinate> response_spectrum(const std::vector<LinearPiece>& pieces,
+                                                const std::vector<double>& periods, double damping = usual_damping);
+inline std::vector<ResponseOrdinate> response_spectrum(const GroundMotion& motion, const std::vector<double>& periods,
+                                                       double damping = usual_damping) {
+  return response_spectrum(acceleration_pieces(motion), periods, damping);
+}
 
 }  // namespace voussoir

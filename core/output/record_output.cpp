@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+
 #include "core/load/response_spectrum.hpp"
 #include "core/output/json_parts.hpp"
 #include "text/csv_table.hpp"
@@ -35,6 +37,49 @@ nlohmann::ordered_json record_json(const RecordRow& row) {
   return entry;
 }
 
+std::string heading(std::vector<std::string> columns) {
+  columns.insert(columns.end(), {"period_s", "frequency_hz", "displacement_m", "pseudo_velocity_m_per_s",
+                                 "pseudo_acceleration_m_per_s2"});
+  return csv_line(columns) + "\n";
+}
+
+std::string spectrum_lines(const std::vector<std::string>& of, const std::vector<LinearPiece>& pieces,
+                           double interval) {
+  std::string text;
+  for (const ResponseOrdinate& r : response_spectrum(pieces, usual_periods(interval))) {
+    std::vector<std::string> cells = of;
+    for (const double value : {r.period, 1 / r.period, r.displacement, r.pseudo_velocity, r.pseudo_acceleration})
+      cells.push_back(csv_cell(value));
+    text += csv_line(cells) + "\n";
+  }
+  return text;
+}
+
+// "block_velocity_x_m_per_s"
+bool is_velocity(const std::string& column) {
+  return column.ends_with("_m_per_s") && column.find("_velocity_") != std::string::npos;
+}
+
+// a column's values between the rows of a stage, as accelerations
+struct RowsOfStage {
+  std::vector<LinearPiece> pieces;
+  double longest = 0;  // s
+};
+RowsOfStage rows_of(const History& history, int stage, std::size_t column) {
+  RowsOfStage found;
+  const std::vector<double>* last = nullptr;
+  for (const std::vector<double>& row : history.rows) {
+    if (row[1] != stage) continue;
+    if (last && row[0] > (*last)[0]) {
+      const double time = row[0] - (*last)[0], constant = (row[column] - (*last)[column]) / time;
+      found.pieces.push_back({time, constant, constant});
+      found.longest = std::max(found.longest, time);
+    }
+    last = &row;
+  }
+  return found;
+}
+
 }  // namespace
 
 std::vector<RecordRow> record_rows(const std::vector<StagePlan>& stages) {
@@ -63,15 +108,22 @@ nlohmann::ordered_json records_json(const std::vector<RecordRow>& rows) {
 std::string record_spectra_csv(const std::vector<RecordRow>& rows) {
   std::string text;
   for (const RecordRow& row : rows)
-    for (const ResponseOrdinate& r : response_spectrum(*row.motion, usual_periods(row.motion->interval)))
-      text += csv_line({csv_cell(static_cast<double>(row.number)), row.motion->name, csv_cell(r.period),
-                        csv_cell(1 / r.period), csv_cell(r.displacement), csv_cell(r.pseudo_velocity),
-                        csv_cell(r.pseudo_acceleration)}) +
-              "\n";
-  if (text.empty()) return text;
-  return csv_line({"record", "file", "period_s", "frequency_hz", "displacement_m", "pseudo_velocity_m_per_s",
-                   "pseudo_acceleration_m_per_s2"}) +
-         "\n" + text;
+    text += spectrum_lines({csv_cell(static_cast<double>(row.number)), row.motion->name},
+                           acceleration_pieces(*row.motion), row.motion->interval);
+  return text.empty() ? text : heading({"record", "file"}) + text;
+}
+
+std::string monitor_spectra_csv(const History& history, const std::vector<StagePlan>& stages) {
+  std::string text;
+  for (std::size_t stage = 0; stage < stages.size(); ++stage) {
+    if (record_rows({stages[stage]}).empty()) continue;
+    for (std::size_t k = 2; k < history.columns.size(); ++k) {
+      if (!is_velocity(history.columns[k])) continue;
+      const RowsOfStage of = rows_of(history, static_cast<int>(stage) + 1, k);
+      text += spectrum_lines({stages[stage].name, history.columns[k]}, of.pieces, of.longest);
+    }
+  }
+  return text.empty() ? text : heading({"stage", "column"}) + text;
 }
 
 }  // namespace voussoir

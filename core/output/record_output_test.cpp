@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/load/ground_motion.hpp"
+#include "core/load/response_spectrum.hpp"
 #include "core/output/json_parts.hpp"
 #include "text/csv_table.hpp"
 
@@ -49,6 +50,27 @@ TEST(RecordOutput, SpectraAreATableThatReadsBack) {
     EXPECT_GT(*table.number(row, "displacement_m"), 0);
   }
   EXPECT_TRUE(record_spectra_csv(record_rows(stages_with(MotionQuantity::displacement))).empty());
+}
+
+// A monitor that moves as the ground has the ground's spectrum, also if rows are missing where the velocity is linear.
+TEST(RecordOutput, AMonitorOfTheGroundHasTheGroundsSpectrum) {
+  std::vector<StagePlan> stages = stages_with(MotionQuantity::velocity);
+  GroundMotion motion = make_ground_motion(MotionQuantity::velocity, 0.1, {0, 2, 1, 0, 0.5, 0}, {});
+  stages[1].change.move[0].records[0].motion = std::make_shared<const GroundMotion>(motion);
+  History history{{"time_s", "stage", "block_velocity_y_m_per_s", "block_angular_velocity_rad_per_s"}, {}};
+  history.rows = {{5, 1, 7, 0}};
+  for (const std::size_t k : {0, 1, 3, 4, 5})
+    history.rows.push_back({5 + 0.1 * static_cast<double>(k), 2, motion.velocity[k], 1});
+  const CsvTable table = parse_csv(monitor_spectra_csv(history, stages));
+  const std::vector<double> periods = usual_periods(0.2);
+  const std::vector<ResponseOrdinate> expected = response_spectrum(motion, periods);
+  ASSERT_EQ(table.rows.size(), periods.size());
+  for (std::size_t k = 0; k < periods.size(); ++k) {
+    EXPECT_EQ(table.text(table.rows[k], "column"), "block_velocity_y_m_per_s");
+    EXPECT_NEAR(*table.number(table.rows[k], "pseudo_velocity_m_per_s"), expected[k].pseudo_velocity,
+                1e-9 * expected[k].pseudo_velocity);
+  }
+  EXPECT_TRUE(monitor_spectra_csv(history, {StagePlan{}, StagePlan{}}).empty());
 }
 
 }  // namespace
