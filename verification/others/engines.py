@@ -3,6 +3,7 @@ import json
 import os
 import re
 import select
+import signal
 import subprocess
 import time
 
@@ -103,7 +104,7 @@ class Process:
     def run(self, text):
         if self.process is None or self.process.poll() is not None:
             self.process = subprocess.Popen(self.engine.command, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-                                            stderr=subprocess.DEVNULL)
+                                            stderr=subprocess.DEVNULL, start_new_session=True)
             self.text = b""
         found, until = Run(), time.monotonic() + 10 * self.patience
         used = processor_seconds(self.process.pid) + self.patience
@@ -121,7 +122,7 @@ class Process:
 
     def close(self):
         if self.process is not None:
-            self.process.kill()
+            os.killpg(self.process.pid, signal.SIGKILL)  # with what it started
             self.process.wait()
             self.process = None
 

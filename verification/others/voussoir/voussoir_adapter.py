@@ -1,6 +1,6 @@
 """Voussoir itself, by files: writes a scene.toml for each scene, runs `voussoir run`, reads history.csv. Settings: kn and ks
-(Pa/m, instead of the joint's); fraction (of the stable step); damp (viscous_ratio of the joints' dashpots); points (1: contact points
-instead of integrated faces); space (1: plane problems as prisms in space). usage: voussoir_adapter.py PROGRAM"""
+(Pa/m, instead of the joint's); implicit (1: implicit steps, where joints have no bonds and blocks no bolts); fraction (of the stable step,
+explicit); damp (viscous_ratio of the joints' dashpots); points (1: contact points instead of integrated faces); space (1: plane problems as prisms in space). usage: voussoir_adapter.py PROGRAM"""
 import csv
 import math
 import os
@@ -60,6 +60,15 @@ def pressed(scene, plane):
             'force = [{ name = "push", bodies = ["%s"], force = %s }]' % (free["name"], numbers(push[[0, 2]] if plane else push))]
 
 
+def is_bonded(scene):
+    return scene["joint"][2] > 0 or scene["joint"][3] > 0
+
+
+def implicit(scene, setting):
+    """refused for bonds and bolts, which are then stepped explicitly"""
+    return setting("implicit", 0) and not is_bonded(scene) and not scene["bolts"]
+
+
 def scene_toml(scene, setting):
     plane = scene["plane"] and not setting("space", 0)
     gravity, ramp = growth(scene["gravity"])
@@ -70,7 +79,7 @@ def scene_toml(scene, setting):
         lines.append("gravity = " + numbers(gravity[[0, 2]] if plane else gravity))
     lines += ["[[joint_properties]]", 'name = "joint"', "normal_stiffness = %.17g" % kn, "shear_stiffness = %.17g" % ks,
               "friction_deg = %.17g" % math.degrees(math.atan(scene["friction"]))]
-    bonded = cohesion > 0 or tension > 0
+    bonded = is_bonded(scene)
     lines += ["cohesion = %.17g" % cohesion, "tension = %.17g" % tension, 'bonds = "by_stage"',
               "sub_contacts = 32"] if bonded else []
     for b in scene["blocks"]:
@@ -87,7 +96,8 @@ def scene_toml(scene, setting):
               "history_interval_s = %.17g" % scene["output"]]
     lines += pressed(scene, plane) if bonded else []
     lines += ["[[stage]]", 'name = "run"', 'kind = "run"',
-              "duration_s = %.17g" % scene["duration"], "damping = { local = 0, viscous_ratio = %g }" % setting("damp", 0.1)]
+              "duration_s = %.17g" % scene["duration"],
+              *(['time = { integration = "implicit" }'] if implicit(scene, setting) else []), "damping = { local = 0, viscous_ratio = %g }" % setting("damp", 0.1)]
     lines += ["gravity_ramp_s = %.17g" % ramp] if ramp > 0 else []
     lines += ["gravity_to = 1"] if bonded and ramp > 0 else []
     lines += ["install = [%s]" % ", ".join('"%s"' % name for name, _ in scene["bolts"])] if scene["bolts"] else []
