@@ -1,6 +1,7 @@
 #include "reports/case_page.hpp"
 
 #include <fmt/format.h>
+#include <toml++/toml.h>
 
 #include <algorithm>
 #include <initializer_list>
@@ -97,13 +98,20 @@ std::string readme_sections(Page& page, const std::vector<std::string>& sections
   return page.render(text, 1, false);
 }
 
-std::string scene_files(const Page& page) {
+// of the sketch and of the parameters: scene.toml, or the one that views.toml names
+std::string drawn_scene(const Page& page) {
+  const fs::path views = page.folders.source / "reports" / "views.toml";
+  const std::string usual = "scene.toml";
+  return fs::exists(views) ? toml::parse_file(views.string())["drawn"][page.name].value_or(usual) : usual;
+}
+
+std::string scene_files(const Page& page, const std::string& drawn) {
   std::string text;
   for (const fs::path& file : files_with(page.case_folder(), ".toml")) {
     const std::string name = file.filename().string();
-    text += fmt::format("<details id=\"{}-{}\"{}><summary>{}</summary><pre><code>{}</code></pre></details>\n",
-                        slug(page.name), slug(name), name == "scene.toml" ? " open" : "", escape(name),
-                        escape(read_text(file)));
+    text +=
+        fmt::format("<details id=\"{}-{}\"{}><summary>{}</summary><pre><code>{}</code></pre></details>\n",
+                    slug(page.name), slug(name), name == drawn ? " open" : "", escape(name), escape(read_text(file)));
   }
   return text.empty() ? "" : "<h3>Scene</h3>\n" + text;
 }
@@ -124,12 +132,12 @@ std::string blocks(const Page& page) {
                              : "";
 }
 
-// the dimensioned sketch of the scene, written by make_sketches.py; none for scenes of many blocks
-std::string sketch(const Page& page) {
+// the dimensioned sketch of the scene, written by make_sketches.py
+std::string sketch(const Page& page, const std::string& scene) {
   const fs::path folder = page.folders.build / "reports" / "sketches";
   if (!fs::exists(folder / (page.name + ".svg"))) return {};
   return drawn_figure({folder}, page.name, slug("sketch-" + page.name),
-                      "The blocks of <code>scene.toml</code> as sliced; those that are free in orange.");
+                      fmt::format("The blocks of <code>{}</code> as sliced; those that are free in orange.", scene));
 }
 
 }  // namespace
@@ -157,8 +165,9 @@ std::string case_page(const Folders& folders, const Verdicts& verdicts, const Ca
   else if (status.state != CaseState::not_modelled)
     text += page.say_missing("This case has no README.md.");
   text += page.render(sections.front(), 1, true);
-  text += sketch(page);
-  text += parameter_table(page.case_folder() / "scene.toml", folders.build / "reports" / "scene_keys.md");
+  const std::string scene = drawn_scene(page);
+  text += sketch(page, scene);
+  text += parameter_table(page.case_folder() / scene, folders.build / "reports" / "scene_keys.md");
   text += readme_sections(page, sections, {"Problem"}) + blocks(page);
   if (const std::string answer = answer_table(verdicts, status.name); !answer.empty())
     text += "<h3>Values against the reference</h3>\n" + answer;
@@ -183,7 +192,7 @@ std::string case_page(const Folders& folders, const Verdicts& verdicts, const Ca
     else if (fs::exists(page.case_folder() / "study.toml"))
       text += "<h3>Speed for accuracy</h3>\n" + page.say_missing("The study of this case has no result.");
   }
-  return text + scene_files(page) + behind + "</section>\n";
+  return text + scene_files(page, scene) + behind + "</section>\n";
 }
 
 }  // namespace voussoir::reports

@@ -2,15 +2,18 @@
 """make_sketches.py --source REPOSITORY --build BUILD [--only CASE …]: a dimensioned sketch of each case's scene.toml, as sliced.
 
 Writes BUILD/reports/sketches/CASE.svg: in the plane the blocks, in space elevation and plan, with the extent of all blocks and of those
-that are free, in m. A scene of more blocks than a sketch can show has none.
+that are free, in m. Many blocks in space are drawn as outlines, the nearer over the farther. A case without scene.toml has the scene that
+[drawn] of views.toml names, or no sketch.
 """
 import argparse
 import csv
 import pathlib
 import subprocess
 import tempfile
+import tomllib
 
-MOST_BLOCKS = 100
+MOST_TRANSPARENT = 100  # blocks in space whose faces are all drawn
+MOST_BLOCKS = 2000
 WIDTH, HEIGHT, MARGIN = 330.0, 240.0, 46.0  # of a view, pixels; of the dimensions about it
 
 
@@ -50,6 +53,32 @@ def in_space(folder):
     return faces
 
 
+def hull(points):
+    """the convex hull of points in the plane"""
+    points = sorted(set(points))
+
+    def chain(points):
+        kept = []
+        for x, y in points:
+            while len(kept) > 1 and ((kept[-1][0] - kept[-2][0]) * (y - kept[-2][1]) <=
+                                     (kept[-1][1] - kept[-2][1]) * (x - kept[-2][0])):
+                kept.pop()
+            kept.append((x, y))
+        return kept
+
+    return chain(points)[:-1] + chain(reversed(points))[:-1]
+
+
+def outlines(faces, free, seen):
+    """one outline a block, of corners that `seen` puts into the view: fixed blocks, which may be walls before the others, then farther
+    ones first; seen(corner) gives x, y and depth"""
+    corners = {}
+    for name, face in faces:
+        corners.setdefault(name, []).extend(seen(corner) for corner in face)
+    order = sorted(corners, key=lambda name: (name in free, -sum(depth for _, _, depth in corners[name]) / len(corners[name])))
+    return [(name, hull([(x, y) for x, y, _ in corners[name]])) for name in order]
+
+
 def free_blocks(folder):
     rows = list(csv.DictReader(open(folder / "blocks.csv", encoding="utf-8")))
     return {row["name"] or f"block-{row['body']}" for row in rows if row["fixed"] != "1"}, len(rows)
@@ -64,8 +93,9 @@ def dimension(length):
     return f"{length:.4g} m"
 
 
-def view(shapes, free, left, title):
-    """one view: shapes at their scale, dimensions of all below and to the right, of the free ones above and to the left"""
+def view(shapes, free, left, title, kind=""):
+    """one view: shapes at their scale, dimensions of all below and to the right, of the free ones above and to the left; kind: of the
+    shapes, which are then drawn in their order"""
     (x0, x1), (y0, y1) = extent(shapes)
     scale = min(WIDTH / (x1 - x0), HEIGHT / (y1 - y0))
     width, height = (x1 - x0) * scale, (y1 - y0) * scale
@@ -75,9 +105,9 @@ def view(shapes, free, left, title):
         return ox + (x - x0) * scale, oy - (y - y0) * scale
 
     text = []
-    for name, shape in sorted(shapes, key=lambda item: item[0] in free):
+    for name, shape in shapes if kind else sorted(shapes, key=lambda item: item[0] in free):
         points = " ".join(f"{x:.1f},{y:.1f}" for x, y in (at(*point) for point in shape))
-        text.append(f'<polygon class="sketch-{"free" if name in free else "fixed"}" points="{points}"/>')
+        text.append(f'<polygon class="sketch-{"free" if name in free else "fixed"}{kind}" points="{points}"/>')
 
     def measure(a, b, words, turned=False):
         (ax, ay), (bx, by) = a, b
@@ -113,15 +143,18 @@ def sketch(program, scene):
         if "normal_z" in header:
             subprocess.run([*command, "--obj", "--overwrite"], capture_output=True, check=True)
             faces = in_space(folder)
-            views = [([(name, [(x, z) for x, _, z in face]) for name, face in faces], "elevation, seen to the north"),
-                     ([(name, [(x, y) for x, y, _ in face]) for name, face in faces], "plan, north up")]
+            seen = (("elevation, seen to the north", lambda c: (c[0], c[2], c[1])), ("plan, north up", lambda c: (c[0], c[1], -c[2])))
+            if count > MOST_TRANSPARENT:
+                views = [(outlines(faces, free, way), title, " sketch-solid") for title, way in seen]
+            else:
+                views = [([(name, [way(corner)[:2] for corner in face]) for name, face in faces], title, "") for title, way in seen]
         else:
-            views = [(in_plane(folder), "in the plane")]
+            views = [(in_plane(folder), "in the plane", "")]
     step = WIDTH + 2 * MARGIN
-    drawn = "".join(view(shapes, free, k * step, title) for k, (shapes, title) in enumerate(views))
+    drawn = "".join(view(shapes, free, k * step, title, kind) for k, (shapes, title, kind) in enumerate(views))
     return (f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {len(views) * step:.0f} {HEIGHT + 2 * MARGIN:.0f}" font-size="11" '
             'text-anchor="middle"><style>.sketch-fixed{fill:#e8eaed;fill-opacity:.5;stroke:#9aa4ae;stroke-width:.6}.sketch-free{fill:#f2c078;fill-opacity:.55;stroke:#7a5300;'
-            'stroke-width:.9}.sketch-measure{fill:none;stroke:#1d2126;stroke-width:.8}</style><defs><marker id="tick" '
+            'stroke-width:.9}.sketch-solid{fill-opacity:1;stroke-width:.3}.sketch-measure{fill:none;stroke:#1d2126;stroke-width:.8}</style><defs><marker id="tick" '
             'viewBox="-4 -4 8 8" markerWidth="8" markerHeight="8" orient="auto"><path d="M-3,3L3,-3" stroke="#1d2126"/></marker></defs>'
             f'{drawn}</svg>\n'), ""
 
@@ -135,9 +168,12 @@ def main():
     out = arguments.build / "reports" / "sketches"
     out.mkdir(parents=True, exist_ok=True)
     drawn = 0
-    for scene in sorted(arguments.source.glob("cases/*/scene.toml")):
-        case = scene.parent.name
-        if arguments.only and case not in arguments.only:
+    with open(arguments.source / "reports" / "views.toml", "rb") as file:
+        named = tomllib.load(file)["drawn"]
+    for readme in sorted(arguments.source.glob("cases/*/README.md")):
+        case = readme.parent.name
+        scene = readme.parent / named.get(case, "scene.toml")
+        if (arguments.only and case not in arguments.only) or not scene.exists():
             continue
         text, reason = sketch(arguments.build / "app" / "voussoir", scene)
         (out / f"{case}.svg").unlink(missing_ok=True)

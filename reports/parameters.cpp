@@ -144,8 +144,10 @@ std::string parameter_table(const fs::path& scene_file, const fs::path& keys) {
   return "<h3>Parameters</h3>\n<div class=\"scroll\"><table class=\"parameters\"><thead><tr><th>of</th><th>key</th>"
          "<th class=\"number\">value</th><th>unit</th><th>meaning</th></tr></thead><tbody>\n" +
          rows.html +
-         "</tbody></table></div>\n<p class=\"quiet\">As <code>scene.toml</code> states them; its stages may change "
-         "them.</p>\n";
+         fmt::format(
+             "</tbody></table></div>\n<p class=\"quiet\">As <code>{}</code> states them; its stages may change "
+             "them.</p>\n",
+             escape(scene_file.filename().string()));
 }
 
 }  // namespace voussoir::reports
