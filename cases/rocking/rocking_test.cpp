@@ -101,6 +101,7 @@ TEST(Rocking, TakesItsQuarterPeriod) {
   judge_quarter_period(report, "", {});
   judge_quarter_period(report, ", whole face", {whole_faces});
   judge_quarter_period_by_implicit_steps(report);
+  report.reference("block_rotation", to_degrees(elastic_turn(block, start, stiffness, stiffness, 0.5)), "deg");
   const std::string note = "for comparison: the base delays the block by its pressed length";
   report.report("quarter period, rigid base", "s", rigid_quarter_period(block, start), note);
   report.report("quarter period, Housner's closed form", "s", housner_quarter_period(block, start),

@@ -55,12 +55,13 @@ double rigid_quarter_period(const RockingBlock& block, double lean) {
   return time;
 }
 
-double elastic_quarter_period(const RockingBlock& block, double lean, double normal_stiffness, double shear_stiffness) {
-  require_lean(block, lean);
-  const double radius = half_diagonal(block), alpha = slenderness(block), mass = mass_of(block);
-  const double inertia = mass * radius * radius / 3, weight = mass * block.gravity;
+namespace {
 
-  const OdeRight right = [&](double, const double* s, double* slope) {
+// Newton's laws of the block on its elastic base
+OdeRight on_elastic_base(const RockingBlock& block, double normal_stiffness, double shear_stiffness) {
+  const double radius = half_diagonal(block), alpha = slenderness(block), mass = mass_of(block);
+  const double inertia = mass * radius * radius / 3, gravity = block.gravity;
+  return [=](double, const double* s, double* slope) {
     const double turn = s[lean_], half = 0.5 * turn;
     const double beside = radius * std::sin(alpha - turn), above = radius * std::cos(alpha - turn);
     const double length = std::max(above - s[y_], 0.0) / std::sin(turn) / std::cos(half);  // of the pressed wedge
@@ -77,16 +78,36 @@ double elastic_quarter_period(const RockingBlock& block, double lean, double nor
     slope[x_] = s[speed_x_];
     slope[speed_x_] = fx / mass;
     slope[y_] = s[speed_y_];
-    slope[speed_y_] = fy / mass - block.gravity;
+    slope[speed_y_] = fy / mass - gravity;
     slope[shear_] = -shear_stiffness * length * slip;
   };
+}
 
-  // without motion the weight is supported upright: pressure and shear are its components
+// without motion the weight is supported upright: pressure and shear are its components
+std::vector<double> held(const RockingBlock& block, double lean, double normal_stiffness) {
+  const double weight = mass_of(block) * block.gravity;
   const double length = std::sqrt(weight * std::cos(0.5 * lean) / (normal_stiffness * std::tan(0.5 * lean)));
   std::vector<double> state(rocking_entries_, 0.0);
   state[lean_] = lean;
-  state[y_] = radius * std::cos(alpha - lean) - length * std::cos(0.5 * lean) * std::sin(lean);
+  state[y_] =
+      half_diagonal(block) * std::cos(slenderness(block) - lean) - length * std::cos(0.5 * lean) * std::sin(lean);
   state[shear_] = -weight * std::sin(0.5 * lean);
+  return state;
+}
+
+}  // namespace
+
+double elastic_turn(const RockingBlock& block, double lean, double normal_stiffness, double shear_stiffness,
+                    double time) {
+  require_lean(block, lean);
+  return lean - integrate_ode(on_elastic_base(block, normal_stiffness, shear_stiffness),
+                              held(block, lean, normal_stiffness), 0, time, 1e-10)[lean_];
+}
+
+double elastic_quarter_period(const RockingBlock& block, double lean, double normal_stiffness, double shear_stiffness) {
+  require_lean(block, lean);
+  const OdeRight right = on_elastic_base(block, normal_stiffness, shear_stiffness);
+  std::vector<double> state = held(block, lean, normal_stiffness);
 
   // the last part, in which the wedge grows to the whole face, at constant speed
   const double upright = 1e-3 * lean, step = 1e-3 / rocking_frequency(block);

@@ -27,6 +27,10 @@ double rigid_quarter_period(const RockingBlock& block, double lean);
 // with the weight supported upright, integrated in time.
 double elastic_quarter_period(const RockingBlock& block, double lean, double normal_stiffness, double shear_stiffness);
 
+// rad: by how much it has turned upright after a time (s), short of the quarter period
+double elastic_turn(const RockingBlock& block, double lean, double normal_stiffness, double shear_stiffness,
+                    double time);
+
 // Ratio of the speeds after and before a rigid block's impact on its other corner: 1 - 3/2 sin^2 alpha.
 double housner_restitution(const RockingBlock& block);
 
