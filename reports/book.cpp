@@ -8,6 +8,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <stdexcept>
 #include <string_view>
 
 #include "reports/html.hpp"
@@ -128,17 +129,29 @@ std::string head(const BookStyle& style, const std::string& title, const std::st
       title, style.version, css);
 }
 
+// the place behind the drawing that begins here; it may have drawings inside
+std::size_t end_of_drawing(const std::string& html, std::size_t begin) {
+  constexpr std::string_view opens = "<svg", closes = "</svg>";
+  std::size_t at = begin + opens.size();
+  for (int depth = 1; depth > 0;) {
+    const std::size_t open = html.find(opens, at), close = html.find(closes, at);
+    if (close == std::string::npos) throw std::runtime_error("a drawing of the manual has no end");
+    depth += open < close ? 1 : -1;
+    at = open < close ? open + opens.size() : close + closes.size();
+  }
+  return at;
+}
+
 // the drawings of a page become files, which a browser loads when they come into sight
 std::string with_files(const std::string& html, const std::string& page, const fs::path& folder) {
-  constexpr std::string_view begin = "<figure><svg", end = "</svg>";
+  constexpr std::string_view begin = "<figure><svg";
   std::string text;
   int number = 0;
   for (std::size_t at = 0; at < html.size();) {
     const std::size_t next = std::min(html.find(begin, at), html.size());
     text.append(html, at, next - at);
     if (next == html.size()) break;
-    const std::size_t drawing = next + std::string_view("<figure>").size(),
-                      close = html.find(end, drawing) + end.size();
+    const std::size_t drawing = next + std::string_view("<figure>").size(), close = end_of_drawing(html, drawing);
     const std::string name = fmt::format("{}-{}.svg", page, ++number);
     std::string svg = html.substr(drawing, close - drawing);
     svg.insert(svg.find('>') + 1, "<style>.line{fill:none;color:black;stroke:currentColor}</style>");

@@ -89,7 +89,7 @@ std::vector<BookPage> two_pages() {
       {"Cases", "Kernels", "key-blocks", "Key blocks",
        "<section class=\"case\" id=\"key-blocks\"><h2>Key blocks</h2><h3>Run</h3><p>x &lt; y</p><h3>Run</h3>"
        "<a href=\"#top\">up</a> <a href=\"#gone\">gone</a> <a href=\"#key-blocks--run-2\">second</a>"
-       "<figure><svg width='2'><text>hidden</text></svg></figure></section>",
+       "<figure><svg width='2'><svg x='1'></svg><text>hidden</text></svg></figure></section>",
        false}};
 }
 
@@ -117,6 +117,7 @@ TEST(Book, WritesPagesOneFileAndAPrint) {
   EXPECT_FALSE(holds(second, "<svg"));
   EXPECT_FALSE(holds(second, "viewer.js"));  // it shows no blocks
   EXPECT_TRUE(holds(read_text(folder / "pictures" / "key-blocks-1.svg"), "xmlns=\"http://www.w3.org/2000/svg\""));
+  EXPECT_TRUE(read_text(folder / "pictures" / "key-blocks-1.svg").ends_with("</svg><text>hidden</text></svg>"));
   EXPECT_TRUE(holds(read_text(folder / "viewer.js"), "e();"));
 
   const std::string file = single_file(pages, style, false), print = single_file(pages, style, true);

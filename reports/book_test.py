@@ -15,6 +15,9 @@ import subprocess
 import sys
 import urllib.parse
 
+sys.dont_write_bytecode = True
+import check_drawings
+
 build, source, folder = (pathlib.Path(text).resolve() for text in sys.argv[1:4])
 pages = folder / "manual"
 # a browser shows 20,000 in a second on an idle core; the largest page of a whole run had 7,500
@@ -99,6 +102,7 @@ def main():
         expect(page.elements <= (MOST_OF_FIRST if name == "index.html" else MOST_ELEMENTS), f"{name} has {page.elements} elements: it opens within a second")
         for file in page.loaded:
             expect(file.startswith("data:") or (not re.match("[a-z]+:|//", file) and (pages / file).exists()), f"{name} loads {file} from its folder")
+    expect(not check_drawings.broken(pages), f"drawings are well-formed: {check_drawings.broken(pages)}")
     titles = [page.titles[0] for page in read.values()]
     expect(len(set(titles)) == len(titles), f"every page has a title of its own: {sorted(title for title in titles if titles.count(title) > 1)}")
     for file in (*pages.glob("*.css"), pages / "manual.js"):

@@ -203,7 +203,8 @@ std::optional<std::pair<std::string, std::size_t>> short_colour(std::string_view
 std::string compact(std::string svg) {
   constexpr std::string_view font = " font-family=\"DejaVu Sans,Helvetica,Arial,sans-serif\"";
   replace_all(svg, font, "");
-  svg.insert(std::string_view("<svg").size(), font);
+  const std::string_view root = std::string_view(svg).substr(0, svg.find('>'));
+  if (root.find("font-family=") == std::string_view::npos) svg.insert(std::string_view("<svg").size(), font);
   replace_all(svg, " stroke-linecap=\"butt\" stroke-linejoin=\"miter\"", "");
   replace_all(svg, "fill=\"none\" color=\"black\" stroke=\"currentColor\"", "class=\"line\"");
   std::string shorter;

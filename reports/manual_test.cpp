@@ -97,6 +97,12 @@ TEST(Html, WritesOnceTheAttributesThatGnuplotRepeats) {
                 "<path stroke='#0072b2' d='M1,2 L3,4'/></g></g> <title>of mine</title><text>rgb(1)</text></svg>");
 }
 
+TEST(Html, KeepsTheFontOfADrawingThatHasOne) {
+  const fs::path path = fs::path(testing::TempDir()) / "voussoir_figure.svg";
+  write_atomically(path, "<svg width='2' font-family=\"serif\"><g/></svg>");
+  EXPECT_EQ(inline_svg(path, "a"), "<svg width='2' font-family=\"serif\"><g/></svg>");
+}
+
 TEST(TextPage, LinksToCasesAndTheirScenes) {
   const fs::path root = fs::path(testing::TempDir()) / "voussoir_text_page_test";
   write_atomically(root / "reports/water.md",

@@ -299,6 +299,28 @@ TEST_F(Check, WarnsOfDashpotsWithLongSteps) {
   silent(scene + "0.1\n", "restitution");
 }
 
+// Implicit steps have no fraction of a stable step; many blocks that nothing presses yet are a hard start.
+TEST_F(Check, JudgesImplicitStepsByWhatTheyNeed) {
+  const std::string scene = R"(dimension = 2
+gravity = [0, -9.81]
+density = 2600
+domain = { box = { min = [0, 0], max = [12, 12] } }
+joints = [{ name = "base", dip = 0, dip_direction = 90, point = [0, 1] }]
+joint_sets = [{ name = "flat", dip = 10, dip_direction = 90, spacing = 1 },
+              { name = "steep", dip = 80, dip_direction = 270, spacing = 1 }]
+joint_properties = [{ name = "rock", normal_stiffness = 1e9, shear_stiffness = 1e8, friction_deg = 30 }]
+fix = [{ below = ["base"] }]
+time = { fraction = 0.4, integration = "implicit" }
+damping = { local = 0, viscous_ratio = 0.2 }
+)";
+  const std::string run = "[[stage]]\nname = \"move\"\nkind = \"run\"\nduration_s = 1\n",
+                    settle = "[[stage]]\nname = \"rest\"\nkind = \"settle\"\n";
+  says(scene + run, "stage.move: implicit steps begin with 1");
+  silent(scene + settle + run, "implicit steps begin");
+  silent(scene + run, "restitution");
+  silent(scene + run, "stage.move: time.fraction");
+}
+
 TEST_F(Check, WarnsOfRampsThatActAsAnImpact) {
   std::string tower = ground();
   for (int k = 0; k < 20; ++k)

@@ -147,6 +147,26 @@ void judge_times(const StagePlan& stage, const StageForecast& forecast, double s
          fmt::format("{} would write about {:.0e} files", where, forecast.duration / output.frame_interval));
 }
 
+// of the stages that implicit steps carry out
+bool moves_implicitly(const StagePlan& stage, const Settings& settings) {
+  return std::holds_alternative<RunPlan>(stage.plan) && settings.time.integration == Integration::implicit_steps;
+}
+
+// hundreds of blocks that touch without pressing each other, and some of which are loose, take steps of microseconds
+constexpr std::ptrdiff_t many_loose_blocks = 100;
+
+template <int Dim>
+void judge_first_stage(const Prepared<Dim>& prepared, const Model<Dim>& model, std::vector<std::string>& warnings) {
+  const StagePlan& first = prepared.stages.front();
+  if (!moves_implicitly(first, settings_of(first, prepared.settings))) return;
+  const auto free = std::ranges::count_if(model.bodies, [](const Body<Dim>& b) { return b.present && !b.fixed; });
+  if (free >= many_loose_blocks)
+    warnings.push_back(
+        fmt::format("stage.{}: implicit steps begin with {} blocks that do not press on each other yet, "
+                    "and may have to be very short: let a stage of kind settle come first",
+                    first.name, free));
+}
+
 }  // namespace
 
 void judge_stage(const StagePlan& stage, const Settings& settings, double overlap, double smallest,
@@ -155,12 +175,14 @@ void judge_stage(const StagePlan& stage, const Settings& settings, double overla
   const TimeSettings& time = settings.time;
   const std::string where = "stage." + stage.name;
   const bool undamped = damping.local == 0 && damping.viscous_ratio == 0;
+  const bool explicit_steps = !moves_implicitly(stage, settings);
   const double fraction = undamped ? TimeSettings::most_undamped : TimeSettings::most_damped;
-  if (!time.step && time.fraction > fraction)
+  if (explicit_steps && !time.step && time.fraction > fraction)
     warnings.push_back(fmt::format("{}: time.fraction = {} is above {}{}: contacts that open and close gain energy",
                                    where, time.fraction, fraction, undamped ? ", the most without damping" : ""));
   const bool seeks_rest = !std::holds_alternative<RunPlan>(stage.plan);
-  if (!seeks_rest && !time.step && damping.viscous_ratio > 0 && dashpot_error * time.fraction > large_dashpot_error)
+  if (!seeks_rest && explicit_steps && !time.step && damping.viscous_ratio > 0 &&
+      dashpot_error * time.fraction > large_dashpot_error)
     warnings.push_back(
         fmt::format("{}: dashpots (damping.viscous_ratio = {}) at time.fraction = {} change the restitution of impacts "
                     "by about {:.2g} %, "
@@ -183,7 +205,7 @@ void judge_stage(const StagePlan& stage, const Settings& settings, double overla
 }
 
 void judge_stated_step(const TimeSettings& time, double limit, std::vector<std::string>& warnings) {
-  if (!time.step || !std::isfinite(limit)) return;
+  if (!time.step || !std::isfinite(limit) || time.integration == Integration::implicit_steps) return;
   if (*time.step > limit)
     warnings.push_back(fmt::format(
         "time.step_s = {:.3g} s exceeds the stability limit of {:.2g} s: the blocks will fly apart; lower it, or leave "
@@ -217,6 +239,7 @@ void judge_durations(const Prepared<Dim>& prepared, const Model<Dim>& model, con
   // relaxation, whose inertia is not the blocks', has no longer period than that of one block
   const double period = g > 0 ? 2 * std::numbers::pi * std::sqrt(forecast.overlap / g) : 0;
   const double swing = g > 0 ? slowest_swing(model, period) : 0;
+  if (!prepared.stages.empty()) judge_first_stage(prepared, model, warnings);
   for (std::size_t k = 0; k < prepared.stages.size(); ++k) {
     const StagePlan& stage = prepared.stages[k];
     const bool relaxed = relaxes(stage, stage.statics.value_or(prepared.settings.statics));
