@@ -8,7 +8,6 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <stdexcept>
 #include <string_view>
 
 #include "reports/html.hpp"
@@ -127,19 +126,6 @@ std::string head(const BookStyle& style, const std::string& title, const std::st
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<meta name=\"color-scheme\" content=\"light dark\">\n<title>{}: Voussoir {}</title>\n{}</head>\n<body>\n",
       title, style.version, css);
-}
-
-// the place behind the drawing that begins here; it may have drawings inside
-std::size_t end_of_drawing(const std::string& html, std::size_t begin) {
-  constexpr std::string_view opens = "<svg", closes = "</svg>";
-  std::size_t at = begin + opens.size();
-  for (int depth = 1; depth > 0;) {
-    const std::size_t open = html.find(opens, at), close = html.find(closes, at);
-    if (close == std::string::npos) throw std::runtime_error("a drawing of the manual has no end");
-    depth += open < close ? 1 : -1;
-    at = open < close ? open + opens.size() : close + closes.size();
-  }
-  return at;
 }
 
 // the drawings of a page become files, which a browser loads when they come into sight

@@ -226,6 +226,18 @@ std::string compact(std::string svg) {
 
 }  // namespace
 
+std::size_t end_of_drawing(std::string_view html, std::size_t begin) {
+  constexpr std::string_view opens = "<svg", closes = "</svg>";
+  std::size_t at = begin + opens.size();
+  for (int depth = 1; depth > 0;) {
+    const std::size_t open = html.find(opens, at), close = html.find(closes, at);
+    if (close == std::string_view::npos) throw std::runtime_error("a drawing of the manual has no end");
+    depth += open < close ? 1 : -1;
+    at = open < close ? open + opens.size() : close + closes.size();
+  }
+  return at;
+}
+
 std::string inline_svg(const std::filesystem::path& path, const std::string& prefix) {
   const std::string text = verification::read_text(path);
   const auto start = text.find("<svg");

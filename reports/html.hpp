@@ -36,6 +36,9 @@ std::optional<std::string> markdown_title(const std::string& markdown);
 // std::runtime_error when the file has no such element.
 std::string inline_svg(const std::filesystem::path& path, const std::string& prefix);
 
+// the place behind the drawing, <svg>, that begins at a place; it may have drawings inside
+std::size_t end_of_drawing(std::string_view html, std::size_t begin);
+
 // A page of the manual: its anchor, its title and the rest, all HTML.
 std::string section(const std::string& id, const std::string& title, const std::string& content);
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "reports/book.hpp"
+#include "reports/html.hpp"
 
 namespace voussoir::reports {
 namespace {
@@ -70,8 +71,8 @@ std::vector<Piece> pieces_of(const BookPage& page) {
     }
     const std::string_view tag = html.substr(at, std::min(html.find('>', at), html.size() - 1) + 1 - at);
     const std::string_view name = name_of_tag(tag);
-    at += tag.size();
-    for (const std::string_view skipped : {"svg", "script", "annotation"})
+    at = name == "svg" ? end_of_drawing(html, at) : at + tag.size();
+    for (const std::string_view skipped : {"script", "annotation"})
       if (name == skipped) at = std::min(html.find(fmt::format("</{}>", skipped), at), html.size());
     const bool begins = (name.size() == 2 && name[0] == 'h') || name == "tr" || name == "details";
     if (const std::string id = value_in_tag(tag, "id"); begins && !id.empty()) {

@@ -315,7 +315,7 @@ damping = { local = 0, viscous_ratio = 0.2 }
 )";
   const std::string run = "[[stage]]\nname = \"move\"\nkind = \"run\"\nduration_s = 1\n",
                     settle = "[[stage]]\nname = \"rest\"\nkind = \"settle\"\n";
-  says(scene + run, "stage.move: implicit steps begin with 1");
+  says(scene + run, "stage.move: implicit steps begin with 224 blocks");
   silent(scene + settle + run, "implicit steps begin");
   silent(scene + run, "restitution");
   silent(scene + run, "stage.move: time.fraction");
