@@ -102,7 +102,8 @@ def main():
         expect(page.elements <= (MOST_OF_FIRST if name == "index.html" else MOST_ELEMENTS), f"{name} has {page.elements} elements: it opens within a second")
         for file in page.loaded:
             expect(file.startswith("data:") or (not re.match("[a-z]+:|//", file) and (pages / file).exists()), f"{name} loads {file} from its folder")
-    expect(not check_drawings.broken(pages), f"drawings are well-formed: {check_drawings.broken(pages)}")
+    broken = check_drawings.broken(pages)
+    expect(not broken, f"drawings are well-formed: {broken}")
     titles = [page.titles[0] for page in read.values()]
     expect(len(set(titles)) == len(titles), f"every page has a title of its own: {sorted(title for title in titles if titles.count(title) > 1)}")
     for file in (*pages.glob("*.css"), pages / "manual.js"):

@@ -37,6 +37,18 @@ nlohmann::ordered_json record_json(const RecordRow& row) {
   return entry;
 }
 
+std::vector<RecordedMotion> records_of(const StagePlan& stage) {
+  std::vector<RecordedMotion> all;
+  const auto add = [&](const std::vector<RecordedMotion>& records) {
+    all.insert(all.end(), records.begin(), records.end());
+  };
+  for (const MovePlan& move : stage.change.move)
+    add(move.records);
+  for (const BoundaryPlan& boundary : stage.change.boundary)
+    if (boundary.quiet) add(boundary.quiet->records);
+  return all;
+}
+
 std::string heading(std::vector<std::string> columns) {
   columns.insert(columns.end(), {"period_s", "frequency_hz", "displacement_m", "pseudo_velocity_m_per_s",
                                  "pseudo_acceleration_m_per_s2"});
@@ -84,17 +96,10 @@ RowsOfStage rows_of(const History& history, int stage, std::size_t column) {
 
 std::vector<RecordRow> record_rows(const std::vector<StagePlan>& stages) {
   std::vector<RecordRow> rows;
-  for (const StagePlan& stage : stages) {
-    const auto add = [&](const std::vector<RecordedMotion>& records) {
-      for (const RecordedMotion& record : records)
-        rows.push_back({static_cast<int>(rows.size()) + 1, stage.name, record.direction, record.motion,
-                        measures_of(*record.motion)});
-    };
-    for (const MovePlan& move : stage.change.move)
-      add(move.records);
-    for (const BoundaryPlan& boundary : stage.change.boundary)
-      if (boundary.quiet) add(boundary.quiet->records);
-  }
+  for (const StagePlan& stage : stages)
+    for (const RecordedMotion& record : records_of(stage))
+      rows.push_back({static_cast<int>(rows.size()) + 1, stage.name, record.direction, record.motion,
+                      measures_of(*record.motion)});
   return rows;
 }
 
@@ -116,7 +121,7 @@ std::string record_spectra_csv(const std::vector<RecordRow>& rows) {
 std::string monitor_spectra_csv(const History& history, const std::vector<StagePlan>& stages) {
   std::string text;
   for (std::size_t stage = 0; stage < stages.size(); ++stage) {
-    if (record_rows({stages[stage]}).empty()) continue;
+    if (records_of(stages[stage]).empty()) continue;
     for (std::size_t k = 2; k < history.columns.size(); ++k) {
       if (!is_velocity(history.columns[k])) continue;
       const RowsOfStage of = rows_of(history, static_cast<int>(stage) + 1, k);
