@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
 # installed_library.sh BUILD SCRATCH COMPILER [long]: installs into a scratch prefix, runs scenes with the installed program, checks the
-# headers, and builds programs against the installed library: by CMake with plain flags, and by pkg-config with AVX2 beside
-# another library. Scenes end in the bits of the program. long: every header alone, every program with both flags.
+# headers, and builds programs against the installed library, with AVX2: by CMake, and by pkg-config beside another library. Scenes end in the bits of the program. long: every header alone, every program with both flags.
 set -euo pipefail
 build=$1 scratch=$2 compiler=$3 kind=${4:-}
 root=$(cd "$(dirname "$0")/.." && pwd)
@@ -9,7 +8,7 @@ scenes="$root/app/testing/two_squares.toml $root/app/testing/two_cubes.toml"
 rm -rf "$scratch"
 cmake --install "$build" --prefix "$scratch/prefix" >/dev/null
 # shellcheck disable=SC2086
-"$(dirname "$0")/use_library.sh" "$scratch/prefix" "$scratch/work" "$compiler" "$root/examples/library" $scenes
+WITH_PLAIN_FLAGS=$kind "$(dirname "$0")/use_library.sh" "$scratch/prefix" "$scratch/work" "$compiler" "$root/examples/library" $scenes
 /usr/bin/env python3 "$(dirname "$0")/headers_alone.py" "$scratch/prefix/include" "$compiler" $kind
 
 cd "$scratch/work"

@@ -10,7 +10,7 @@
 #include "core/model/ledger.hpp"
 #include "core/model/loads_state.hpp"
 #include "core/model/supports_state.hpp"
-#include "core/solvers/block_solver.hpp"
+#include "core/solvers/linear_work.hpp"
 
 namespace voussoir {
 

@@ -67,7 +67,7 @@ LinearAnswer gmres(LinearWork<Size>& work, const Factors& factors, const Eigen::
   const double whole = b.norm();
   LinearAnswer answer{Eigen::VectorXd::Zero(b.size()), 0, 1};
   if (!factors.regular()) return answer.residual = std::numeric_limits<double>::infinity(), answer;
-  std::vector<Eigen::VectorXd>&basis = work.basis, &directions = work.directions;
+  static thread_local std::vector<Eigen::VectorXd> basis, directions;  // of the Krylov space
   const auto at = [](std::vector<Eigen::VectorXd>& list, int i) -> Eigen::VectorXd& {
     if (i == static_cast<int>(list.size())) list.emplace_back();
     return list[i];

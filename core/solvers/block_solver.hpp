@@ -2,8 +2,7 @@
 // complete where they fill in little (block_factors.hpp), else incomplete (incomplete_factors.hpp).
 #pragma once
 
-#include "core/solvers/block_matrix.hpp"
-#include "core/solvers/incomplete_factors.hpp"
+#include "core/solvers/linear_work.hpp"
 
 namespace voussoir {
 
@@ -11,14 +10,6 @@ struct LinearAnswer {
   Eigen::VectorXd x;
   int iterations = 0;   // products with the matrix
   double residual = 0;  // |b - A x| / |b|; infinite when a pivot block is singular
-};
-
-// A linear system and what is made to solve it; the storage serves the next system, too.
-template <int Size>
-struct LinearWork {
-  BlockMatrix<Size> matrix;  // A
-  IncompleteFactors<Size> factors;
-  std::vector<Eigen::VectorXd> basis, directions;  // of the Krylov space; those of the last system
 };
 
 // Solves A x = b until |b - A x| <= tolerance |b|, or returns the best x found within the limit. `order`: the rows in

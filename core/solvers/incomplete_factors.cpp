@@ -22,7 +22,8 @@ void IncompleteFactors<Size>::factorise(const BlockMatrix<Size>& matrix, const s
   for (int i = 0; i < count; ++i) {
     place[order[i]] = i;
     const auto here = matrix.blocks[matrix.diagonal[i]].diagonal();
-    scale.segment<Size>(Size * i) = here.unaryExpr([](double x) { return x == 0 ? 1 : 1 / std::sqrt(std::abs(x)); });
+    for (int k = 0; k < Size; ++k)
+      scale[Size * i + k] = here[k] == 0 ? 1 : 1 / std::sqrt(std::abs(here[k]));
   }
   column.reserve(matrix.column.size());
   blocks.resize(matrix.column.size() * numbers);
@@ -61,6 +62,7 @@ void IncompleteFactors<Size>::factorise(const BlockMatrix<Size>& matrix, const s
 // scaled, in single precision, its columns sorted in the order
 template <int Size>
 void IncompleteFactors<Size>::copy_row(const BlockMatrix<Size>& matrix, int row) {
+  using Row = Eigen::Map<const Eigen::Matrix<double, Size, 1>>;
   static thread_local std::vector<std::pair<int, int>> sorted;  // columns, places in the matrix
   sorted.clear();
   const int from = order[row];
@@ -72,8 +74,7 @@ void IncompleteFactors<Size>::copy_row(const BlockMatrix<Size>& matrix, int row)
     if (c == row) diagonal[row] = to;
     column.push_back(c);
     Eigen::Map<Eigen::Matrix<float, Size, Size>>(block(to)) =
-        (scale.segment<Size>(Size * from).asDiagonal() * matrix.blocks[p] *
-         scale.segment<Size>(Size * matrix.column[p]).asDiagonal())
+        (Row(&scale[Size * from]).asDiagonal() * matrix.blocks[p] * Row(&scale[Size * matrix.column[p]]).asDiagonal())
             .template cast<float>();
   }
   first.push_back(static_cast<int>(column.size()));
@@ -97,7 +98,8 @@ void IncompleteFactors<Size>::solve(const Eigen::VectorXd& b, Eigen::VectorXd& a
   static thread_local std::vector<float> x;
   x.resize(static_cast<std::size_t>(b.size()));
   float part[Size];
-  const double largest = scale.cwiseProduct(b).cwiseAbs().maxCoeff();
+  const double largest =
+      Eigen::Map<const Eigen::VectorXd>(scale.data(), b.size()).cwiseProduct(b).cwiseAbs().maxCoeff();
   answer.setZero(b.size());
   if (!(largest > 0)) return;
   const int count = static_cast<int>(order.size());

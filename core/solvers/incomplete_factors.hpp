@@ -30,7 +30,7 @@ class IncompleteFactors {
   std::vector<int> order;
   std::vector<int> place;                    // by row of the matrix: where it is in the order
   std::vector<int> first, column, diagonal;  // as in BlockMatrix, in the order
-  Eigen::VectorXd scale;                     // by row of numbers: one over the root of the matrix's diagonal
+  std::vector<double> scale;                 // by row of numbers: one over the root of the matrix's diagonal
   std::vector<float> blocks;                 // unit lower blocks, upper blocks and inverted diagonal blocks
   bool is_regular = true;
 };
