@@ -104,12 +104,17 @@ Segment section_segment(const HalfSpaces<2>& planes, const Vector<2>& point, con
 void clip_polygon(const std::vector<Vector<2>>& polygon, const Vector<2>& q, double slack,
                   std::vector<Vector<2>>& clipped) {
   clipped.clear();
+  if (polygon.empty()) return;
+  const double inside_first = slack - q.dot(polygon.front());
+  double inside_here = inside_first;
   for (std::size_t k = 0; k < polygon.size(); ++k) {
-    const Vector<2>&here = polygon[k], &next = polygon[(k + 1) % polygon.size()];
-    const double inside_here = slack - q.dot(here), inside_next = slack - q.dot(next);
+    const bool last = k + 1 == polygon.size();
+    const Vector<2>&here = polygon[k], &next = polygon[last ? 0 : k + 1];
+    const double inside_next = last ? inside_first : slack - q.dot(next);
     if (inside_here >= 0) clipped.push_back(here);
     if ((inside_here > 0 && inside_next < 0) || (inside_here < 0 && inside_next > 0))
       clipped.push_back(here + inside_here / (inside_here - inside_next) * (next - here));
+    inside_here = inside_next;
   }
 }
 
