@@ -36,10 +36,12 @@ program:
 	@$(call configure,$(if $(wildcard $(BUILD)/CMakeCache.txt),,$(subst =ON,=OFF,$(ALL_ON))))
 	@cmake --build $(BUILD) --parallel $(JOBS) --target voussoir
 
+# what tests need to run is installed while the compiler works
 build:
 	@cmake/install_packages.sh program python tests benchmarks
 	@$(call configure,$(ALL_ON))
-	@cmake --build $(BUILD) --parallel $(JOBS)
+	@cmake/install_packages.sh running & installing=$$!; \
+	  cmake --build $(BUILD) --parallel $(JOBS); status=$$?; wait $$installing && exit $$status
 
 test: build
 	@cmake/run_tests.sh $(BUILD) $(JOBS)
