@@ -134,10 +134,12 @@ std::string blocks(const Page& page) {
 
 // the dimensioned sketch of the scene, written by make_sketches.py
 std::string sketch(const Page& page, const std::string& scene) {
-  const fs::path folder = page.folders.build / "reports" / "sketches";
-  if (!fs::exists(folder / (page.name + ".svg"))) return {};
+  const fs::path folder = page.folders.build / "reports" / "sketches", drawing = folder / (page.name + ".svg");
+  if (!fs::exists(drawing)) return {};
+  const bool bolts = read_text(drawing).find("class=\"sketch-bolt\"") != std::string::npos;
   return drawn_figure({folder}, page.name, slug("sketch-" + page.name),
-                      fmt::format("The blocks of <code>{}</code> as sliced; those that are free in orange.", scene));
+                      fmt::format("The blocks of <code>{}</code> as sliced; those that are free in orange{}.", scene,
+                                  bolts ? ", bolts in blue" : ""));
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """make_sketches.py --source REPOSITORY --build BUILD [--only CASE …]: a dimensioned sketch of each case's scene.toml, as sliced.
 
-Writes BUILD/reports/sketches/CASE.svg: in the plane the blocks, in space elevation and plan, with the extent of all blocks and of those
-that are free, in m. Many blocks in space are drawn as outlines, the nearer over the farther. A case without scene.toml has the scene that
+Writes BUILD/reports/sketches/CASE.svg: in the plane the blocks and the bolts that the scene states, in space elevation and plan, with the
+extent of all blocks and of those that are free, in m. Many blocks in space are drawn as outlines, the nearer over the farther. A case without scene.toml has the scene that
 [drawn] of views.toml names, or no sketch.
 """
 import argparse
@@ -93,9 +93,9 @@ def dimension(length):
     return f"{length:.4g} m"
 
 
-def view(shapes, free, left, title, kind=""):
+def view(shapes, free, left, title, kind="", bolts=()):
     """one view: shapes at their scale, dimensions of all below and to the right, of the free ones above and to the left; kind: of the
-    shapes, which are then drawn in their order"""
+    shapes, which are then drawn in their order; bolts: (from, to) of each"""
     (x0, x1), (y0, y1) = extent(shapes)
     scale = min(WIDTH / (x1 - x0), HEIGHT / (y1 - y0))
     width, height = (x1 - x0) * scale, (y1 - y0) * scale
@@ -108,6 +108,10 @@ def view(shapes, free, left, title, kind=""):
     for name, shape in shapes if kind else sorted(shapes, key=lambda item: item[0] in free):
         points = " ".join(f"{x:.1f},{y:.1f}" for x, y in (at(*point) for point in shape))
         text.append(f'<polygon class="sketch-{"free" if name in free else "fixed"}{kind}" points="{points}"/>')
+
+    for start, end in bolts:
+        (ax, ay), (bx, by) = at(*start), at(*end)
+        text.append(f'<path class="sketch-bolt" d="M{ax:.1f},{ay:.1f}L{bx:.1f},{by:.1f}"/>')
 
     def measure(a, b, words, turned=False):
         (ax, ay), (bx, by) = a, b
@@ -130,6 +134,7 @@ def view(shapes, free, left, title, kind=""):
 
 def sketch(program, scene):
     """the drawing, or why there is none"""
+    bolts = []
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name) / "blocks"
         command = [program, "slice", scene, "--planes", "--out", folder]
@@ -150,11 +155,13 @@ def sketch(program, scene):
                 views = [([(name, [way(corner)[:2] for corner in face]) for name, face in faces], title, "") for title, way in seen]
         else:
             views = [(in_plane(folder), "in the plane", "")]
+            with open(scene, "rb") as file:
+                bolts = [(bolt["from"], bolt["to"]) for bolt in tomllib.load(file).get("bolts", []) if "from" in bolt and "to" in bolt]
     step = WIDTH + 2 * MARGIN
-    drawn = "".join(view(shapes, free, k * step, title, kind) for k, (shapes, title, kind) in enumerate(views))
+    drawn = "".join(view(shapes, free, k * step, title, kind, bolts) for k, (shapes, title, kind) in enumerate(views))
     return (f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {len(views) * step:.0f} {HEIGHT + 2 * MARGIN:.0f}" font-size="11" '
             'text-anchor="middle"><style>.sketch-fixed{fill:#e8eaed;fill-opacity:.5;stroke:#9aa4ae;stroke-width:.6}.sketch-free{fill:#f2c078;fill-opacity:.55;stroke:#7a5300;'
-            'stroke-width:.9}.sketch-solid{fill-opacity:1;stroke-width:.3}.sketch-measure{fill:none;stroke:#1d2126;stroke-width:.8}</style><defs><marker id="tick" '
+            'stroke-width:.9}.sketch-solid{fill-opacity:1;stroke-width:.3}.sketch-bolt{stroke:#0b5cad;stroke-width:2}.sketch-measure{fill:none;stroke:#1d2126;stroke-width:.8}</style><defs><marker id="tick" '
             'viewBox="-4 -4 8 8" markerWidth="8" markerHeight="8" orient="auto"><path d="M-3,3L3,-3" stroke="#1d2126"/></marker></defs>'
             f'{drawn}</svg>\n'), ""
 

@@ -137,15 +137,19 @@ std::string answer_table(const Verdicts& verdicts, const std::string& case_name)
 std::string tables_of(const Verdicts& verdicts, const std::vector<std::string>& cases) {
   std::string text = failure_list(verdicts, cases);
   for (const VerdictGroup& group : verdict_groups()) {
-    std::string body;
-    for (const Row& row : verdicts.rows)
-      if (among(cases, row.case_name) && belongs_to(row, group))
-        body += fmt::format("<tr><td><a href=\"#{}\">{}</a></td>{}</tr>\n", slug(row.case_name), escape(row.case_name),
-                            (is_judged(group) ? judged_cells(row) : reported_cells(row)) + moved_cell(verdicts, row));
+    std::string body, above;
+    for (const Row& row : verdicts.rows) {
+      if (!among(cases, row.case_name) || !belongs_to(row, group)) continue;
+      if (row.case_name != above)
+        body += fmt::format("<tr class=\"of\"><th colspan=\"12\"><a href=\"#{}\">{}</a></th></tr>\n",
+                            slug(row.case_name), escape(row.case_name));
+      above = row.case_name;
+      body +=
+          "<tr>" + (is_judged(group) ? judged_cells(row) : reported_cells(row)) + moved_cell(verdicts, row) + "</tr>\n";
+    }
     if (body.empty()) continue;
     text += fmt::format("<h3>{}</h3>\n<p>{}</p>\n", group.title, escape(group.explanation));
-    text += table(
-        std::string("<th>case</th>") + (is_judged(group) ? judged_head : reported_head) + moved_head(verdicts), body);
+    text += table(std::string(is_judged(group) ? judged_head : reported_head) + moved_head(verdicts), body);
   }
   return text;
 }
