@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # installed_library.sh BUILD SCRATCH COMPILER [long]: installs into a scratch prefix, runs scenes with the installed program, checks the
-# headers, and builds programs against the installed library, with AVX2: by CMake, and by pkg-config beside another library. Scenes end in the bits of the program. long: every header alone, every program with both flags.
+# headers, and builds programs against the installed library, with AVX2: by CMake, and by pkg-config beside another library. Scenes
+# end in the bits of the program. long: every header alone, every program with plain flags, too.
 set -euo pipefail
 build=$1 scratch=$2 compiler=$3 kind=${4:-}
 root=$(cd "$(dirname "$0")/.." && pwd)
