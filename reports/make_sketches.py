@@ -93,13 +93,20 @@ def dimension(length):
     return f"{length:.4g} m"
 
 
-def view(shapes, free, left, title, kind="", bolts=()):
-    """one view: shapes at their scale, dimensions of all below and to the right, of the free ones above and to the left; kind: of the
-    shapes, which are then drawn in their order; bolts: (from, to) of each"""
+def scale_of(shapes):
+    """pixels a metre; and the height in pixels"""
     (x0, x1), (y0, y1) = extent(shapes)
     scale = min(WIDTH / (x1 - x0), HEIGHT / (y1 - y0))
-    width, height = (x1 - x0) * scale, (y1 - y0) * scale
-    ox, oy = left + MARGIN + (WIDTH - width) / 2, MARGIN + HEIGHT - (HEIGHT - height) / 2
+    return scale, (y1 - y0) * scale
+
+
+def view(shapes, free, left, tall, title, kind="", bolts=()):
+    """one view, within `tall` pixels: shapes at their scale, dimensions of all below and to the right, of the free ones above and to the left; kind: of the
+    shapes, which are then drawn in their order; bolts: (from, to) of each"""
+    (x0, x1), (y0, y1) = extent(shapes)
+    scale, height = scale_of(shapes)
+    width = (x1 - x0) * scale
+    ox, oy = left + MARGIN + (WIDTH - width) / 2, MARGIN + (tall + height) / 2
 
     def at(x, y):
         return ox + (x - x0) * scale, oy - (y - y0) * scale
@@ -128,7 +135,7 @@ def view(shapes, free, left, title, kind="", bolts=()):
         (ax, ay), (bx, by) = at(u0, v0), at(u1, v1)
         measure((ax, oy - height - 12), (bx, oy - height - 12), f"free: {dimension(u1 - u0)}")
         measure((ox - 14, ay), (ox - 14, by), f"free: {dimension(v1 - v0)}", True)
-    text.append(f'<text x="{left + MARGIN + WIDTH / 2:.1f}" y="{2 * MARGIN + HEIGHT - 6:.1f}">{title}</text>')
+    text.append(f'<text x="{left + MARGIN + WIDTH / 2:.1f}" y="{2 * MARGIN + tall - 6:.1f}">{title}</text>')
     return "".join(text)
 
 
@@ -157,9 +164,9 @@ def sketch(program, scene):
             views = [(in_plane(folder), "in the plane", "")]
             with open(scene, "rb") as file:
                 bolts = [(bolt["from"], bolt["to"]) for bolt in tomllib.load(file).get("bolts", []) if "from" in bolt and "to" in bolt]
-    step = WIDTH + 2 * MARGIN
-    drawn = "".join(view(shapes, free, k * step, title, kind, bolts) for k, (shapes, title, kind) in enumerate(views))
-    return (f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {len(views) * step:.0f} {HEIGHT + 2 * MARGIN:.0f}" font-size="11" '
+    step, tall = WIDTH + 2 * MARGIN, max(scale_of(shapes)[1] for shapes, _, _ in views)
+    drawn = "".join(view(shapes, free, k * step, tall, title, kind, bolts) for k, (shapes, title, kind) in enumerate(views))
+    return (f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {len(views) * step:.0f} {tall + 2 * MARGIN:.0f}" font-size="11" '
             'text-anchor="middle"><style>.sketch-fixed{fill:#e8eaed;fill-opacity:.5;stroke:#9aa4ae;stroke-width:.6}.sketch-free{fill:#f2c078;fill-opacity:.55;stroke:#7a5300;'
             'stroke-width:.9}.sketch-solid{fill-opacity:1;stroke-width:.3}.sketch-bolt{stroke:#0b5cad;stroke-width:2}.sketch-measure{fill:none;stroke:#1d2126;stroke-width:.8}</style><defs><marker id="tick" '
             'viewBox="-4 -4 8 8" markerWidth="8" markerHeight="8" orient="auto"><path d="M-3,3L3,-3" stroke="#1d2126"/></marker></defs>'
