@@ -2,8 +2,8 @@
 """make_sketches.py --source REPOSITORY --build BUILD [--only CASE …]: a dimensioned sketch of each case's scene.toml, as sliced.
 
 Writes BUILD/reports/sketches/CASE.svg: in the plane the blocks and the bolts that the scene states, in space elevation and plan, with the
-extent of all blocks and of those that are free, in m. Many blocks in space are drawn as outlines, the nearer over the farther. A case without scene.toml has the scene that
-[drawn] of views.toml names, or no sketch.
+extent of all blocks and of those that are free, in m. Many blocks in space are drawn as outlines, the nearer over the farther. A case
+without scene.toml has the scene that [drawn] of views.toml names, or no sketch.
 """
 import argparse
 import csv
@@ -101,8 +101,8 @@ def scale_of(shapes):
 
 
 def view(shapes, free, left, tall, title, kind="", bolts=()):
-    """one view, within `tall` pixels: shapes at their scale, dimensions of all below and to the right, of the free ones above and to the left; kind: of the
-    shapes, which are then drawn in their order; bolts: (from, to) of each"""
+    """one view, within `tall` pixels: shapes at their scale, dimensions of all below and to the right, of the free ones above and to the
+    left; kind: of the shapes, which are then drawn in their order; bolts: (from, to) of each"""
     (x0, x1), (y0, y1) = extent(shapes)
     scale, height = scale_of(shapes)
     width = (x1 - x0) * scale
@@ -162,8 +162,8 @@ def sketch(program, scene):
                 views = [([(name, [way(corner)[:2] for corner in face]) for name, face in faces], title, "") for title, way in seen]
         else:
             views = [(in_plane(folder), "in the plane", "")]
-            with open(scene, "rb") as file:
-                bolts = [(bolt["from"], bolt["to"]) for bolt in tomllib.load(file).get("bolts", []) if "from" in bolt and "to" in bolt]
+            stated = tomllib.loads(scene.read_text(encoding="utf-8")).get("bolts", [])
+            bolts = [(bolt["from"], bolt["to"]) for bolt in stated if "from" in bolt and "to" in bolt]
     step, tall = WIDTH + 2 * MARGIN, max(scale_of(shapes)[1] for shapes, _, _ in views)
     drawn = "".join(view(shapes, free, k * step, tall, title, kind, bolts) for k, (shapes, title, kind) in enumerate(views))
     return (f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {len(views) * step:.0f} {tall + 2 * MARGIN:.0f}" font-size="11" '
